@@ -53,7 +53,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
-    from beardyn_core.api.measuring import import_measured, read_measured
+    from beardyn_core.api.measuring import import_measured, read_measured, trend
     from beardyn_core.api.reading import monitor, read
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
@@ -84,12 +84,12 @@ __all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", 
 __all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
 __all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
 __all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "simulate"]
-__all__ += ["steady_heat", "stiffness", "torque"]
+__all__ += ["steady_heat", "stiffness", "torque", "trend"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
-    "api.measuring": ("import_measured", "read_measured"),
+    "api.measuring": ("import_measured", "read_measured", "trend"),
     "api.reading": ("monitor", "read"),
     "api.simulating": ("simulate",),
     "api.statics": (

@@ -13,7 +13,9 @@ from beardyn_core.measured.about import Mounted
 from beardyn_core.measured.in_memory import run_of
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.survey import Survey, survey
+from beardyn_core.measured.trending import trend_of
 from beardyn_core.measured.writing import write_measured
+from beardyn_core.observe.trend import TrendPoint
 from beardyn_core.record.run import Run
 
 Files = Path | str | Sequence[Path | str]
@@ -81,6 +83,27 @@ def import_measured(
     for sentence in made.warnings:
         warnings.warn(sentence, stacklevel=2)
     return made.path
+
+
+def trend(files: Files, **options: Any) -> list[TrendPoint]:
+    """Watch the levels of many records against the baseline of the first, as ``beardyn monitor --trend``.
+
+    Parameters
+    ----------
+    files, options
+        See `read_measured`; neither speed nor bearing is needed, and records of a tenth of a second do.
+
+    Returns
+    -------
+    list of TrendPoint
+        After every record; the last one says how it stands, and since when.
+
+    Raises
+    ------
+    InputError
+        With every mistake in options and files.
+    """
+    return list(trend_of(_surveyed(files, options)))
 
 
 def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:

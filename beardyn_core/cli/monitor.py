@@ -18,6 +18,7 @@ from beardyn_core.cli.measured_options import (
     says_how_to_read,
 )
 from beardyn_core.cli.options import add_json, add_monitor
+from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_monitor(parser)
     add_json(parser)
     add_plates(parser, "default that of the recording")
+    add_trend(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
 
@@ -63,6 +65,10 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.observe.chain import algorithm_named
     from beardyn_core.record.other_messages import is_recording
 
+    if args.trend:
+        return run_trend(args)
+    if args.memory:
+        raise InputError("--memory is that of --trend; give both")
     algorithm = algorithm_named(args.monitor)
     recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])
     heard = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
@@ -88,7 +94,8 @@ def _ending(findings: list[Finding]) -> str:
     if conclusion.verdict != WAITING:
         return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
-    return f"{WAITING}: no analysis; {reason}"
+    many = "; --trend watches the levels of many short records" if len(findings) > 1 else ""
+    return f"{WAITING}: no analysis; {reason}{many}"
 
 
 def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:

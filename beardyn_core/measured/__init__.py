@@ -30,6 +30,7 @@ stream        vibration and shaft of all files as parts in the order of time
 writing       the same as a recording
 in_memory     the same as a `Run`
 watching      the same through a monitor, without a recording
+trending      levels over many records, and the memory of an alarm
 ============= ===========================================================================
 
 A file is read twice and in blocks: first for its rate and its mistakes, then for its samples. No library of a
