@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
-    from beardyn_core.api.reading import monitor, read
+    from beardyn_core.api.reading import monitor, read, severity
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
         equilibrium,
@@ -83,14 +83,14 @@ else:
 __all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings"]
 __all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
 __all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
-__all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "simulate"]
+__all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "severity", "simulate"]
 __all__ += ["steady_heat", "stiffness", "torque", "trend"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
-    "api.reading": ("monitor", "read"),
+    "api.reading": ("monitor", "read", "severity"),
     "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),

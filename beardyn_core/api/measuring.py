@@ -10,6 +10,7 @@ from typing import Any
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_plate
 from beardyn_core.measured.about import Mounted
+from beardyn_core.measured.heard_speed import with_heard_speed
 from beardyn_core.measured.in_memory import run_of
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.survey import Survey, survey
@@ -53,8 +54,9 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     InputError
         With every mistake in options and files.
     """
-    found = _surveyed(files, options)
-    run = run_of(found, _mounted(bearing))
+    mounted = _mounted(bearing)
+    found = with_heard_speed(_surveyed(files, options), mounted)
+    run = run_of(found, mounted)
     for sentence in run.measured["warnings"][len(found.warnings) :]:
         warnings.warn(sentence, stacklevel=2)
     return run
@@ -79,7 +81,10 @@ def import_measured(
     InputError
         With every mistake; then nothing is written.
     """
-    made = write_measured(_surveyed(files, options), recording, _mounted(bearing), force=force)
+    mounted = _mounted(bearing)
+    made = write_measured(
+        with_heard_speed(_surveyed(files, options), mounted), recording, mounted, force=force
+    )
     for sentence in made.warnings:
         warnings.warn(sentence, stacklevel=2)
     return made.path

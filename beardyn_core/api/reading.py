@@ -10,8 +10,10 @@ from beardyn_core.choice import scene_from_text
 from beardyn_core.errors import InputError
 from beardyn_core.measured.about import mounted_in
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
+from beardyn_core.observe.severity import Severity
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
+from beardyn_core.study.measured_severity import severity_in
 from beardyn_core.study.monitored_recording import Conclusion, conclude, findings_of
 
 
@@ -66,6 +68,41 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
+    run, bearing, sensor = _heard(run, bearing, sensor)
+    return conclude(findings_of(run, bearing, algorithm, settings, sensor))
+
+
+def severity(
+    run: Run | Path | str,
+    conclusion: Conclusion | None = None,
+    *,
+    bearing: Bearing | NamePlate | None = None,
+    sensor: str = "",
+) -> Severity | None:
+    """Measure how wide the spall is that a monitor has found: that a fault exists does not say that it matters.
+
+    Parameters
+    ----------
+    run, bearing, sensor
+        See `monitor`.
+    conclusion : Conclusion, optional
+        What `monitor` says of the run; by default it is asked.
+
+    Returns
+    -------
+    Severity or None
+        ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
+        rollers are not two clear events.
+    """
+    run, bearing, sensor = _heard(run, bearing, sensor)
+    found = conclusion or conclude(findings_of(run, bearing, sensor=sensor))
+    return severity_in(run, found, bearing, sensor)
+
+
+def _heard(
+    run: Run | Path | str, bearing: Bearing | NamePlate | None, sensor: str
+) -> tuple[Run, Bearing | NamePlate, str]:
+    """Find run, bearing and accelerometer."""
     run = run if isinstance(run, Run) else read_run(run)
     if bearing is None and run.scene_text:
         bearing = scene_from_text(run.scene_text, run.label).bearing
@@ -79,4 +116,4 @@ def monitor(
                 f"{run.label}: {several}{'' if known else ' which bearing it is of'}; give bearing"
             )
         bearing, sensor = known[0].plate, sensor or known[0].sensor
-    return conclude(findings_of(run, bearing, algorithm, settings, sensor))
+    return run, bearing, sensor

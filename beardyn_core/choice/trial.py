@@ -217,7 +217,8 @@ def _strip(patch: dict[str, Any], place: int, shape: str, random: np.random.Gene
         "width_mm": patch["width_mm"] * share,
         "length_mm": length / _STRIPS,
         "offset_mm": 0.5 * length * across,
-        "azimuth_deg": patch["azimuth_deg"] + (float(random.uniform(-0.2, 0.2)) if shape == "irregular" else 0.0),
+        "azimuth_deg": patch["azimuth_deg"]
+        + (float(random.uniform(-0.2, 0.2)) if shape == "irregular" else 0.0),
     }
 
 

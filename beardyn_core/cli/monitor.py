@@ -103,7 +103,8 @@ def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, l
     from beardyn_core.choice import scene_from_text
     from beardyn_core.measured.about import Mounted, mounted_in
     from beardyn_core.record.reading import read_run
-    from beardyn_core.study.monitored_recording import findings_of
+    from beardyn_core.study.measured_severity import severity_in
+    from beardyn_core.study.monitored_recording import conclude, findings_of
 
     path = args.files[0]
     bearings = mounted_of(args)
@@ -122,12 +123,17 @@ def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, l
     bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
     if not bearings:
         raise InputError(f"{path}: does not say which bearing it is of; give --bearing")
-    return {each: findings_of(recording, each.plate, algorithm, sensor=each.sensor) for each in bearings}
+    heard = {each: findings_of(recording, each.plate, algorithm, sensor=each.sensor) for each in bearings}
+    for each, findings in heard.items() if not args.json else ():
+        if (found := severity_in(recording, conclude(findings), each.plate, each.sensor)) is not None:
+            print(f"beardyn: {each.label}: {found.reason}", file=sys.stderr)
+    return heard
 
 
 def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
     """Let the monitor analyse measured files, block by block."""
     from beardyn_core.cli.import_ import sensor_problems
+    from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.watching import watch
     from beardyn_core.study.monitored_recording import Finding
@@ -145,6 +151,7 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, l
         problems += error.problems
     try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
+        measured = with_heard_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems

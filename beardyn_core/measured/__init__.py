@@ -26,6 +26,7 @@ choice        which channels are axes, speed and time; unit and rate: told, or r
 survey        the first pass: rate, range and mistakes of every channel
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
 about         what a recording says of where it comes from
+heard_speed   speed from the vibration itself, where no file says it
 stream        vibration and shaft of all files as parts in the order of time
 writing       the same as a recording
 in_memory     the same as a `Run`
