@@ -79,7 +79,7 @@ def severity(
     bearing: Bearing | NamePlate | None = None,
     sensor: str = "",
 ) -> Severity | None:
-    """Measure how wide the spall is that a monitor has found: that a fault exists does not say that it matters.
+    """Measure how wide the spall is that a monitor has found: not every fault matters.
 
     Parameters
     ----------

@@ -33,7 +33,8 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
     path = survey.files[0].chosen.path
     if not bearings:
         raise InputError(
-            f"{path}: the speed of the shaft is sought in the vibration (--speed-range-rpm); that needs the bearing: "
+            f"{path}: the speed of the shaft is sought in the vibration (--speed-range-rpm); that "
+            "needs the bearing: "
             "give --bearing"
         )
     orders = tuple(dict.fromkeys(each.plate.frequencies for each in bearings))
@@ -42,7 +43,8 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
         track = speed_from_vibration(acceleration, rate, *(each / (2.0 * np.pi) for each in limits), orders)
         if not track.certain:
             raise InputError(
-                f"{path}: the speed of the shaft is not known, and from {begin:.3g} s on {track.reason}; give one "
+                f"{path}: the speed of the shaft is not known, and from {begin:.3g} s on "
+                f"{track.reason}; give one "
                 "of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel, --tacho-channel"
             )
         times.append(begin + track.time)
@@ -60,7 +62,10 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
     )
     low, high = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
     doubt = _RPM * 1.96 * float(whole.deviation.max())
-    told = f"{path}: the vibration says that the shaft turns with {low:.5g} to {high:.5g} rpm, give or take {doubt:.3g}"
+    told = (
+        f"{path}: the vibration says that the shaft turns with {low:.5g} to {high:.5g} rpm, "
+        f"give or take {doubt:.3g}"
+    )
     return replace(survey, heard=whole, told=(*survey.told, told))
 
 

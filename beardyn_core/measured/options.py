@@ -49,7 +49,8 @@ class Reading:
     speed_range_rpm: A[
         str,
         At(),
-        "LOW:HIGH, rough limits of the speed, at most a factor of two apart, between which it is found in the "
+        "LOW:HIGH, rough limits of the speed, at most a factor of two apart, between which it is "
+        "found in the "
         "vibration itself; needs the bearing; default none",
     ] = ""
     speed_channel: A[
@@ -98,7 +99,8 @@ class Reading:
             yield "wheel_diameter_mm is not given; the speed of a vehicle needs it"
         if self.speed_range_rpm and self.speed_range is None:
             yield (
-                f"speed_range_rpm is {self.speed_range_rpm!r}; it must be LOW:HIGH such as 1400:1800, both above 0 "
+                f"speed_range_rpm is {self.speed_range_rpm!r}; it must be LOW:HIGH such as "
+                "1400:1800, both above 0 "
                 "and at most a factor of two apart"
             )
         if self.scale == 0.0:

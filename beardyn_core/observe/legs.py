@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated as A
 
 import numpy as np
@@ -91,8 +92,4 @@ def _pieces(angle: Float, rate: float) -> list[tuple[int, int]]:
     way = np.where(np.abs(speed) > least, np.sign(speed), 0.0)
     edges = np.flatnonzero(np.diff(way)) + 1
     bounds = [0, *edges.tolist(), len(way)]
-    return [
-        (begin, end + 1)
-        for begin, end in zip(bounds[:-1], bounds[1:], strict=True)
-        if way[begin] and end > begin
-    ]
+    return [(begin, end + 1) for begin, end in pairwise(bounds) if way[begin] and end > begin]

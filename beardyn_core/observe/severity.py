@@ -77,10 +77,11 @@ def severity_of(
     Notes
     -----
     Entry and exit strike the same structure twice, so the logarithm of the mean spectrum of a passage has a
-    ripple of one over the time between; in its cepstrum that is a peak at this time. What the structure itself
-    has of peaks is in the part of the passage without an event, too, and is taken away; so the noise of rolling
-    must show the structure there, else nothing is measured: a mode would be taken for a second event. The time over
-    that of a passage is the way over the distance of two rollers on the raceway, at any speed.
+    ripple of one over the time between; in its cepstrum that is a peak at this time. What the structure
+    itself has of peaks is in the part of the passage without an event, too, and is taken away; so the noise
+    of rolling must show the structure there, else nothing is measured: a mode would be taken for a second
+    event. The time over that of a passage is the way over the distance of two rollers on the raceway, at
+    any speed.
 
     The width is the way and 1.1 mm: a roller gives up its load 0.6 mm behind the leading edge and takes it up
     as much before the trailing one, over spalls from 3 mm on (docs/impact.md). Smaller ones make one event.
@@ -96,7 +97,8 @@ def severity_of(
         return _unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
     if plate.roller_diameter < _LEAST_ROLLER:
         return _unmeasured(
-            f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} mm on, not of "
+            f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "
+            "mm on, not of "
             f"{1e3 * plate.roller_diameter:.3g} mm"
         )
     sign = 1.0 if fault == "cup" else -1.0
@@ -117,7 +119,8 @@ def severity_of(
     return Severity(
         grade, width, low, high,
         f"{grade}: {1e3 * width:.1f} mm wide ({1e3 * low:.1f} to {1e3 * high:.1f}), entry and exit are "
-        f"{1e3 * way:.1f} mm apart; developed from {1e3 * _DEVELOPED_FROM:g} mm, severe from {1e3 * severe:.0f} mm",
+        f"{1e3 * way:.1f} mm apart; developed from {1e3 * _DEVELOPED_FROM:g} mm, severe from "
+        f"{1e3 * severe:.0f} mm",
     )  # fmt: skip
 
 

@@ -202,12 +202,15 @@ def _said(certain: bool, evidence: float, share: float, frequency: Float, settin
         return f"the shaft turns with {low:.5g} to {high:.5g} rpm, as its orders in the vibration say"
     if evidence < settings.least_evidence:
         return (
-            f"the vibration has too few lines that belong to one speed: the odds of the best one against none "
+            "the vibration has too few lines that belong to one speed: the odds of the best one "
+            "against none "
             f"are e^{evidence:.1f}, e^{settings.least_evidence:g} are asked for"
         )
     return (
-        f"the vibration fits several speeds: {100.0 * share:.0f} % of the probability lie within {100.0 * _NEAR:g} % of "
-        f"{low:.5g} to {high:.5g} rpm, {100.0 * settings.least_share:g} % are asked for; give a narrower range"
+        f"the vibration fits several speeds: {100.0 * share:.0f} % of the probability lie within "
+        f"{100.0 * _NEAR:g} % of "
+        f"{low:.5g} to {high:.5g} rpm, {100.0 * settings.least_share:g} % are asked for; give a "
+        "narrower range"
     )
 
 

@@ -1,4 +1,4 @@
-"""Trend with memory: levels of successive records against the bearing's own baseline, and an alarm that stays.
+"""Trend with memory: levels of records against the bearing's own baseline, and an alarm that stays.
 
 It needs neither speed nor bearing, and records of a tenth of a second do: what it says is that a box has
 become louder than it was, not which part of the bearing it is.
@@ -7,6 +7,7 @@ become louder than it was, not which part of the bearing it is.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from itertools import pairwise
 from typing import Annotated as A
 from typing import Any
 
@@ -65,7 +66,7 @@ def record_levels(acceleration: Float, rate: float, settings: TrendSettings | No
     frequency = np.fft.rfftfreq(len(signal), 1.0 / rate)
     places = np.searchsorted(frequency, edges)
     found = np.full((signal.shape[1], len(edges) - 1), np.nan)
-    for band, (first, last) in enumerate(zip(places[:-1], places[1:], strict=True)):
+    for band, (first, last) in enumerate(pairwise(places)):
         if edges[band + 1] <= _HIGHEST_SHARE * rate and last > first:
             found[:, band] = 10.0 * np.log10(np.maximum(power[first:last].sum(axis=0), _FAINTEST))
     return found

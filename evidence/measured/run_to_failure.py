@@ -109,19 +109,24 @@ def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
     lines = [
         "# Runs to failure",
         "",
-        "Written by `python -m evidence.measured.run_to_failure --pronostia DIR`. PRONOSTIA (Nectoux and others "
+        "Written by `python -m evidence.measured.run_to_failure --pronostia DIR`. PRONOSTIA "
+        "(Nectoux and others "
         "2012, IEEE PHM Denver): ball bearings under overload, run until the vibration passed 20 g; a record "
         "of a tenth of a second every ten seconds, two axes at 25.6 kHz. The data are public and not in this "
         "repository. The settings of `beardyn monitor --trend` are round numbers that were not changed after "
         "the runs had been seen; no parameter belongs to a run.",
         "",
         f"The trend compares the levels of {len(settings.edges) - 1} bands of each axis, medians of "
-        f"{settings.smooth} records, with a baseline of {settings.baseline} records that may fall and never rise. "
-        f"Two levels {settings.rise:g} dB and {settings.scatter:g} standard deviations over it are an alarm, which "
-        f"ends when {settings.release} records in a row have had no cause for it. Beside it: the rms of an axis "
+        f"{settings.smooth} records, with a baseline of {settings.baseline} records that may fall "
+        "and never rise. "
+        f"Two levels {settings.rise:g} dB and {settings.scatter:g} standard deviations over it "
+        "are an alarm, which "
+        f"ends when {settings.release} records in a row have had no cause for it. Beside it: the "
+        "rms of an axis "
         f"{RMS_RISE:g} dB over the median of the first {settings.baseline} records, record by record.",
         "",
-        "*First*: share of the run at the first alarm, and the minutes that were left. *Stays*: share of the run "
+        "*First*: share of the run at the first alarm, and the minutes that were left. *Stays*: "
+        "share of the run "
         "from which on the alarm stays to the end. *In alarm*: share of all records.",
         "",
     ]
@@ -146,13 +151,16 @@ def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
         "## What it says, and what not",
         "",
         f"- The trend is in alarm at the end of {stay} of {len(every)} runs, the rms alone of {rms_stay}. In "
-        f"{broken} runs an earlier alarm had ended again: the vibration had come back to where it was. Whether "
+        f"{broken} runs an earlier alarm had ended again: the vibration had come back to where it "
+        "was. Whether "
         "the bearing was sound then is not known, so these are no counted false alarms, and no hits.",
-        f"- In {runs} synthetic runs of {records} records with steady levels that scatter by {deviation:g} dB "
+        f"- In {runs} synthetic runs of {records} records with steady levels that scatter by "
+        f"{deviation:g} dB "
         f"there were {synthetic_alarms()} alarms. A real healthy machine whose load changes is not that.",
         "- Some of these bearings fail within minutes; no alarm of a level can come earlier than the change.",
         "- It names no part: three revolutions in a record are too few for fault lines.",
-        "- The first records are taken as sound. A bearing that is worn when the watch begins shows only what is "
+        "- The first records are taken as sound. A bearing that is worn when the watch begins "
+        "shows only what is "
         "added.",
         "",
     ]

@@ -41,8 +41,10 @@ def page(found: dict[tuple[str, float], list[Severity]], tier: str) -> str:
     lines = [
         "# Widths of spalls",
         "",
-        f"Written by `python -m evidence.measured.spall_width`: `service_high_speed_cup` (200 km/h, a box that rings, "
-        f"background of a driven axle, sensor by data sheet), tier `{tier}`, {SECONDS:g} s each, a seed a column; the "
+        "Written by `python -m evidence.measured.spall_width`: `service_high_speed_cup` (200 "
+        "km/h, a box that rings, "
+        f"background of a driven axle, sensor by data sheet), tier `{tier}`, {SECONDS:g} s each, "
+        "a seed a column; the "
         "spall 25 mm long on cup or cone. *-*: not measurable, which is the answer where no second event is "
         "clear. The line of the fault is taken as known, and 0 mm is a sound bearing.",
         "",
@@ -72,11 +74,14 @@ def page(found: dict[tuple[str, float], list[Severity]], tier: str) -> str:
     lines += [
         "",
         f"Of {counted} measured widths {right} lie within their interval, which says 95 %; the error is "
-        f"{np.median(errors):.2f} mm in the median and {max(errors):.2f} mm at most. Of {asked} spalls from 3 mm on "
-        f"{asked - sum(not isnan(e.width) for (_, w), s in found.items() if w >= 3.0 for e in s)} were not measurable; "
+        f"{np.median(errors):.2f} mm in the median and {max(errors):.2f} mm at most. Of {asked} "
+        "spalls from 3 mm on "
+        f"{asked - sum(not isnan(e.width) for (_, w), s in found.items() if w >= 3.0 for e in s)} "
+        "were not measurable; "
         f"of sound bearings {false} were given a width.",
         "",
-        "The relation of way and width comes from runs of the same twin in the tier `full` ([impact.md](impact.md)), "
+        "The relation of way and width comes from runs of the same twin in the tier `full` "
+        "([impact.md](impact.md)), "
         "so this shows what the signal processing loses, and not what a train does.",
         "",
     ]  # fmt: skip

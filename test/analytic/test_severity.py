@@ -13,7 +13,7 @@ SPACING = {"cup": np.pi * (185e-3 + 26.7e-3) / 17, "cone": np.pi * (185e-3 - 26.
 
 
 def _passages(fault, width, speed=19.0, seed=1, seconds=2.0, rolling=0.05):
-    """Two strikes a passage, the way of a spall apart, and rolling noise, through a structure of three modes."""
+    """Two strikes a passage, the way of a spall apart, and rolling noise, through three modes."""
     random = np.random.default_rng(seed)
     time = np.arange(int(seconds * RATE)) / RATE
     angle = 2 * np.pi * speed * time

@@ -1,4 +1,4 @@
-"""A trend alarms once and stays, forgets nothing over files, and legs of a shunting train are put together."""
+"""A trend alarms once and stays over files; legs of a shunting train are put together."""
 
 import json
 
@@ -71,7 +71,7 @@ def test_memory_goes_on_as_if_there_had_been_no_break(tmp_path):
     assert [point.state for point in rest] == [point.state for point in whole[230:]]
     assert rest[-1].since == whole[-1].since
     (tmp_path / "other.json").write_text("{}", encoding="utf-8")
-    with pytest.raises(InputError, match="other.json: is no memory of a trend"):
+    with pytest.raises(InputError, match=r"other\.json: is no memory of a trend"):
         remembered(tmp_path / "other.json")
 
 
