@@ -7,6 +7,7 @@ from pathlib import Path
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_text
+from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError
 from beardyn_core.measured.about import mounted_in
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
@@ -39,7 +40,7 @@ def monitor(
     run: Run | Path | str,
     algorithm: Algorithm = REFERENCE,
     *,
-    bearing: Bearing | NamePlate | None = None,
+    bearing: Bearing | NamePlate | str | None = None,
     sensor: str = "",
     settings: MonitorSettings | None = None,
 ) -> Conclusion:
@@ -52,8 +53,9 @@ def monitor(
         and nothing else.
     algorithm : function, optional
         In place of the reference chain: a `Chain`, or a function like it.
-    bearing : Bearing or NamePlate, optional
-        What the name plate says; by default that of the scene, of a measured run the one it was read with.
+    bearing : Bearing, NamePlate or str, optional
+        What the name plate says, or the name or file of one; by default that of the scene, of a measured
+        run the one it was read with.
     sensor : str, optional
         Accelerometer to listen to; by default the first, or the one that hears the bearing of a measured run.
     settings : MonitorSettings, optional
@@ -104,7 +106,9 @@ def _heard(
 ) -> tuple[Run, Bearing | NamePlate, str]:
     """Find run, bearing and accelerometer."""
     run = run if isinstance(run, Run) else read_run(run)
-    if bearing is None and run.scene_text:
+    if isinstance(bearing, str):
+        bearing = load_plate(bearing)
+    elif bearing is None and run.scene_text:
         bearing = scene_from_text(run.scene_text, run.label).bearing
     elif bearing is None:
         known = mounted_in(run.measured, run.label)

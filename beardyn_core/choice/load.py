@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
@@ -16,6 +18,10 @@ from beardyn_core.scene.scene import EFFECTS, Free, LeftOpen, Scene
 
 if TYPE_CHECKING:
     from beardyn_core.choice.rule import Choice
+
+CHOOSING = "choosing effects for the accuracy asked for: a few seconds, once for a scene"
+
+log = logging.getLogger("beardyn")
 
 
 def load_scene(
@@ -162,10 +168,17 @@ def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
     def work_out() -> Choice:
         from beardyn_core.choice.choose import choose
 
+        _announce()
         return choose(scene, free, given)
 
     scene = typical(scene)
     return kept(scene, free, given, work_out)
+
+
+@cache
+def _announce() -> None:
+    """Say, once in a process, what the seconds are for."""
+    log.info(CHOOSING)
 
 
 def in_box_of(effects: EffectSet, given: EffectSet) -> EffectSet:

@@ -48,7 +48,6 @@ def run(args: argparse.Namespace) -> int:
     folder = demo_folder(args.out, inputs=inputs, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
     tell_doubts(scene)
-    say("compiling ... (a minute the first time, kept for the next)")
     progress = Progress(scene.duration)
     recording = MonitoredRecording(
         folder / RECORDING_NAME,

@@ -116,5 +116,5 @@ def json_object(made: Imported) -> dict[str, Any]:
 
 def _kept(path: Path, seconds: float) -> str:
     if not seconds:
-        return "nothing has been written"
+        return f"{path} holds nothing yet" if path.exists() else "nothing has been written"
     return f"{path} holds the measurement until {seconds:.2f} s, and is closed and readable"

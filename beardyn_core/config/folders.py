@@ -24,6 +24,7 @@ KINDS = (
     "plates",
 )
 _SUFFIXES = (".yaml", ".yml")
+_AUTO = "auto"  # in place of a set of effects
 
 
 def _candidates() -> Iterator[Path]:
@@ -109,9 +110,11 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
     if Path(name).is_dir():
         raise InputError(f"{name}: is a folder; give the path of a {singular} file, ending in .yaml")
     names = shipped_names(kind)
-    guess = closest(name, names)
+    chosen = kind == "effects" and name != _AUTO
+    guess = closest(name, (*names, _AUTO) if chosen else names)
     hint = f"did you mean {guess}? " if guess else ""
     raise InputError(
         f"there is no {singular} {name!r} in {folder}; {hint}shipped are {', '.join(names) or 'none'}; "
-        "a file of your own is given by its path, ending in .yaml"
+        f"{f'{_AUTO} chooses them; ' if chosen else ''}a file of your own is given by its path, ending in "
+        ".yaml"
     )

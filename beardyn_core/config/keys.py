@@ -38,6 +38,8 @@ def reads(noun: type) -> Callable[[type[_Model]], type[_Model]]:
     """Make a model the base of the keys of a noun: keys of the file alone, short forms, what follows."""
 
     def register(base: type[_Model]) -> type[_Model]:
+        late = [model for model in _MADE.values() if model.noun_type is noun]
+        assert not late, f"files of {noun.__name__} have been read before {base.__name__} was there"
         _BASES[noun] = base
         return base
 

@@ -8,6 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+import beardyn_core.config.part_files
+import beardyn_core.config.scene_file  # noqa: F401  both say what the files of nouns may have besides
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant

@@ -24,6 +24,7 @@ other_mcap    MCAP of other tools
 clock         sampling rate and gaps from time stamps
 choice        which channels are axes, speed and time; unit and rate: told, or refused
 survey        the first pass: rate, range and mistakes of every channel
+telling       how files were understood, in sentences; what is true of many files once
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
 about         what a recording says of where it comes from
 heard_speed   speed from the vibration itself, where no file says it

@@ -20,7 +20,8 @@ AXES = ("x", "y", "z")
 USUAL_SENSOR = "accelerometer"
 NO_TIME = "none"
 _TIME_NAME = re.compile(
-    r"(?:.*\.)?(?:time|t|timestamp|timestamps|zeit|elapsed(?: time)?|seconds|sec)(?:[_ ](?:s|ms|us|ns|sec))?",
+    r"(?:.*\.)?(?:time|t|x_value|timestamp|timestamps|zeit|elapsed(?: time)?|seconds|sec)"
+    r"(?:[_ ](?:s|ms|us|ns|sec))?",
     re.I,
 )
 _AXIS_NAME = re.compile(

@@ -109,7 +109,8 @@ def _slow(
                 values.append(0.0)
                 continue
             try:
-                values.append(float(cell.replace(",", ".") if table.decimal == "," else cell))
+                plain = cell.replace(",", ".") if table.decimal == "," else cell
+                values.append(float(plain.upper().replace("D", "E")))  # Fortran writes 1.5D+00
             except ValueError:
                 hint = "; is the decimal sign a comma? --decimal comma" if "," in cell else ""
                 bad.append((line + number, f"{table.names[k]} is {cell!r}, which is no number{hint}"))

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from beardyn_core.arrays import Float
+from beardyn_core.errors import InputError
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
-from beardyn_core.record.other_messages import TIME, Topics
+from beardyn_core.record.other_messages import TIME, Topics, is_recording
 
 
 class _Topics(Held):
@@ -20,8 +21,20 @@ class _Topics(Held):
         yield from self.topics.blocks(topic, [self.columns[name][1] for name in names])
 
 
-def open_file(path: Path, _reading: Reading) -> Held:
-    """List every number of the messages: ``/imu.linear_acceleration.x``, and the time of each topic."""
+def open_file(path: Path, reading: Reading) -> Held:
+    """List every number of the messages: ``/imu.linear_acceleration.x``, and the time of each topic.
+
+    Raises
+    ------
+    InputError
+        It is a recording of an axlebox, and no channel is named: its `imu` alone looks like a file of another
+        tool, and is not its vibration.
+    """
+    if not reading.channels and is_recording(path):
+        raise InputError(
+            f"{path}: is a recording of an axlebox; report, monitor, export and beardyn_core.read take it as "
+            "it is; to make another one of a part of it give --channels"
+        )
     topics = Topics(path)
     channels, columns = [], {}
     for topic, found in topics.found.items():

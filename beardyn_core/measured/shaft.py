@@ -45,6 +45,8 @@ class Constant:
 
         The first ones of all begin with one at ``begin_ns``.
         """
+        if self._last is not None and end_ns <= self._last:  # another accelerometer has been there
+            return _NOTHING
         begin = begin_ns if self._last is None else self._last
         span = (end_ns - begin) * 1e-9
         count = int(np.ceil(span * max(_SLOWEST_GRID, _POINTS_PER_TURN * self._speed / (2.0 * np.pi)) - 1e-9))
@@ -139,7 +141,6 @@ class Pulses:
         self._last: tuple[int, float] | None = None
         self._pulse: int | None = None
         self._interval = 0.0
-        self._speed = Measured()
         self._even: int | None = None
         self.count = 0
         self.irregular = 0

@@ -16,6 +16,7 @@ from beardyn_core.measured.choice import Chosen, choose
 from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
+from beardyn_core.measured.telling import gathered, told
 from beardyn_core.observe.speed import SpeedTrack
 
 _SAME_RATE = 1e-3  # within which two rates are one
@@ -176,10 +177,9 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
             "--speed-range-rpm to find it in the vibration"
         )
     if found.problems:
-        raise InputError(list(dict.fromkeys(found.problems)))
-    told = tuple(dict.fromkeys(sentence for each in files for sentence in _told(each)))
-    warnings = tuple(dict.fromkeys([*(w for each in files for w in each.chosen.warnings), *found.warnings]))
-    return Survey(tuple(files), reading, told, warnings)
+        raise InputError(gathered(found.problems, map(Path, paths)))
+    warnings = [*(w for each in files for w in each.chosen.warnings), *found.warnings]
+    return Survey(tuple(files), reading, told(files), tuple(gathered(warnings, map(Path, paths))))
 
 
 def _table(chosen: Chosen, name: str, channels: list[Channel], reading: Reading, found: _Found) -> Table:
@@ -299,36 +299,3 @@ def _compare(files: Sequence[Surveyed], found: _Found) -> None:
                 )
         if each.chosen.speed.kind != first.chosen.speed.kind:
             found.problems.append(f"{each.chosen.path}: has no speed as {first.chosen.path} has it")
-
-
-def _told(each: Surveyed) -> list[str]:
-    """Say how a file was understood."""
-    chosen = each.chosen
-    lines = [f"{chosen.path}: {line}" for line in chosen.told]
-    for name in dict.fromkeys(sensor.table for sensor in chosen.sensors):
-        table = each.tables[name]
-        time = chosen.times.get(name)
-        lines.append(
-            f"{chosen.path}: {table.count} samples at {table.rate:.9g} Hz, {table.count / table.rate:.6g} s"
-            + (f", time in {time.name}" if time is not None else "")
-        )
-    for sensor in chosen.sensors:
-        levels = (
-            f"{axis} {each.tables[sensor.table].ranges[found.channel.name].deviation * abs(found.factor):.4g}"
-            for axis, found in sensor.axes.items()
-        )
-        lines.append(f"{chosen.path}: {sensor.name} varies by {', '.join(levels)} m/s2 rms")
-    speed = chosen.speed
-    if speed.kind == "constant":
-        lines.append(f"{chosen.path}: the shaft turns with {speed.value * 30.0 / np.pi:.6g} rpm")
-    elif speed.kind == "channel" and speed.channel is not None:
-        range_ = each.tables[speed.channel.table].ranges[speed.channel.name]
-        low, high = (value * speed.factor * 30.0 / np.pi for value in (range_.low, range_.high))
-        lines.append(
-            f"{chosen.path}: the shaft turns with {low:.6g} to {high:.6g} rpm, from {speed.channel.name}"
-        )
-    elif speed.kind == "tacho" and speed.channel is not None:
-        lines.append(f"{chosen.path}: the shaft turns as the pulses of {speed.channel.name} say")
-    else:
-        lines.append(f"{chosen.path}: the speed of the shaft is not known")
-    return lines

@@ -20,6 +20,8 @@ from beardyn_core.measured.units import split_unit, usual
 
 HEAD_BYTES = 1 << 16
 _COMMENT = "#%"
+_OPTIONAL_COLUMNS = ("\t", ";")  # separators of programs that name columns which no row has
+_SHOWN = 60  # characters of a line
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|[-+]?(?:nan|inf|infinity)", re.IGNORECASE)
 _MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d+)?)?Z?")
 
@@ -42,10 +44,12 @@ class TextTable:
         """Say how the table was understood."""
         separators = {value: word for word, value in SEPARATORS.items()}
         signs = {value: word for word, value in DECIMALS.items()}
-        names = f"line {self.first_line} and above name them" if self.named else "no line names them"
+        lines = "line 1 names" if self.first_line == 1 else f"line {self.first_line} and above name"
+        names = f"{lines} them" if self.named else "no line names them"
+        count = len(self.names)
+        columns = f"{count} columns, {separators[self.separator]} between" if count > 1 else "1 column"
         return (
-            f"{len(self.names)} columns, {separators[self.separator]} between, "
-            f"decimal {signs[self.decimal]}; {names}; numbers begin in line {self.first_line + 1}"
+            f"{columns}, decimal {signs[self.decimal]}; {names}; numbers begin in line {self.first_line + 1}"
         )
 
     def cells(self, line: str) -> list[str]:
@@ -92,9 +96,11 @@ def understood(path: Path, reading: Reading) -> TextTable:
         asked = " ".join(
             f"--{k} {v}" for k, v in (("separator", reading.separator), ("decimal", reading.decimal)) if v
         )
+        seen = f"; line {len(lines)} is {lines[-1].strip()[:_SHOWN]!r}" if lines else ""
         raise InputError(
             f"{path}: has no lines of numbers in columns{f' with {asked}' if asked else ''}; a table in "
-            "text has comma, semicolon, tab, bar or space between its columns, and decimal point or comma"
+            "text has comma, semicolon, tab, bar or space between its columns, decimal point or comma and "
+            f"nothing between thousands, and dates like 2026-01-31 12:00:00.5{seen}"
         )
     best = _best(found)
     if best is None:
@@ -184,11 +190,7 @@ def _table(lines: list[str], fit: _Fit, encoding: str) -> TextTable:
         for n, line in enumerate(lines[: fit.first])
         if line.strip()
     ]
-    headings = [
-        (n, cells) for n, line in above
-        if len(cells := _split(line, fit.separator)) == width
-        and any(c and not _kind(c, fit.decimal) for c in cells)
-    ]  # fmt: skip
+    headings = _headings(above, fit)
     names, units = [str(k + 1) for k in range(width)], [""] * width
     named = bool(headings)
     if headings:
@@ -208,6 +210,20 @@ def _table(lines: list[str], fit: _Fit, encoding: str) -> TextTable:
     return TextTable(
         encoding, fit.separator, fit.decimal, tuple(names), tuple(units), fit.moments, fit.first, facts, named
     )
+
+
+def _headings(above: list[tuple[int, str]], fit: _Fit) -> list[tuple[int, list[str]]]:
+    """Find the lines right above the numbers that name their columns; lines further up do not."""
+    width = len(fit.sample)
+    found: list[tuple[int, list[str]]] = []
+    for n, line in reversed(above):
+        cells = _split(line, fit.separator)
+        if fit.separator in _OPTIONAL_COLUMNS and not found:
+            cells = cells[:width]  # such as one for comments, which no row has
+        if len(cells) != width or not any(c and not _kind(c, fit.decimal) for c in cells):
+            break
+        found.append((n, cells))
+    return found[::-1]
 
 
 def _are_units(cells: list[str]) -> bool:

@@ -58,12 +58,13 @@ class Timed:
 
     @property
     def rate(self) -> float:
-        """Samples a second, to six digits; NaN for fewer than two samples, [Hz]."""
+        """Samples a second, gaps left out, to six digits; NaN for fewer than two samples, [Hz]."""
         if len(self) < 2:
             return float("nan")
         steps = np.diff(self.time_ns)
-        step = steps.mean() if steps.max() < 1.5 * steps.min() else np.median(steps)
-        return float(f"{1e9 / step:.6g}")
+        usual = np.median(steps)  # a whole number of nanoseconds, which the mean is not
+        steps = steps[(steps > usual / 1.5) & (steps < usual * 1.5)]
+        return float(f"{1e9 / steps.mean():.6g}") if len(steps) else float("nan")
 
 
 @dataclass(frozen=True, eq=False)

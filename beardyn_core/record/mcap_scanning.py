@@ -76,7 +76,10 @@ class McapScan:
             ) from error
         if start != MAGIC[: len(start)] or not start:
             what = "is empty" if not start else "is not an MCAP file"
-            raise InputError(f"{self.path}: the file {what}; give a recording made by beardyn or rosbag2")
+            raise InputError(
+                f"{self.path}: the file {what}; give a recording made by beardyn or rosbag2 (beardyn import "
+                "makes one of measured files)"
+            )
         self.attachments: dict[str, bytes] = {}
         self.metadata: dict[str, dict[str, str]] = {}
         self.channels: dict[int, Channel] = {}

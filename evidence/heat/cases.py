@@ -16,7 +16,7 @@ from beardyn_core.config import load_bearing
 from beardyn_core.effects import Drag, LineFilm, Rib, Seal, Thermal
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
-from evidence.heat.published import Resistance
+from evidence.heat.published import COEFFICIENTS, AxleResistance, Resistance
 from evidence.heat.skf import axlebox_moment
 
 SPEEDS_KMH = (80.0, 200.0, 300.0)
@@ -46,6 +46,9 @@ OVERGREASED = State("overgreased", supply="fresh", fill=0.3)
 PRELOADED = State("preloaded by 60 um", end_play=-6.0e-5)
 CHANNELLED = State("channelled", supply="channelled")
 STARVED = State("starved: channelled, dry ribs", supply="channelled", dry_rib=0.1)
+RUBBING = State("rubbing seals", seal_torque=1.2)
+CLEARANCE = State("clearance seals", seal_torque=0.0)
+SPEED_OF_LIESER = 160.0 / 0.621371  # of 160 mph, [km/h]
 STATES = (HEALTHY, FRESH, OVERGREASED, PRELOADED, CHANNELLED, STARVED)
 VARIED = (
     HEALTHY,
@@ -117,6 +120,21 @@ def of_car(car: Resistance, state: State = HEALTHY) -> SteadyHeat:
     return steady_heat(scene_of(state, car.speed_kmh, force=force, wheel_diameter=car.wheel_diameter))
 
 
+@cache
+def of_class_k(axle: AxleResistance, seal_torque: float | None = None) -> SteadyHeat:
+    """Find the steady state of a bearing of AAR class K under the load and at the speed of an axle."""
+    state = State(axle.name, seal_torque=axle.seal_torque if seal_torque is None else seal_torque)
+    return steady_heat(
+        scene_of(
+            state,
+            axle.speed_kmh,
+            force=(0.0, 0.0, axle.load),
+            bearing="AARK_6.5x9",
+            wheel_diameter=axle.wheel_diameter,
+        )
+    )
+
+
 NTN_STATE = State("on the rig of NTN")
 NTN_LIGHT = State("likewise, little grease, light seals", supply="channelled", fill=0.005, seal_torque=0.05)
 
@@ -153,6 +171,12 @@ class TorquePoint:
     whole: A[dict[str, float], "ours with all sources, by supply"]
     catalogue: A[float, "SKF, half of the load on each row"]
     catalogue_induced: A[float, "SKF with the thrust that the rows induce in each other"]
+
+
+def published_band() -> tuple[float, float]:
+    """Return the least and largest torque that the published coefficients give the bearing, [N m]."""
+    radius = 0.5 * load_bearing("HS130x230").bore
+    return min(COEFFICIENTS) * LOAD * radius, max(COEFFICIENTS) * LOAD * radius
 
 
 TEMPERATURES_C = (-20.0, 0.0, 20.0, 40.0, 70.0, 100.0)

@@ -10,16 +10,28 @@ from evidence.heat.cases import (
     NTN_LIGHT,
     NTN_STATE,
     SPEEDS_KMH,
+    SPEEDS_RPM,
     SUPPLIED,
     VARIED,
     State,
     TorquePoint,
     of_car,
+    of_class_k,
     on_the_rig,
     steady,
     torque_point,
 )
-from evidence.heat.published import MODERN_TORQUE, NTN_LARGEST_RISE, NTN_RISE, RUSSIAN_CARS
+from evidence.heat.published import (
+    EMPTY,
+    LIP_SEAL,
+    LOW_TORQUE,
+    MANIFEST,
+    MODERN_TORQUE,
+    NTN_LARGEST_RISE,
+    NTN_RISE,
+    RUSSIAN_CARS,
+    STANDARD,
+)
 
 PARTS = ("axlebox", "cup", "cone", "grease")
 
@@ -71,6 +83,19 @@ def published_torques() -> str:
             f"{torque / MODERN_TORQUE - 1.0:+.0%}",
         ]
     )
+    cases = [(axle, axle.seal_torque) for axle in (LOW_TORQUE, MANIFEST, STANDARD)]
+    for axle, seal in [*cases, (STANDARD, LIP_SEAL), (EMPTY, EMPTY.seal_torque)]:
+        ours = of_class_k(axle, seal)
+        torque = ours.power / ours.speed
+        rows.append(
+            [
+                f"North American freight car, class K, {axle.name}, {axle.speed_kmh:g} km/h",
+                f"{axle.torque:.1f} N m",
+                f"{torque:.1f} N m, {ours.power:.0f} W, box {ours.rise('axlebox'):.0f} K above the air; "
+                f"seals of {seal:.1f} N m",
+                f"{torque / axle.torque - 1.0:+.0%}",
+            ]
+        )
     for state in (NTN_STATE, NTN_LIGHT):
         rise = on_the_rig(state).rise("cup")
         words = "" if state is NTN_STATE else ": channelled, 0.5 % fill, seals of 0.05 N m"
@@ -121,6 +146,12 @@ def variations() -> str:
     head = [f"healthy ({1e3 * MOUNTED_PLAY:g} mm, settled), but"]
     head += [f"{speed} km/h: {column}" for speed in (200, 300) for column in columns]
     return table(head, rows)
+
+
+def settled_range(temperature_c: float) -> tuple[float, float]:
+    """Find the least and largest torque of all sources with settled grease at a temperature, [N m]."""
+    whole = [torque_point(temperature_c, speed).whole["settled"] for speed in SPEEDS_RPM]
+    return min(whole), max(whole)
 
 
 def fresh_over_catalogue() -> tuple[float, float]:

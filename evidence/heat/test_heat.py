@@ -19,13 +19,25 @@ from evidence.heat.cases import (
     STARVED,
     SUMMER,
     of_car,
+    of_class_k,
     on_the_rig,
+    published_band,
     steady,
     torque_grid,
     torque_point,
 )
-from evidence.heat.published import NTN_RISE, RUSSIAN_CARS, Resistance
+from evidence.heat.published import (
+    EMPTY,
+    LIP_SEAL,
+    LOW_TORQUE,
+    NTN_RISE,
+    RUSSIAN_CARS,
+    STANDARD,
+    AxleResistance,
+    Resistance,
+)
 from evidence.heat.skf import BEARING_32216, OIL, axlebox_moment, row_moment
+from evidence.heat.tables import settled_range
 from evidence.validation.heat import L055_70_C, NTN_TOLERANCE, RUSSIAN_TOLERANCE
 from evidence.validation.losses import high_speed_static, power_loss
 
@@ -73,6 +85,23 @@ def test_settled_grease_lies_between_measured_boxes_and_the_catalogue() -> None:
         assert supplies == sorted(supplies)
 
 
+@pytest.mark.parametrize("temperature", [40.0, 70.0, 100.0])
+def test_settled_grease_is_within_the_band_of_published_torques_at_service_temperature(
+    temperature: float,
+) -> None:
+    low, high = published_band()
+    least, most = settled_range(temperature)
+    assert low < least
+    assert most < high
+
+
+def test_settled_grease_is_below_the_published_band_in_the_cold_as_the_page_says() -> None:
+    low, _ = published_band()
+    least = {temperature: settled_range(temperature)[0] / low for temperature in (-20.0, 0.0, 20.0)}
+    assert 0.4 < least[-20.0] < least[0.0] < least[20.0] < 1.0
+    assert least[20.0] > 0.8
+
+
 @pytest.mark.slow
 def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below() -> None:
     """In service 20 to 50 K above the air: ours at 300 km/h; below it is less, as the page says."""
@@ -109,6 +138,18 @@ def test_more_grease_between_the_rollers_is_what_fast_light_cars_ask_for(car: Re
     """The cause that the validation page names; most of all for the fastest."""
     found = of_car(car, FILLED)
     assert found.power / found.speed == pytest.approx(car.torque, rel=RUSSIAN_TOLERANCE)
+
+
+@pytest.mark.parametrize("axle", [STANDARD, pytest.param(EMPTY, marks=pytest.mark.slow)])
+def test_lip_seals_bring_class_k_to_the_published_torque_of_standard_and_of_empty_axles(
+    axle: AxleResistance,
+) -> None:
+    """The causes that the validation page names; a loaded axle with low-torque seals then has too much."""
+    torques = [
+        found.power / found.speed for found in (of_class_k(each, LIP_SEAL) for each in (axle, LOW_TORQUE))
+    ]
+    assert torques[0] == pytest.approx(axle.torque, rel=RUSSIAN_TOLERANCE)
+    assert torques[1] > (1.0 + RUSSIAN_TOLERANCE) * LOW_TORQUE.torque
 
 
 def test_rollers_pressed_by_their_orbit_make_the_rolling_loss_of_the_crh380b() -> None:

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.status import Status
-from evidence.light.grid import LOADS_KN, SETS, SPEEDS_RPM, run_point
+from evidence.light.grid import (
+    AUTO,
+    AUTO_POINTS,
+    LARGEST_RATIO,
+    LOADS_KN,
+    SETS,
+    SPEEDS_RPM,
+    run_point,
+    run_scene,
+    scene_of,
+)
 from test.examples import fast_ones
 
 
@@ -37,6 +49,33 @@ def test_whole_grid(effects: str, speed_rpm: float) -> None:
         point = run_point(effects, load, speed_rpm)
         assert point.holds or (effects == "dry" and point.ratio > 1.0), point
         assert (point.ratio > 1.011) <= bool(point.told), point
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("speed_rpm", "load_kn"), AUTO_POINTS)
+def test_chosen_effects_let_no_cage_over_run(speed_rpm: float, load_kn: float) -> None:
+    point = run_point(AUTO, load_kn, speed_rpm)
+    assert point.holds, point
+    assert not point.told
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed_rpm", SPEEDS_RPM[2:])
+def test_chosen_ribs_are_lubricated_where_dry_ones_drive_cages(speed_rpm: float) -> None:
+    for load in LOADS_KN:
+        rib = scene_of(AUTO, load, speed_rpm).effects.rib
+        assert rib is not None
+        assert rib.lubrication is not None, load
+
+
+@pytest.mark.slow
+def test_a_dry_rib_is_what_drives_cages_ahead() -> None:
+    """The cause that the page names: over 1.002 with the rib's friction, not without."""
+    assert run_point("dry", 2.0, 2500.0).ratio > LARGEST_RATIO
+    scene = scene_of("dry", 2.0, 2500.0)
+    assert scene.effects.rib is not None
+    smooth = replace(scene.effects, rib=replace(scene.effects.rib, friction=0.0))
+    assert run_scene(replace(scene, effects=smooth)).ratio <= LARGEST_RATIO
 
 
 def test_a_status_tells_of_cages_that_run_ahead_or_back() -> None:

@@ -43,6 +43,7 @@ TRENDS: tuple[Trend, ...] = (
     *trends.TRENDS,
     *whirl.TRENDS,
     *skid.TRENDS,
+    *heat.TRENDS,
     *wheelset.TRENDS,
     *spalls.TRENDS,
 )
@@ -77,8 +78,9 @@ UNREACHED: tuple[tuple[str, str], ...] = (
         "Zhao et al. 2026",
     ),
     (
-        "cage slip measured on rigs (Smith 1962, Harris 1966, Guo and Keller 2020)",
-        "no source found gives slip, load, speed, oil and the inside of a tapered bearing together",
+        "cage slip measured on rigs in per cent (Smith 1962, Harris 1966, Guo and Keller 2020, Dawoud 2022)",
+        "no source found gives slip, load, speed, oil and the inside of a bearing together; what their "
+        "abstracts say is among the trends",
     ),
     (
         "levels of impacts measured on axleboxes and rigs (Tarawneh and others, Pueblo 1999)",
@@ -91,6 +93,11 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     (
         "torque and stiffness of the bearings of a disc cutter (Lubricants 2025, 13, 160, Tables 5 and 6)",
         "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers not told",
+    ),
+    (
+        "heat of bearings of class K and F on rigs (Tarawneh and others 2008 to 2012), service temperatures "
+        "of FRA/ORD-80/43 and of double-stack cars (McCown and Moser 1988)",
+        "only their abstracts were at hand, without watts or degrees",
     ),
     (
         "ranking of steady temperatures",

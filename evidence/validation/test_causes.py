@@ -6,9 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from evidence.heat.cases import SUMMER, State
+from evidence.heat.cases import SUMMER, State, torque_point
+from evidence.impact.cases import healthy
+from evidence.impact.study import heard
 from evidence.validation import wheelset
-from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, grease_celsius, in_train
+from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, SKF_TOLERANCE, grease_celsius, in_train
+from evidence.validation.losses import LAYER, loss_under, torque_32216, unpressed
 from evidence.validation.rigs import (
     COMBINED_MISSES,
     COMBINED_TOLERANCE,
@@ -24,9 +27,11 @@ from evidence.validation.rigs import (
     warmed,
 )
 from evidence.validation.roller_loads import counts
+from evidence.validation.statics import bounce_frequency
 from test.examples import fast_ones
 
 COLD_PLAY = 2.0e-4
+LOSS_OF_ZHAO = 1641.7
 MEASURED_32216 = {(celsius, speed): measured for celsius, speed, measured in COMBINED_TORQUES}
 MEASURED_32008 = {
     (supplied, speed): measured
@@ -37,6 +42,42 @@ MEASURED_32008 = {
 
 def because(cause: str) -> list[tuple[float, float]]:
     return [where for where, why in GHENT_MISSES.items() if why.startswith(cause)]
+
+
+def test_rollers_of_71_g_bounce_in_the_published_band() -> None:
+    assert bounce_frequency(615.0, 0.071) == pytest.approx(30e3, rel=0.1)
+
+
+def test_a_layer_of_oil_in_place_of_a_flooded_inlet_brings_the_32216_to_the_measured_torque() -> None:
+    for speed, measured in ((500.0, 1.30), (2000.0, 2.95)):
+        assert torque_32216(speed, supply=LAYER) == pytest.approx(measured, rel=0.15)
+    assert torque_32216(4000.0, supply=LAYER) < 0.75 * 3.75
+
+
+def test_rollers_that_their_orbit_does_not_press_bring_7_and_3_to_the_published_loss() -> None:
+    static = unpressed(15e3, 2e-4)
+    assert static.loaded_roller_count == (7, 3)
+    assert loss_under(static) == pytest.approx(LOSS_OF_ZHAO, rel=0.15)
+
+
+def test_five_loaded_rollers_a_row_and_no_others_bring_the_published_loss() -> None:
+    static = unpressed(3e3, 3e-4)
+    assert static.loaded_roller_count == (5, 5)
+    assert loss_under(static) == pytest.approx(LOSS_OF_ZHAO, rel=0.15)
+
+
+@pytest.mark.parametrize("speed", fast_ones([300.0, 1165.0, 2000.0], 0))
+def test_fresh_grease_brings_the_axlebox_to_the_model_of_the_catalogue(speed: float) -> None:
+    point = torque_point(70.0, speed)
+    assert point.contacts["fresh"] == pytest.approx(point.catalogue, rel=SKF_TOLERANCE)
+
+
+@pytest.mark.slow
+def test_a_sound_bearing_without_cages_is_no_more_impulsive_than_noise() -> None:
+    """At 90 km/h: kurtosis as published, and the crest factor below the published ones."""
+    uncaged = heard(replace(healthy(90.0), caged=False))
+    assert uncaged.kurtosis == pytest.approx(3.0, rel=0.1)
+    assert uncaged.peak / uncaged.rms < 4.9
 
 
 @pytest.mark.parametrize(("celsius", "speed"), COMBINED_MISSES)

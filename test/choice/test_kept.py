@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from beardyn_core.choice import kept as keeping
+from beardyn_core.choice import load
 from beardyn_core.choice.kept import folder, kept, typical
 from beardyn_core.choice.rule import Choice
 from beardyn_core.config import read_scene
@@ -62,6 +63,23 @@ def test_a_choice_is_made_once_and_then_read(found: OpenScene) -> None:
     assert len(calls) == 1
     assert (first.kept, second.kept) == (False, True)
     assert replace(second, kept=False) == first
+
+
+def test_the_seconds_of_a_choice_are_announced_once(
+    found: OpenScene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(load.log, "info", said.append)
+    monkeypatch.setattr("beardyn_core.choice.choose.choose", lambda *_: made())
+    load._announce.cache_clear()
+    load.choice_for(found)
+    assert said == [load.CHOOSING]
+    load.choice_for(replace(found, scene=replace(found.scene, duration=7.0)))
+    assert said == [load.CHOOSING]
+    load._announce.cache_clear()
+    keeping._known.clear()
+    load.choice_for(found)
+    assert said == [load.CHOOSING], "it was kept, and took no seconds"
 
 
 def test_what_a_choice_depends_on_makes_another(found: OpenScene) -> None:

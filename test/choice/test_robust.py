@@ -96,7 +96,7 @@ def test_a_choice_is_found_for_many_valid_scenes(given_keys: dict[str, Any]) -> 
             {"effects": {"preset": "auto", "cage": {"friction": 2}}},
             ["effects.cage.friction is 2", "at most 1"],
         ),
-        ({"effects": "automatic"}, ["there is no effects preset 'automatic'"]),
+        ({"effects": "automatic"}, ["there is no effects preset 'automatic'", "auto chooses them"]),
     ],
 )
 def test_a_wrong_key_is_told_with_what_is_allowed(keys: dict[str, Any], words: list[str]) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +57,15 @@ def test_everything_shipped_is_listed_with_a_purpose(capsys: pytest.CaptureFixtu
     assert cup_spall["bearing"] == "HS130x230"
     assert cup_spall["duration_s"] == 8.0
     assert "spall on the cup" in cup_spall["faults"][0]
+
+
+@pytest.mark.parametrize("kind", ["effects", "plates"])
+def test_a_list_needs_nothing_that_was_read_before(kind: str) -> None:
+    """What files may have besides their nouns is known however a process begins."""
+    run = [sys.executable, "-m", "beardyn_core.cli.main", "scenes", kind]
+    listed = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+    assert set(shipped_names(kind)) <= set(listed.split())
+    assert "cannot be used" not in listed
 
 
 def test_table_has_duration_speed_bearing_and_purpose(capsys: pytest.CaptureFixture[str]) -> None:

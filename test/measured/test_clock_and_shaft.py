@@ -131,6 +131,22 @@ def test_pulses_give_the_angle_whatever_their_width_and_the_blocks(
     assert shaft.irregular == 0
 
 
+def test_a_second_accelerometer_turns_no_shaft_back() -> None:
+    shaft = Constant(SPEED)
+    first = shaft.until(0, 50_000_000)
+    assert not len(shaft.until(0, 40_000_000).time_ns)
+    after = shaft.until(50_000_000, 100_000_000)
+    time = np.concatenate((first.time_ns, after.time_ns))
+    assert np.all(np.diff(time) > 0)
+    np.testing.assert_allclose(np.concatenate((first.angle, after.angle)), SPEED * 1e-9 * time)
+
+
+def test_gaps_between_files_are_not_in_the_rate(tmp_path: Path) -> None:
+    files = [table(tmp_path / f"{k}.csv", {"az_g": noise(2560)[:, 0]}) for k in range(3)]
+    run = bd.read_measured(files, rate_Hz=25_600.0, file_interval_s=10.0)
+    assert run.vibration.rate == 25_600.0
+
+
 def test_missing_and_doubled_pulses_are_told(tmp_path: Path) -> None:
     time = np.arange(48_000) / RATE
     volts = np.where((30.0 * time) % 1.0 < 0.2, 5.0, 0.0)

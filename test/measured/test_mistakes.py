@@ -51,6 +51,27 @@ def test_every_mistake_of_every_file_is_told_at_once(tmp_path: Path) -> None:
     assert len(found) == 4
 
 
+def test_a_recording_is_not_taken_for_a_file_of_another_tool(tmp_path: Path) -> None:
+    made = bd.import_measured(csv(tmp_path), tmp_path / "run.mcap")
+    (found,) = problems(made)
+    assert "is a recording of an axlebox; report, monitor, export and beardyn_core.read take it" in found
+    again = bd.read_measured(made, channels="z=*vibration.az", unit="m/s2")
+    assert len(again.vibration) == COUNT
+
+
+def test_what_is_true_of_many_files_is_said_once(tmp_path: Path) -> None:
+    loud = [csv(tmp_path, f"{k}.csv", az_g=noise(seed=k)[:, 0] * k) for k in range(1, 7)]
+    found = problems(loud, channels="z=none")
+    assert found == [f"{loud[0]} and 5 more: channels 'none' is no channel of the file; it has time_s, az_g"]
+    assert len(problems(loud[:3], channels="z=none")) == 3
+    understood = bd.read_measured(loud).measured["understood"]
+    assert len(understood) == len(bd.read_measured(loud[0]).measured["understood"])
+    assert f"{loud[0]} and 5 more: {COUNT} samples at 12000 Hz, 0.5 s, time in time_s" in understood
+    (level,) = (each for each in understood if "varies" in each)
+    low, high = map(float, re.findall(r"z ([\d.]+) to ([\d.]+) m/s2 rms", level)[0])
+    assert high == pytest.approx(6.0 * low, rel=0.1)
+
+
 def test_options_that_cannot_be_are_told_all_at_once(tmp_path: Path) -> None:
     with pytest.raises(bd.InputError) as caught:
         bd.read_measured(

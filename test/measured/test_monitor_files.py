@@ -115,6 +115,7 @@ def test_a_recording_names_its_bearings_and_their_sensors(
     assert bd.monitor(run, bearing=bd.name_plate("6203"), sensor="fan").verdict == "cone"
     with pytest.raises(bd.InputError, match="has the bearings drive_end, fan_end; give bearing"):
         bd.monitor(run)
+    assert bd.monitor(run, bearing="6203", sensor="fan").verdict == "cone"
     with pytest.raises(bd.InputError, match="has no sensor 'top'; it has drive, fan"):
         bd.monitor(run, bearing=bd.name_plate("6203"), sensor="top")
     for kind, signals in (("csv", 4), ("wav", 1)):

@@ -15,6 +15,7 @@ from beardyn_core.measured.options import DECIMALS, SEPARATORS, Reading
 from beardyn_core.measured.text_table import understood
 from beardyn_core.measured.units import ACCELERATION, STANDARD_GRAVITY, split_unit, unit_in, usual
 from test.examples import examples
+from test.measured.files import G, noise
 
 HEADINGS = ("{name} [{unit}]", "{name} ({unit})", "{name}_{unit}", "{name}")
 UNITS = {
@@ -82,6 +83,29 @@ def test_a_table_without_a_header_has_columns_by_number(tmp_path: Path) -> None:
     assert run.vibration.values[7, 2] == 1.5 * STANDARD_GRAVITY
     assert np.isnan(run.vibration.values[:, 1]).all()
     assert "no line names them" in run.measured["understood"][0]
+
+
+def test_a_header_of_keys_and_numbers_names_no_column(tmp_path: Path) -> None:
+    """A text file of LabVIEW: a head with tabs, and a heading for comments that no row has."""
+    path = tmp_path / "a.lvm"
+    head = "Writer_Version\t2\nX_Dimension\tTime\nX0\t0.0\nDelta_X\t8.333E-5\n***End_of_Header***\n"
+    values = noise(1200)[:, 0]
+    rows = "".join(f"{k / 12_000:.7f}\t{value}\n" for k, value in enumerate(values))
+    path.write_text(f"{head}X_Value\tAcceleration\tComment\n{rows}")
+    run = bd.read_measured(path, unit="g")
+    np.testing.assert_allclose(run.vibration.values[:, 2], values * G)
+    assert run.vibration.rate == pytest.approx(12_000.0)
+
+
+def test_what_is_no_table_is_shown(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("time;acc [g]\n0;1.234,5\n1;2.345,6\n")
+    with pytest.raises(bd.InputError, match=r"nothing between thousands.*; line 3 is '1;2\.345,6'"):
+        bd.read_measured(tmp_path / "a.csv")
+    (tmp_path / "one.csv").write_text("1.5D+00\n-2.5D-01\n" * 50)
+    run = bd.read_measured(tmp_path / "one.csv", unit="m/s2", rate_Hz=12_000.0)
+    assert run.vibration.values[:2, 2].tolist() == [1.5, -0.25]
+    told = run.measured["understood"][0]
+    assert "text: 1 column, decimal point; no line names them" in told
 
 
 def test_a_row_of_units_and_lines_above_the_header_are_understood(tmp_path: Path) -> None:
