@@ -70,15 +70,15 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
-    run, bearing, sensor = _heard(run, bearing, sensor)
-    return conclude(findings_of(run, bearing, algorithm, settings, sensor))
+    heard, plate, sensor = _heard(run, bearing, sensor)
+    return conclude(findings_of(heard, plate, algorithm, settings, sensor))
 
 
 def severity(
     run: Run | Path | str,
     conclusion: Conclusion | None = None,
     *,
-    bearing: Bearing | NamePlate | None = None,
+    bearing: Bearing | NamePlate | str | None = None,
     sensor: str = "",
 ) -> Severity | None:
     """Measure how wide the spall is that a monitor has found: not every fault matters.
@@ -96,13 +96,13 @@ def severity(
         ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
         rollers are not two clear events.
     """
-    run, bearing, sensor = _heard(run, bearing, sensor)
-    found = conclusion or conclude(findings_of(run, bearing, sensor=sensor))
-    return severity_in(run, found, bearing, sensor)
+    heard, plate, sensor = _heard(run, bearing, sensor)
+    found = conclusion or conclude(findings_of(heard, plate, sensor=sensor))
+    return severity_in(heard, found, plate, sensor)
 
 
 def _heard(
-    run: Run | Path | str, bearing: Bearing | NamePlate | None, sensor: str
+    run: Run | Path | str, bearing: Bearing | NamePlate | str | None, sensor: str
 ) -> tuple[Run, Bearing | NamePlate, str]:
     """Find run, bearing and accelerometer."""
     run = run if isinstance(run, Run) else read_run(run)

@@ -40,7 +40,8 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
     orders = tuple(dict.fromkeys(each.plate.frequencies for each in bearings))
     rate, times, found = survey.rate(survey.sensors[0]), [], []
     for begin, acceleration in _pieces(survey, rate):
-        track = speed_from_vibration(acceleration, rate, *(each / (2.0 * np.pi) for each in limits), orders)
+        low, high = (each / (2.0 * np.pi) for each in limits)
+        track = speed_from_vibration(acceleration, rate, low, high, orders)
         if not track.certain:
             raise InputError(
                 f"{path}: the speed of the shaft is not known, and from {begin:.3g} s on "
@@ -60,10 +61,10 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
         True,
         found[0].reason,
     )
-    low, high = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
+    slowest, fastest = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
     doubt = _RPM * 1.96 * float(whole.deviation.max())
     told = (
-        f"{path}: the vibration says that the shaft turns with {low:.5g} to {high:.5g} rpm, "
+        f"{path}: the vibration says that the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
         f"give or take {doubt:.3g}"
     )
     return replace(survey, heard=whole, told=(*survey.told, told))

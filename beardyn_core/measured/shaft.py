@@ -75,7 +75,7 @@ class Found(Constant):
     def until(self, begin_ns: int, end_ns: int) -> Turned:
         """Give points as `Constant.until` does, with the angle of the track."""
         even = super().until(begin_ns, end_ns)
-        time = even.time_ns * 1e-9
+        time = np.asarray(even.time_ns * 1e-9, np.float64)
         speed = 2.0 * np.pi * np.interp(time, self._track.time, self._track.frequency)
         return Turned(even.time_ns, self._track.angle(time), speed)
 

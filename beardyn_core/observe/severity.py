@@ -30,7 +30,8 @@ _SPECTRUM, _CEPSTRUM = 4096, 8192
 _LEAST_STRUCTURE = 0.5
 _SHORTEST_WAY = 0.6e-3  # [m]
 _SHORTEST_S = 0.32e-3  # between two events; what modes of a box leave beats faster
-_LONGEST_SHARE = 0.3  # of a passage
+_SEARCHED = 0.45  # of a passage
+_LONGEST_SHARE = 0.3  # of a passage: a longer way needs more than there is between two passages
 _STANDS_OUT = 4.0  # times the median of the cepstrum
 _CLEAR = 1.25  # times the next peak that is no multiple
 _MULTIPLE = 0.12  # within which a peak is twice another, relative
@@ -53,6 +54,7 @@ class _Events(NamedTuple):
     way: Float  # shape [line], [m]
     height: Float  # shape [line]
     shortest: float  # that the modes of a box are not taken for, [m]
+    longest: float  # [m]
 
 
 def severity_of(
@@ -159,13 +161,15 @@ def _events(acceleration: Float, rate: float, passed: Float, spacing: float) -> 
     inside = (frequency > 1.5 * _LOWEST) & (frequency < high)
     kept, at = ripple[inside], frequency[inside] / rate
     if np.std(quiet[inside]) < _LEAST_STRUCTURE * np.std(struck[inside]):
-        return _Events(np.empty(0), np.empty(0), 0.0)
+        return _Events(np.empty(0), np.empty(0), 0.0, 0.0)
     trend = np.vander(at, 5)
     kept = kept - trend @ np.linalg.lstsq(trend, kept, rcond=None)[0]
     cepstrum = np.abs(np.fft.fft(kept * np.hanning(len(kept))[:, None], _CEPSTRUM, axis=0)).sum(axis=1)
     way = np.arange(_CEPSTRUM) * _SPECTRUM / _CEPSTRUM / period * spacing
-    wanted = (way > _SHORTEST_WAY) & (way < _LONGEST_SHARE * spacing)
-    return _Events(way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing)
+    wanted = (way > _SHORTEST_WAY) & (way < _SEARCHED * spacing)
+    return _Events(
+        way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing, _LONGEST_SHARE * spacing
+    )
 
 
 def _clear_peak(events: _Events) -> float:
@@ -184,4 +188,4 @@ def _clear_peak(events: _Events) -> float:
     clear = height[best] > _STANDS_OUT * np.median(height) and height[best] > _CLEAR * max(
         others, default=0.0
     )
-    return way if clear and way >= events.shortest else nan
+    return way if clear and events.shortest <= way <= events.longest else nan

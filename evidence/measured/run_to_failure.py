@@ -78,7 +78,7 @@ def by_trend(levels: Levels) -> Judged:
     """Let the trend watch a run."""
     trend = Trend(("x", "y"))
     states = [trend.take(each, EVERY_S * k).state for k, each in enumerate(levels.bands)]
-    return Judged.of(np.array(states) == ALARM)
+    return Judged.of(np.array([state == ALARM for state in states]))
 
 
 def by_rms(levels: Levels) -> Judged:
@@ -179,7 +179,7 @@ def main() -> None:
         "--keep", metavar="DIR", type=Path, help="keep the levels here, and take them from here"
     )
     args = parser.parse_args()
-    found = {}
+    found: dict[str, dict[str, tuple[int, Judged, Judged]]] = {}
     for name in SETS:
         folders = sorted(each for each in (args.pronostia / name).glob("Bearing*") if each.is_dir())
         if not folders:

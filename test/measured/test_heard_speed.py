@@ -1,5 +1,7 @@
 """The speed of the shaft is found in the vibration itself, or refused."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -56,7 +58,7 @@ def test_a_file_without_speed_is_monitored_by_its_own_lines(tmp_path):
     assert PIECE_S > 4.0
     _, signal, _, _ = _vibration((28.0, 29.5), seed=3)
     np.savetxt(tmp_path / "motor.csv", signal, fmt="%.5f")
-    options = {"unit": "m/s2", "rate_Hz": RATE, "speed_range_rpm": "1500:2000"}
+    options: dict[str, Any] = {"unit": "m/s2", "rate_Hz": RATE, "speed_range_rpm": "1500:2000"}
     run = bd.read_measured(tmp_path / "motor.csv", bearing=PLATE, **options)
     assert run.measured["speed"]["from"] == "vibration"
     assert any("the vibration says that the shaft turns" in told for told in run.measured["understood"])
@@ -65,7 +67,7 @@ def test_a_file_without_speed_is_monitored_by_its_own_lines(tmp_path):
 
 def test_speed_is_refused_without_a_bearing_or_without_lines(tmp_path):
     np.savetxt(tmp_path / "noise.csv", np.random.default_rng(4).normal(size=24_000), fmt="%.5f")
-    options = {"unit": "m/s2", "rate_Hz": RATE}
+    options: dict[str, Any] = {"unit": "m/s2", "rate_Hz": RATE}
     with pytest.raises(InputError, match="needs the bearing"):
         bd.read_measured(tmp_path / "noise.csv", speed_range_rpm="1500:2000", **options)
     with pytest.raises(InputError, match=r"noise\.csv: the speed of the shaft is not known, and from 0 s on"):

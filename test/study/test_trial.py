@@ -116,7 +116,8 @@ def test_shapes_and_sensors_are_runs_of_their_own() -> None:
     assert patches["slot"][0].length == pytest.approx(0.008)  # type: ignore[union-attr]
     widths = [patch.width for patch in patches["round"]]  # type: ignore[union-attr]
     assert widths == pytest.approx([0.004 * (1.0 - (2.0 / 3.0) ** 2) ** 0.5, 0.004, widths[0]])
-    assert sum(patch.length for patch in patches["round"]) == pytest.approx(0.004)  # type: ignore[union-attr]
+    lengths = [patch.length for patch in patches["round"]]  # type: ignore[union-attr]
+    assert sum(lengths) == pytest.approx(0.004)
     assert len({patch.width for patch in patches["irregular"]}) == 3  # type: ignore[union-attr]
     names = [name for name, _ in slices(TrialResult.of(trial, "", []))]
     assert {"whole spalls", "mems_50g"} <= set(names)
