@@ -94,7 +94,8 @@ def _ending(findings: list[Finding]) -> str:
     if conclusion.verdict != WAITING:
         return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
-    many = "; --trend watches the levels of many short records" if len(findings) > 1 else ""
+    short = len(findings) > 1 and "revolutions" in reason
+    many = "; --trend watches the levels of many short records" if short else ""
     return f"{WAITING}: no analysis; {reason}{many}"
 
 
