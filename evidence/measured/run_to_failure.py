@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Bool, Float
+from beardyn_core.arrays import Float
 from beardyn_core.observe.trend import ALARM, Trend, TrendSettings, record_levels
 from evidence.pages import DOCS
 
@@ -42,11 +43,12 @@ class Judged:
     share: A[float, "of the run in alarm"]
 
     @classmethod
-    def of(cls, alarms: Bool) -> Judged:
+    def of(cls, alarms: Sequence[bool]) -> Judged:
         """Judge alarms of the records, shape [record]."""
-        off = np.flatnonzero(~alarms)
-        stays = (int(off[-1]) + 1 if len(off) else 0) if alarms[-1] else None
-        return cls(int(alarms.argmax()) if alarms.any() else None, stays, float(alarms.mean()))
+        alarmed = np.array(alarms, bool)
+        off = np.flatnonzero(~alarmed)
+        stays = (int(off[-1]) + 1 if len(off) else 0) if alarmed[-1] else None
+        return cls(int(alarmed.argmax()) if alarmed.any() else None, stays, float(alarmed.mean()))
 
 
 def read_record(path: Path) -> Float:
@@ -78,13 +80,13 @@ def by_trend(levels: Levels) -> Judged:
     """Let the trend watch a run."""
     trend = Trend(("x", "y"))
     states = [trend.take(each, EVERY_S * k).state for k, each in enumerate(levels.bands)]
-    return Judged.of(np.array([state == ALARM for state in states]))
+    return Judged.of([state == ALARM for state in states])
 
 
 def by_rms(levels: Levels) -> Judged:
     """Alarm where the rms of an axis is over that of the first records, record by record."""
     start = np.median(levels.rms[: TrendSettings().baseline], axis=0)
-    return Judged.of((levels.rms - start > RMS_RISE).any(axis=1))
+    return Judged.of((levels.rms - start > RMS_RISE).any(axis=1).tolist())
 
 
 def synthetic_alarms(seed: int = 1) -> int:

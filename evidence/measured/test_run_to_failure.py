@@ -35,9 +35,9 @@ def test_trend_and_rms_alarm_at_the_change_and_stay(run):
 
 
 def test_an_alarm_that_ends_does_not_stay():
-    judged = run_to_failure.Judged.of(np.array([False, True, False, True, True]))
+    judged = run_to_failure.Judged.of([False, True, False, True, True])
     assert (judged.first, judged.stays) == (1, 3)
-    assert run_to_failure.Judged.of(np.array([True, False])).stays is None
+    assert run_to_failure.Judged.of([True, False]).stays is None
 
 
 def test_the_page_is_in_the_documentation():
