@@ -16,6 +16,7 @@ service     docs/sensors.md: what a sensor in service hears, and what the monito
 heat        docs/heat.md: torque and steady temperatures beside published ones
 ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
+measured    docs/run_to_failure.md, docs/spall_width.md: what is said of measured data
 trial       docs/trial.md: the monitor on trial
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs

@@ -8,6 +8,7 @@ monitored_recording a monitor beside a recording, or over one; its results in wo
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
+measured_severity   how wide the spall is that a monitor found in a run
 code_digest         hashes of the code of a monitor and of the simulator
 trial               its runs with a monitor beside each, kept and taken up again
 trial_result        rates with intervals, smallest sizes

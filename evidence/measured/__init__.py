@@ -4,5 +4,6 @@
 module         responsibility
 ============== ======================================================
 run_to_failure docs/run_to_failure.md: when the trend alarms
+spall_width    docs/spall_width.md: widths found, of known ones
 ============== ======================================================
 """
