@@ -55,8 +55,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
-    from beardyn_core.api.measuring import import_measured, read_measured
-    from beardyn_core.api.reading import monitor, read
+    from beardyn_core.api.measuring import import_measured, read_measured, trend
+    from beardyn_core.api.reading import monitor, read, severity
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
         equilibrium,
@@ -96,14 +96,14 @@ __all__ = [
 ]
 __all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
 __all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
-__all__ += ["lubricant", "monitor", "name_plate", "open_set", "read", "read_measured", "scene", "simulate"]
-__all__ += ["steady_heat", "stiffness", "sweep", "torque"]
+__all__ += ["lubricant", "monitor", "name_plate", "open_set", "read", "read_measured", "scene", "severity"]
+__all__ += ["simulate", "steady_heat", "stiffness", "sweep", "torque", "trend"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
-    "api.measuring": ("import_measured", "read_measured"),
-    "api.reading": ("monitor", "read"),
+    "api.measuring": ("import_measured", "read_measured", "trend"),
+    "api.reading": ("monitor", "read", "severity"),
     "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),

@@ -17,6 +17,7 @@ service     docs/sensors.md: what a sensor in service hears, and what the monito
 heat        docs/heat.md: torque and steady temperatures beside published ones
 ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
+measured    docs/run_to_failure.md, docs/spall_width.md: what is said of measured data
 trial       docs/trial.md: the monitor on trial
 population  docs/sweep.md: what a learner makes of a set, how fast sets are made
 performance docs/performance.md: speeds measured by `benchmarks`

@@ -10,10 +10,13 @@ from typing import Any
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_plate
 from beardyn_core.measured.about import Mounted
+from beardyn_core.measured.heard_speed import with_heard_speed
 from beardyn_core.measured.in_memory import run_of
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.survey import Survey, survey
+from beardyn_core.measured.trending import trend_of
 from beardyn_core.measured.writing import write_measured
+from beardyn_core.observe.trend import TrendPoint
 from beardyn_core.record.run import Run
 
 Files = Path | str | Sequence[Path | str]
@@ -51,8 +54,9 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     InputError
         With every mistake in options and files.
     """
-    found = _surveyed(files, options)
-    run = run_of(found, _mounted(bearing))
+    mounted = _mounted(bearing)
+    found = with_heard_speed(_surveyed(files, options), mounted)
+    run = run_of(found, mounted)
     for sentence in run.measured["warnings"][len(found.warnings) :]:
         warnings.warn(sentence, stacklevel=2)
     return run
@@ -77,10 +81,34 @@ def import_measured(
     InputError
         With every mistake; then nothing is written.
     """
-    made = write_measured(_surveyed(files, options), recording, _mounted(bearing), force=force)
+    mounted = _mounted(bearing)
+    made = write_measured(
+        with_heard_speed(_surveyed(files, options), mounted), recording, mounted, force=force
+    )
     for sentence in made.warnings:
         warnings.warn(sentence, stacklevel=2)
     return made.path
+
+
+def trend(files: Files, **options: Any) -> list[TrendPoint]:
+    """Watch the levels of many records against the baseline of the first, as ``beardyn monitor --trend``.
+
+    Parameters
+    ----------
+    files, options
+        See `read_measured`; neither speed nor bearing is needed, and records of a tenth of a second do.
+
+    Returns
+    -------
+    list of TrendPoint
+        After every record; the last one says how it stands, and since when.
+
+    Raises
+    ------
+    InputError
+        With every mistake in options and files.
+    """
+    return list(trend_of(_surveyed(files, options)))
 
 
 def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:

@@ -11,8 +11,10 @@ from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError
 from beardyn_core.measured.about import mounted_in
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
+from beardyn_core.observe.severity import Severity
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
+from beardyn_core.study.measured_severity import severity_in
 from beardyn_core.study.monitored_recording import Conclusion, conclude, findings_of
 
 
@@ -68,6 +70,41 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
+    heard, plate, sensor = _heard(run, bearing, sensor)
+    return conclude(findings_of(heard, plate, algorithm, settings, sensor))
+
+
+def severity(
+    run: Run | Path | str,
+    conclusion: Conclusion | None = None,
+    *,
+    bearing: Bearing | NamePlate | str | None = None,
+    sensor: str = "",
+) -> Severity | None:
+    """Measure how wide the spall is that a monitor has found: not every fault matters.
+
+    Parameters
+    ----------
+    run, bearing, sensor
+        See `monitor`.
+    conclusion : Conclusion, optional
+        What `monitor` says of the run; by default it is asked.
+
+    Returns
+    -------
+    Severity or None
+        ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
+        rollers are not two clear events.
+    """
+    heard, plate, sensor = _heard(run, bearing, sensor)
+    found = conclusion or conclude(findings_of(heard, plate, sensor=sensor))
+    return severity_in(heard, found, plate, sensor)
+
+
+def _heard(
+    run: Run | Path | str, bearing: Bearing | NamePlate | str | None, sensor: str
+) -> tuple[Run, Bearing | NamePlate, str]:
+    """Find run, bearing and accelerometer."""
     run = run if isinstance(run, Run) else read_run(run)
     if isinstance(bearing, str):
         bearing = load_plate(bearing)
@@ -83,4 +120,4 @@ def monitor(
                 f"{run.label}: {several}{'' if known else ' which bearing it is of'}; give bearing"
             )
         bearing, sensor = known[0].plate, sensor or known[0].sensor
-    return conclude(findings_of(run, bearing, algorithm, settings, sensor))
+    return run, bearing, sensor

@@ -21,11 +21,12 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.errors import InputError
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import EFFECTS, Scene
-from beardyn_core.scene.trial import HEALTHY, Cell, Spall, Trial, TrialChoice
+from beardyn_core.scene.trial import CAGE, HEALTHY, SLOT, Cell, Spall, Trial, TrialChoice
 from beardyn_core.units import UNITS
 
 # a spall of the cup is where the load is
 _LOAD_ZONE_DEG = 30.0
+_STRIPS = 3  # of a spall that is no rectangle
 
 
 def load_trial(
@@ -155,8 +156,10 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
         "tier": cell.tier,
         "duration_s": trial.duration(cell.speed, diameter),
         "seed": seed,
-        "defects": [] if cell.fault == HEALTHY else [_spall(trial.spall, cell, seed)],
+        "defects": [] if cell.fault == HEALTHY else _defects(trial.spall, cell, seed),
     }
+    if cell.sensor:
+        data["sensors"] = [{**sensor, "type": cell.sensor} for sensor in data.get("sensors", [])]
     if trial.noise_density is not None:
         data["sensors"] = [
             {**sensor, "noise_density_m_per_s2_per_sqrt_Hz": trial.noise_density}
@@ -179,11 +182,15 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
     return read_scene_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
 
 
-def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:
+def _defects(spall: Spall, cell: Cell, seed: int) -> list[dict[str, Any]]:
+    """Write the fault of a run: one patch, three of an irregular spall, or a worn pocket."""
     random = np.random.default_rng(seed)
     row, roller = int(random.integers(2)), int(random.integers(8))
+    if cell.fault == CAGE:
+        worn = {"kind": "worn_pocket", "row": row, "pocket": roller}
+        return [{**worn, "clearance_mm": UNITS["mm"].to_edge(cell.size)}]
     reach = _LOAD_ZONE_DEG if cell.fault == "cup" else 180.0
-    return {
+    patch: dict[str, Any] = {
         "kind": "spall",
         "on": cell.fault,
         "row": row,
@@ -193,17 +200,43 @@ def _spall(spall: Spall, cell: Cell, seed: int) -> dict[str, Any]:
         "length_mm": UNITS["mm"].to_edge(spall.length_per_width * cell.size),
         **({"roller": roller} if cell.fault == "roller" else {}),
     }
+    if cell.shape == "whole":
+        del patch["length_mm"]
+    elif cell.shape in ("round", "irregular"):
+        return [_strip(patch, place, cell.shape, random) for place in range(_STRIPS)]
+    return [patch]
+
+
+def _strip(patch: dict[str, Any], place: int, shape: str, random: np.random.Generator) -> dict[str, Any]:
+    """Write a strip of a spall that is no rectangle: as wide as a circle there, or as chance has it."""
+    across = (2.0 * place - _STRIPS + 1.0) / _STRIPS
+    share = (1.0 - across**2) ** 0.5 if shape == "round" else float(random.uniform(0.4, 1.0))
+    length = patch["length_mm"] if shape == "irregular" else patch["width_mm"]
+    return {
+        **patch,
+        "width_mm": patch["width_mm"] * share,
+        "length_mm": length / _STRIPS,
+        "offset_mm": 0.5 * length * across,
+        "azimuth_deg": patch["azimuth_deg"]
+        + (float(random.uniform(-0.2, 0.2)) if shape == "irregular" else 0.0),
+    }
 
 
 def _corners(trial: Trial) -> list[Cell]:
     """Find runs among which every entry of the matrix stands once, sizes with every fault."""
     first = trial.cells()[0]
-    healthy = Cell(HEALTHY, 0.0, first.speed, first.track, first.wheel, 0, trial.tier)
+    healthy = replace(first, fault=HEALTHY, size=0.0, shape=SLOT, repeat=0, tier=trial.tier, checks=False)
     tiers = dict.fromkeys(cell.tier for cell in trial.cells())
     corners = [replace(healthy, tier=tier) for tier in tiers]
     corners += [replace(healthy, speed=speed) for speed in trial.speeds[1:]]
     corners += [replace(healthy, track=track) for track in trial.tracks[1:]]
     corners += [replace(healthy, wheel=wheel.name) for wheel in trial.wheels[1:]]
+    corners += [replace(healthy, sensor=sensor) for sensor in trial.sensors[1:]]
     ends = (*trial.sizes[:1], *trial.sizes[-1:])
-    corners += [replace(healthy, fault=fault, size=size) for fault in trial.faults for size in ends]
+    corners += [
+        replace(healthy, fault=fault, size=size, shape=shape)
+        for fault in trial.faults
+        for size in ends
+        for shape in ((SLOT,) if fault == CAGE else trial.shapes)
+    ]
     return list(dict.fromkeys(corners))

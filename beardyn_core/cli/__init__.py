@@ -24,6 +24,7 @@ monitor          what a monitor says over a recording
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing
 structure        modes of an axlebox
+trend            levels of many records: `beardyn monitor --trend`
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
 sweep            sets of labelled runs over a population of bearings

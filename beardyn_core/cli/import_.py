@@ -48,6 +48,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from tqdm import tqdm
 
+    from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.writing import write_measured
 
@@ -62,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(problems)
     reading, bearings = found
     try:
-        measured = survey(args.files, reading)
+        measured = with_heard_speed(survey(args.files, reading), bearings)
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems

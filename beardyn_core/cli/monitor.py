@@ -20,6 +20,7 @@ from beardyn_core.cli.measured_options import (
     says_how_to_read,
 )
 from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
+from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole, file_problems
 
@@ -66,6 +67,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_force(parser, "replace the picture when it exists; default refuse")
     add_json(parser)
     add_plates(parser, "default that of the recording")
+    add_trend(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
 
@@ -75,6 +77,10 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.observe.chain import algorithm_named
     from beardyn_core.record.other_messages import is_recording
 
+    if args.trend:
+        return run_trend(args)
+    if args.memory:
+        raise InputError("--memory is that of --trend; give both")
     algorithm = algorithm_named(args.monitor)
     if problems := _picture_problems(args):
         raise InputError(problems)
@@ -149,7 +155,9 @@ def _ending(findings: list[Finding]) -> str:
     if conclusion.verdict != WAITING:
         return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
-    return f"{WAITING}: no analysis; {reason}"
+    short = len(findings) > 1 and "revolutions" in reason
+    many = "; --trend watches the levels of many short records" if short else ""
+    return f"{WAITING}: no analysis; {reason}{many}"
 
 
 def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
@@ -174,7 +182,8 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.choice import scene_from_text
     from beardyn_core.measured.about import Mounted, mounted_in
-    from beardyn_core.study.monitored_recording import results_of
+    from beardyn_core.study.measured_severity import severity_in
+    from beardyn_core.study.monitored_recording import conclude, results_of
 
     path = args.files[0]
     bearings = mounted_of(args)
@@ -190,16 +199,23 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
     if not bearings:
         raise InputError(f"{path}: does not say which bearing it is of; give --bearing")
-    found = {each: _Results() for each in bearings}
-    for each, results in found.items():
+    heard = {each: _Results() for each in bearings}
+    for each, results in heard.items():
         for result in results_of(recording, each.plate, algorithm, sensor=each.sensor):
             results.add(result)
-    return found
+        conclusion = conclude(results.findings)
+        if (
+            not args.json
+            and (found := severity_in(recording, conclusion, each.plate, each.sensor)) is not None
+        ):
+            print(f"beardyn: {each.label}: {found.reason}", file=sys.stderr)
+    return heard
 
 
 def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse measured files, block by block."""
     from beardyn_core.cli.import_ import sensor_problems
+    from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.watching import watch
 
@@ -216,6 +232,7 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
         problems += error.problems
     try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
+        measured = with_heard_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems

@@ -27,10 +27,12 @@ survey        the first pass: rate, range and mistakes of every channel
 telling       how files were understood, in sentences; what is true of many files once
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
 about         what a recording says of where it comes from
+heard_speed   speed from the vibration itself, where no file says it
 stream        vibration and shaft of all files as parts in the order of time
 writing       the same as a recording
 in_memory     the same as a `Run`
 watching      the same through a monitor, without a recording
+trending      levels over many records, and the memory of an alarm
 ============= ===========================================================================
 
 A file is read twice and in blocks: first for its rate and its mistakes, then for its samples. No library of a

@@ -46,7 +46,7 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
         ],
         "sensors": sensors,
         "speed": {
-            "from": speed.kind,
+            "from": speed.kind if survey.heard is None else "vibration",
             "channel": None if speed.channel is None else speed.channel.name,
             "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
         },

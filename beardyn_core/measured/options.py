@@ -16,6 +16,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.measured.units import ACCELERATION, ROTATION, TIME, TRAVEL
 
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": None}
+RPM = ROTATION["rpm"]
 DECIMALS = {"point": ".", "comma": ","}
 
 
@@ -45,6 +46,13 @@ class Reading:
         "constant speed of the vehicle, with the wheel diameter",
     ] = None
     wheel_diameter: A[float | None, At("mm", gt=0.0, ge=100.0, le=3000.0), "over the running tread"] = None
+    speed_range_rpm: A[
+        str,
+        At(),
+        "LOW:HIGH, rough limits of the speed, at most a factor of two apart, between which it is "
+        "found in the "
+        "vibration itself; needs the bearing; default none",
+    ] = ""
     speed_channel: A[
         str, At(), "channel with the speed, or the name of a number in the file; * and ? as above"
     ] = ""
@@ -79,6 +87,7 @@ class Reading:
         ways = {
             "speed_rpm": self.speed is not None,
             "speed_kmh": self.vehicle_speed is not None,
+            "speed_range_rpm": bool(self.speed_range_rpm),
             "speed_channel": bool(self.speed_channel),
             "tacho_channel": bool(self.tacho_channel),
         }
@@ -88,10 +97,25 @@ class Reading:
         travels = self.vehicle_speed is not None or self.speed_unit in TRAVEL
         if travels and self.wheel_diameter is None:
             yield "wheel_diameter_mm is not given; the speed of a vehicle needs it"
+        if self.speed_range_rpm and self.speed_range is None:
+            yield (
+                f"speed_range_rpm is {self.speed_range_rpm!r}; it must be LOW:HIGH such as "
+                "1400:1800, both above 0 "
+                "and at most a factor of two apart"
+            )
         if self.scale == 0.0:
             yield "scale is 0; it must be another number"
         if self.separator == "comma" and self.decimal == "comma":
             yield "separator and decimal are both comma; they must differ"
+
+    @property
+    def speed_range(self) -> tuple[float, float] | None:
+        """Limits between which the speed is sought in the vibration, [rad/s]; ``None`` where it is not."""
+        try:
+            low, high = (float(each) * RPM for each in self.speed_range_rpm.split(":"))
+        except ValueError:
+            return None
+        return (low, high) if 0.0 < low < high <= 2.0 * low else None
 
     @classmethod
     def of(cls, **given: Any) -> Reading:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beardyn_core.arrays import Float, Int
+from beardyn_core.observe.speed import SpeedTrack
 
 _POINTS_PER_TURN = 4.0
 _SLOWEST_GRID = 50.0  # [Hz]
@@ -54,6 +55,29 @@ class Constant:
         angle = np.asarray(self._angle + self._speed * 1e-9 * (time - begin), np.float64)
         self._last, self._angle = end_ns, self._angle + self._speed * span
         return Turned(time, angle, np.full(len(time), self._speed))
+
+
+class Found(Constant):
+    """A shaft whose speed was found in the vibration.
+
+    Parameters
+    ----------
+    track : SpeedTrack
+    """
+
+    def __init__(self, track: SpeedTrack) -> None:
+        super().__init__(2.0 * np.pi * float(track.frequency.max()))
+        self._track = track
+
+    def turn(self, speed: float) -> None:
+        """Keep to the track, whatever a file says."""
+
+    def until(self, begin_ns: int, end_ns: int) -> Turned:
+        """Give points as `Constant.until` does, with the angle of the track."""
+        even = super().until(begin_ns, end_ns)
+        time = np.asarray(even.time_ns * 1e-9, np.float64)
+        speed = 2.0 * np.pi * np.interp(time, self._track.time, self._track.frequency)
+        return Turned(even.time_ns, self._track.angle(time), speed)
 
 
 class Measured:

@@ -12,7 +12,7 @@ import numpy as np
 from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.measured.choice import AXES, Chosen
-from beardyn_core.measured.shaft import Constant, Measured, Pulses, Turned
+from beardyn_core.measured.shaft import Constant, Found, Measured, Pulses, Turned
 from beardyn_core.measured.survey import Survey, Surveyed
 
 PART_S = 0.02
@@ -145,6 +145,8 @@ def _columns(axes: object, names: list[str]) -> tuple[list[int], list[int], Floa
 def _shaft_of(survey: Survey) -> Constant | Measured | Pulses | None:
     chosen: Chosen = survey.files[0].chosen
     speed, reading = chosen.speed, survey.reading
+    if survey.heard is not None:
+        return Found(survey.heard)
     if speed.kind == "constant":
         return Constant(speed.value)
     if speed.channel is None:

@@ -17,6 +17,7 @@ from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
 from beardyn_core.measured.telling import gathered, told
+from beardyn_core.observe.speed import SpeedTrack
 
 _SAME_RATE = 1e-3  # within which two rates are one
 _CONTRADICTS = 1e-2  # beyond which a file that says two rates is refused
@@ -90,6 +91,7 @@ class Survey:
     reading: Reading
     told: tuple[str, ...]
     warnings: tuple[str, ...]
+    heard: A[SpeedTrack | None, "speed found in the vibration itself"] = None
 
     @property
     def sensors(self) -> tuple[str, ...]:
@@ -109,7 +111,7 @@ class Survey:
     @property
     def has_speed(self) -> bool:
         """Whether the speed of the shaft is known."""
-        return self.files[0].chosen.speed.kind != "none"
+        return self.files[0].chosen.speed.kind != "none" or self.heard is not None
 
 
 @dataclass
@@ -163,10 +165,16 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
         files.append(Surveyed(each, tables, begin, begin + round(seconds * 1e9)))
         begin = files[-1].end_ns
     _compare(files, found)
-    if needs_speed and files and all(each.chosen.speed.kind == "none" for each in files):
+    if (
+        needs_speed
+        and reading.speed_range is None
+        and files
+        and all(each.chosen.speed.kind == "none" for each in files)
+    ):
         found.problems.append(
             f"{files[0].chosen.path}: the speed of the shaft is not known, and a monitor needs it; give "
-            "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel, --tacho-channel"
+            "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel, --tacho-channel, or "
+            "--speed-range-rpm to find it in the vibration"
         )
     if found.problems:
         raise InputError(gathered(found.problems, map(Path, paths)))

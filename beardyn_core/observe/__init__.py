@@ -15,6 +15,10 @@ channels      raw signals of the kernel to the channels of a block
 stage_clock   wall time of a run by stage
 features      envelope, order tracking, spectrum, line search
 chain         the reference monitoring algorithm: a stretch of signal to a verdict
+legs          times in which the shaft turns one way, put together
+speed         speed of the shaft from the vibration itself
+trend         levels of many records against the bearing's own baseline
+severity      how wide a spall is, from entry and exit of the rollers
 monitoring    the streaming monitor around an algorithm, and what it is fed with
 labels        labels of a run for learners
 summary       what a run came to: means, losses, torque budget, life

@@ -14,6 +14,7 @@ from beardyn_core.model.heat import BOX_NODE
 from beardyn_core.observe import chain
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain.levels import Levels
+from beardyn_core.observe.legs import turning_legs
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
@@ -165,6 +166,7 @@ class Monitor:
         self._temperatures: list[tuple[int, float]] = []
         self._levels: list[Levels] = []
         self._next_ns: int | None = None
+        self._analysed_ns = -1
 
     def take(self, part: MonitorInput) -> chain.MonitorResult | None:
         """Add the samples of all streams, and give a new result when one is due."""
@@ -261,21 +263,24 @@ class Monitor:
             reason = f"no vibration with shaft angle yet{self._refusals()}"
             return chain.MonitorResult("waiting", reason, last)
         angle = np.interp(time_ns[begin:end], *self._shaft.joined())
-        if angle[-1] < angle[0]:
-            angle = -angle
-        # the last revolutions, from the first sample on after which the window is not exceeded
-        start = int(np.argmax(angle >= angle[-1] - 2.0 * np.pi * self.settings.window_revolutions))
-        self._forget(int(time_ns[begin + start]))
-        angle, acceleration = angle[start:], acceleration[begin + start : end]
-        revolutions = float(angle[-1] - angle[0]) / (2.0 * np.pi)
-        if revolutions < self.settings.least_revolutions or (np.diff(angle) <= 0.0).any():
+        settings = self.settings
+        legs = turning_legs(angle, self.rate, settings.least_revolutions, settings.window_revolutions)
+        # what has been analysed is not analysed again while the shaft stands
+        ended_ns = int(time_ns[begin + legs.last]) if legs.count else last
+        self._forget(int(time_ns[begin + legs.samples.min()]) if legs.count else first)
+        if not legs.count or (legs.ended and ended_ns <= self._analysed_ns):
+            return chain.MonitorResult("waiting", "the shaft stands", last)
+        revolutions, whole = legs.revolutions, legs.count == 1 and not legs.ended
+        least = settings.least_revolutions if whole else settings.least_joined_revolutions
+        if revolutions < least:
             return chain.MonitorResult(
                 "waiting",
-                f"{revolutions:.1f} steady shaft revolutions so far, "
-                f"{self.settings.least_revolutions:g} are needed",
+                f"{revolutions:.1f} shaft revolutions so far, {least:g} are needed",
                 last,
                 revolutions=revolutions,
             )
+        self._analysed_ns = ended_ns
+        acceleration, angle = acceleration[begin + legs.samples], legs.angle
         load_time, load = self._load.joined()
         load = load[load_time <= last]
         stretch = chain.Stretch(

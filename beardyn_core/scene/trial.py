@@ -18,6 +18,9 @@ from beardyn_core.scene.scatter import GRADES
 
 HEALTHY = "none"
 FAULTS = ("cup", "cone", "roller")
+CAGE = "cage"
+SLOT = "slot"
+SHAPES = (SLOT, "whole", "round", "irregular")
 TIERS = ("lumped", "quasistatic", "full")
 REPEATS = At(ge=1, le=1000)
 
@@ -47,21 +50,25 @@ class Spall:
 class Cell:
     """One run of a trial."""
 
-    fault: A[str, "``none``, or the part that is spalled"]
-    size: A[float, "width of the spall, 0 without, [m]"]
+    fault: A[str, "``none``, or the part that is spalled or worn"]
+    size: A[float, "width of the spall, or wear of the pocket, 0 without, [m]"]
     speed: A[float, "of the train, [m/s]"]
     track: str
     wheel: str
     repeat: A[int, "which of the runs that differ by their seed alone"]
     tier: str
     checks: A[bool, "whether it repeats a run of the matrix in the tier of the check"] = False
+    shape: A[str, "of the spall, one of `SHAPES`"] = SLOT
+    sensor: A[str, "kind of the accelerometers; '' that of the scene"] = ""
 
     @property
     def conditions(self) -> str:
         """Conditions of the run in words, without its tier."""
+        shape = "" if self.shape == SLOT else f"{self.shape}, "
+        sensor = f"{self.sensor}, " if self.sensor else ""
         return (
-            f"{self.fault} {1e3 * self.size:g} mm, {3.6 * self.speed:g} km/h, {self.track}, {self.wheel}, "
-            f"run {self.repeat}"
+            f"{self.fault} {1e3 * self.size:g} mm, {shape}{3.6 * self.speed:g} km/h, {self.track}, "
+            f"{self.wheel}, {sensor}run {self.repeat}"
         )
 
     @property
@@ -116,10 +123,23 @@ class Trial:
     noise_density: A[
         float | None, At("m_per_s2_per_sqrt_Hz", ge=0.0), "of every accelerometer; the scene's when left out"
     ] = None
-    faults: A[tuple[str, ...], At(one_of=FAULTS), "parts that are spalled; none: sound bearings only"] = (
-        FAULTS
-    )
-    sizes: A[tuple[float, ...], At("mm", gt=0.0, le=100.0), "widths of the spalls"] = ()
+    faults: A[
+        tuple[str, ...],
+        At(one_of=(*FAULTS, CAGE)),
+        "parts that are spalled, or cage: a worn pocket; none: sound bearings only",
+    ] = FAULTS
+    sizes: A[
+        tuple[float, ...], At("mm", gt=0.0, le=100.0), "widths of the spalls, or wear of the pocket"
+    ] = ()
+    shapes: A[
+        tuple[str, ...],
+        At(one_of=SHAPES),
+        "of the spalls: slot as long as spall says, whole contact, round, or irregular, both of three strips "
+        "side by side; a worn pocket has none",
+    ] = (SLOT,)
+    sensors: A[
+        tuple[str, ...], At(longest=80), "kinds of the accelerometers; that of the scene when left out"
+    ] = ()
     spall: A[Spall, "how a spall of a width looks"] = Spall()
     speeds: A[
         tuple[float, ...], At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True), "of the train"
@@ -139,12 +159,16 @@ class Trial:
         lists = {
             "faults": self.faults,
             "sizes_mm": self.sizes,
+            "shapes": self.shapes,
+            "sensors": self.sensors,
             "speeds_kmh": self.speeds,
             "tracks": self.tracks,
         }
         for key, values in lists.items():
             if len(set(values)) < len(values):
                 yield f"{key} has an entry twice; each must stand once"
+        if not self.shapes:
+            yield f"shapes is empty; it must have one of {', '.join(SHAPES)}"
         if self.faults and not self.sizes:
             yield "sizes_mm is missing; with faults it must have a width"
         names = [wheel.name for wheel in self.wheels]
@@ -172,12 +196,19 @@ class Trial:
 
     def cells(self) -> tuple[Cell, ...]:
         """List all runs, those of the check last."""
-        loads = [(HEALTHY, 0.0, self.healthy_repeats)]
-        loads += [(fault, size, self.repeats) for fault in self.faults for size in self.sizes]
+        loads = [(HEALTHY, 0.0, SLOT, self.healthy_repeats)]
+        loads += [
+            (fault, size, shape, self.repeats)
+            for fault in self.faults
+            for size in self.sizes
+            for shape in ((SLOT,) if fault == CAGE else self.shapes)
+        ]
         own = tuple(
-            Cell(fault, size, speed, track, wheel.name, repeat, self.tier)
-            for fault, size, repeats in loads
-            for repeat, speed, track, wheel in product(range(repeats), self.speeds, self.tracks, self.wheels)
+            Cell(fault, size, speed, track, wheel.name, repeat, self.tier, shape=shape, sensor=sensor)
+            for fault, size, shape, repeats in loads
+            for repeat, speed, track, wheel, sensor in product(
+                range(repeats), self.speeds, self.tracks, self.wheels, self.sensors or ("",)
+            )
         )
         if self.check is None:
             return own

@@ -10,6 +10,7 @@ monitor_picture     the envelope spectrum behind the verdicts of a monitor
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
+measured_severity   how wide the spall is that a monitor found in a run
 code_digest         hashes of the code of a monitor and of the simulator
 compiling           kernels compiled once on a machine, whatever processes want them
 trial               its runs with a monitor beside each, kept and taken up again

@@ -44,13 +44,13 @@ class TrialRun:
     scores: A[tuple[float, ...], "of cup, cone and roller, medians over the analyses, [dB]"]
     threshold: A[float, "of the part that led, median, [dB]"]
     shaft_frequency: A[float, "[Hz]"]
-    status: A[str, "``complete``, or how the run left the model's validity"]
+    status: A[str, "``complete``, or why the run or its monitor did not come to the end"]
     wall: A[float, "simulating and monitoring, [s]"]
     called: A[tuple[str, ...], "the sentence and the band of every analysis that called a fault"] = ()
 
     @property
     def complete(self) -> bool:
-        """Whether the run came to its end inside the model's validity."""
+        """Whether the run came to its end."""
         return self.status == VALID
 
     @classmethod
@@ -76,8 +76,8 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
     monitor = Monitor(orders, count, settings=settings, algorithm=chosen)
     try:
         results, status = results_over(scene, monitor)
-    except InputError as error:
-        raise InputError([f"{cell.key}: {problem}" for problem in error.problems]) from error
+    except InputError as error:  # of the monitor: the other runs go on
+        results, status = [], "; ".join(error.problems)
     judged = [result for result in results if result.verdict != WAITING]
     return TrialRun(
         key=cell.key,

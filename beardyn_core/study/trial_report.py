@@ -36,6 +36,8 @@ def slices(result: TrialResult) -> list[tuple[str, Where]]:
         *((f"{3.6 * speed:g} km/h", within("speed", speed)) for speed in trial.speeds),
         *((track, within("track", track)) for track in trial.tracks),
         *((f"{wheel.name} wheel", within("wheel", wheel.name)) for wheel in trial.wheels),
+        *((f"{shape} spalls", within("shape", shape)) for shape in trial.shapes if len(trial.shapes) > 1),
+        *((sensor, within("sensor", sensor)) for sensor in trial.sensors),
     ]
 
 
@@ -70,7 +72,7 @@ def _lines(result: TrialResult) -> Iterator[str]:
         f"{len(result.runs) - faulty} without; {trial.revolutions:g} revolutions each; seed {trial.seed}"
     )
     if result.invalid:
-        yield f"{len(result.invalid)} runs left the model's validity and count nowhere, such as:"
+        yield f"{len(result.invalid)} runs did not come to their end and count nowhere, such as:"
         yield f"  {result.invalid[0][0].key}: {result.invalid[0][1].status}"
     yield ""
     if trial.faults:

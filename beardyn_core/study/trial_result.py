@@ -99,7 +99,7 @@ class TrialResult:
 
     @property
     def invalid(self) -> tuple[tuple[Cell, TrialRun], ...]:
-        """Runs that left the model's validity; no rate counts them."""
+        """Runs that left the model's validity, or whose monitor failed; no rate counts them."""
         return tuple(pair for pair in (*self.runs, *self.checks) if not pair[1].complete)
 
     def false_alarms(self, where: Where = everywhere) -> Rate:
@@ -129,7 +129,7 @@ class TrialResult:
         for fault, size in product(self.trial.faults, self.trial.sizes):
             pairs = [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size) and r.complete]
             wrong = sum(run.verdict in PARTS and run.verdict != fault for _, run in pairs)
-            scores = _spread([own_score(cell, run) for cell, run in pairs])
+            scores = _spread([own_score(cell, run) for cell, run in pairs] if fault in PARTS else [])
             rows.append(SizeRow(fault, size, detection(pairs), wrong, scores))
         return rows
 
@@ -179,8 +179,8 @@ def detection(pairs: Pairs) -> Rate:
 
 
 def own_score(cell: Cell, run: TrialRun) -> float:
-    """Score of the part that is spalled, [dB]."""
-    return run.scores[PARTS.index(cell.fault)]
+    """Score of the part that is spalled, NaN of a cage, which has none, [dB]."""
+    return run.scores[PARTS.index(cell.fault)] if cell.fault in PARTS else nan
 
 
 def _chosen(pairs: Pairs, where: Callable[[Cell], bool]) -> list[tuple[Cell, TrialRun]]:

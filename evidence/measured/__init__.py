@@ -1,11 +1,13 @@
-"""The monitor on measured records: what it says of each, beside two plain methods.
+"""What the monitor says of measured data: faults record by record, runs to failure, widths of spalls.
 
-========= =====================================================================
-module    responsibility
-========= =====================================================================
-cases     the records: faulty part, bearing, speed, and how they are read
-grades    how well the faults can be diagnosed at all, as published
-run       monitors over the records, and what is right, wrong or missed
-page      docs/monitor_measured.md
-========= =====================================================================
+============== ===================================================================
+module         responsibility
+============== ===================================================================
+cases          the records: faulty part, bearing, speed, and how they are read
+grades         how well the faults can be diagnosed at all, as published
+run            monitors over the records, and what is right, wrong or missed
+page           docs/monitor_measured.md
+run_to_failure docs/run_to_failure.md: when the trend alarms
+spall_width    docs/spall_width.md: widths found, of known ones
+============== ===================================================================
 """

@@ -85,6 +85,9 @@ ros2 run beardyn monitor --ros-args -p algorithm:=my_monitor:chain
 LIMITS = """
 ## What it does not say
 
+- **Other matrices**: `healthy_500` has 504 sound bearings under three kinds of sensors, `shapes` spalls that
+  are slots, whole contacts, round and irregular, `cage` worn pockets, which no verdict names. A monitor that
+  fails costs its run and no other: the sentence with file and line stands in the result.
 - **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
   as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of
   another shape may be quieter.
@@ -227,7 +230,7 @@ def _invalid(found: dict[str, Any]) -> list[str]:
     first = found["invalid"][0]
     return [
         "",
-        f"{len(found['invalid'])} runs left the model's validity and count nowhere, such as "
+        f"{len(found['invalid'])} runs did not come to their end and count nowhere, such as "
         f"{first['run']}: {first['status']}",
     ]
 

@@ -30,7 +30,7 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     ]
     assert "- cup: 6 mm (6 mm to beyond the largest)" in text
     assert "## `quasistatic` against `full`" in text
-    assert "left the model's validity" not in text
+    assert "did not come to their end" not in text
 
 
 def test_a_spall_adds_its_own_power() -> None:

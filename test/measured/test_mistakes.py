@@ -83,7 +83,8 @@ def test_options_that_cannot_be_are_told_all_at_once(tmp_path: Path) -> None:
     with pytest.raises(bd.InputError) as caught:
         bd.read_measured(tmp_path / "none.csv", speed_rpm=100, speed_kmh=80, scale=0.0)
     assert [each.partition(": ")[2] for each in caught.value.problems] == [
-        "speed_rpm and speed_kmh are given; give one of speed_rpm, speed_kmh, speed_channel, tacho_channel",
+        "speed_rpm and speed_kmh are given; give one of speed_rpm, speed_kmh, speed_range_rpm, "
+        "speed_channel, tacho_channel",
         "wheel_diameter_mm is not given; the speed of a vehicle needs it",
         "scale is 0; it must be another number",
     ]

@@ -20,7 +20,7 @@ from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
 from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs, run_digest
-from beardyn_core.study.trial_report import json_object, table
+from beardyn_core.study.trial_report import json_object, slices, table
 from beardyn_core.study.trial_result import Rate, TrialResult
 
 
@@ -98,6 +98,56 @@ def test_a_trial_of_sound_bearings_has_no_fault_and_a_sensor_of_its_own() -> Non
     result = TrialResult.of(trial, "", [alarm])
     assert f"  {cells[0].key}: cup fault: 56 Hz" in table(result).splitlines()
     assert json_object(result)["alarms"] == [{"run": cells[0].key, "called": ["cup fault: 56 Hz"]}]
+
+
+def test_shapes_and_sensors_are_runs_of_their_own() -> None:
+    trial = load_trial("shapes")
+    cells = trial.cells()
+    assert len({cell.key for cell in cells}) == len(cells)
+    seen = {}
+    for cell in cells:
+        if cell.fault == "cup" and cell.size == 0.004 and cell.sensor == "mems_50g":
+            seen[cell.shape] = trial_scene(trial, cell)
+    assert set(seen) == {"slot", "whole", "round", "irregular"}
+    assert {scene.sensors[0].noise_density for scene in seen.values()} == {2.45e-4}
+    patches = {shape: scene.defects for shape, scene in seen.items()}
+    effective = seen["whole"].bearing.effective_length
+    assert patches["whole"][0].length == pytest.approx(effective)  # type: ignore[union-attr]
+    assert patches["slot"][0].length == pytest.approx(0.008)  # type: ignore[union-attr]
+    widths = [patch.width for patch in patches["round"]]  # type: ignore[union-attr]
+    assert widths == pytest.approx([0.004 * (1.0 - (2.0 / 3.0) ** 2) ** 0.5, 0.004, widths[0]])
+    lengths = [patch.length for patch in patches["round"]]  # type: ignore[union-attr]
+    assert sum(lengths) == pytest.approx(0.004)
+    assert len({patch.width for patch in patches["irregular"]}) == 3  # type: ignore[union-attr]
+    names = [name for name, _ in slices(TrialResult.of(trial, "", []))]
+    assert {"whole spalls", "mems_50g"} <= set(names)
+
+
+def test_a_monitor_that_fails_costs_no_other_run(monkeypatch: pytest.MonkeyPatch, quick: Trial) -> None:
+    one, other = quick.cells()[:2]
+
+    def fails(*_: object) -> None:
+        raise InputError("the monitor mine:chain has failed: KeyError: 'x', mine.py, line 3, in chain")
+
+    monkeypatch.setattr(trial_module, "results_over", fails)
+    failed = conduct_run(quick, one, "", "d")
+    assert failed.status.endswith("mine.py, line 3, in chain")
+    result = TrialResult.of(quick, "", [failed, run_of(other, "healthy")])
+    assert result.false_alarms().total == 1
+    assert f"  {one.key}: {failed.status}" in table(result).splitlines()
+
+
+def test_five_hundred_sound_bearings_and_worn_pockets_can_be_put_on_trial() -> None:
+    cells = load_trial("healthy_500").cells()
+    assert {cell.fault for cell in cells} == {HEALTHY}
+    assert len(cells) >= 500
+    trial = load_trial("cage")
+    worn = next(cell for cell in trial.cells() if cell.fault == "cage")
+    assert trial_scene(trial, worn).defects[0].on == "cage"
+    result = TrialResult.of(trial, "", [run_of(worn, "healthy")])
+    assert result.detection().count == 0
+    assert result.detection().total == 1
+    assert "cage" in table(result)
 
 
 BAD = """trial: bad

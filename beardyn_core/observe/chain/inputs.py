@@ -120,6 +120,9 @@ class MonitorSettings:
     ] = ((1600.0, 3200.0), (3200.0, 6400.0), (6400.0, 12_800.0))
     window_revolutions: A[float, "shaft revolutions in one analysis; 60 are some 25 of the cage, [-]"] = 60.0
     least_revolutions: A[float, "shaft revolutions before the first verdict, [-]"] = 15.0
+    least_joined_revolutions: A[
+        float, "and where the shaft has stopped or turned round, so that no longer stretch comes, [-]"
+    ] = 6.0
     longest_window: A[float, "the window at slow speed, [s]"] = 20.0
     interval: A[float, "time between two analyses, [s]"] = 0.5
     samples_per_revolution: A[int, "angular grid of the order tracking"] = 1024

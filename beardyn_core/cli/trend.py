@@ -1,0 +1,81 @@
+"""``beardyn monitor --trend``: levels over many records against the bearing's own baseline."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.measured_options import reading_of
+from beardyn_core.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.observe.trend import TrendPoint
+
+_KEYS = {"time": "time_s", "rise": "rise_dB", "since": "since_s"}
+
+
+def add_trend(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
+    group = parser.add_argument_group("trend", "records of a bearing over its life, however short")
+    group.add_argument(
+        "--trend",
+        action="store_true",
+        help="watch the levels of many records against the baseline of the first ones, and alarm; needs "
+        "neither speed nor bearing",
+    )
+    group.add_argument(
+        "--memory",
+        metavar="FILE",
+        type=Path,
+        help="of --trend: go on from this JSON file if it is there, and write it for the records to come; "
+        "default none",
+    )
+
+
+def run_trend(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    from beardyn_core.measured.survey import survey
+    from beardyn_core.measured.trending import remember, remembered, trend_of
+    from beardyn_core.observe.trend import Trend
+
+    if args.bearing:
+        raise InputError("--bearing: --trend watches levels and needs no bearing; leave one of both out")
+    measured = survey(args.files, reading_of(args))
+    trend = (remembered(args.memory) if args.memory else None) or Trend(
+        tuple(sorted(measured.files[0].chosen.sensors[0].axes))
+    )
+    for sentence in measured.warnings:
+        print(f"beardyn: warning: {sentence}", file=sys.stderr)
+    points = list(trend_of(measured, trend=trend))
+    if args.memory:
+        remember(trend, args.memory)
+    if args.json:
+        found = renamed([asdict(each) for each in points], _KEYS)
+        print(json_text("monitor", {"files": args.files, "trend": found}))
+        return 0
+    earlier = ""
+    for each in points:
+        if each.state != earlier:
+            print(f"{each.time:10.1f} s  {each.state:8} {_sentence(each)}")
+        earlier = each.state
+    print(_ending(points, trend.records, trend.settings.baseline))
+    return 0
+
+
+def _sentence(point: TrendPoint) -> str:
+    return f"{point.level} is {point.rise:+.1f} dB over its baseline" if point.level else "no baseline yet"
+
+
+def _ending(points: list[TrendPoint], records: int, needed: int) -> str:
+    """Sum up the trend."""
+    if not points:
+        return "learning: no record is long enough"
+    last = points[-1]
+    if not last.level:
+        return f"learning: {records} of the {needed} records of the baseline"
+    since = f" since {last.since:.1f} s" if last.state == "alarm" else ""
+    return f"{last.state}{since}: {_sentence(last)}, {records} records"

@@ -1,0 +1,97 @@
+"""Speed of the shaft from the vibration of measured files that do not say it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.errors import InputError
+from beardyn_core.measured.about import Mounted
+from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.survey import Survey
+from beardyn_core.observe.monitoring import measured_axes
+from beardyn_core.observe.speed import SpeedTrack, speed_from_vibration
+
+PIECE_S = 10.0  # of vibration that is searched at a time
+_RPM = 60.0  # of a hertz
+
+
+def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
+    """Find the speed in the vibration of the first accelerometer, where it was asked for.
+
+    Raises
+    ------
+    InputError
+        No bearing is known, whose lines tell the shaft's from others; or the speed is not certain.
+    """
+    limits = survey.reading.speed_range
+    if limits is None or survey.has_speed:
+        return survey
+    path = survey.files[0].chosen.path
+    if not bearings:
+        raise InputError(
+            f"{path}: the speed of the shaft is sought in the vibration (--speed-range-rpm); that "
+            "needs the bearing: "
+            "give --bearing"
+        )
+    orders = tuple(dict.fromkeys(each.plate.frequencies for each in bearings))
+    rate, times, found = survey.rate(survey.sensors[0]), [], []
+    for begin, acceleration in _pieces(survey, rate):
+        low, high = (each / (2.0 * np.pi) for each in limits)
+        track = speed_from_vibration(acceleration, rate, low, high, orders)
+        if not track.certain:
+            raise InputError(
+                f"{path}: the speed of the shaft is not known, and from {begin:.3g} s on "
+                f"{track.reason}; give one "
+                "of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel, --tacho-channel"
+            )
+        times.append(begin + track.time)
+        found.append(track)
+    if not found:
+        raise InputError(f"{path}: is too short to find the speed of the shaft in its vibration")
+    whole = SpeedTrack(
+        np.concatenate(times),
+        np.concatenate([track.frequency for track in found]),
+        np.concatenate([track.deviation for track in found]),
+        min(track.evidence for track in found),
+        min(track.share for track in found),
+        True,
+        found[0].reason,
+    )
+    slowest, fastest = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
+    doubt = _RPM * 1.96 * float(whole.deviation.max())
+    told = (
+        f"{path}: the vibration says that the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
+        f"give or take {doubt:.3g}"
+    )
+    return replace(survey, heard=whole, told=(*survey.told, told))
+
+
+def _pieces(survey: Survey, rate: float) -> Iterator[tuple[float, Float]]:
+    """Give begin [s] and vibration of pieces without a gap; a short rest belongs to the piece before."""
+    parts: list[Heard] = []
+    count = 0
+    for part in Stream(survey):
+        if not isinstance(part, Heard) or part.sensor != survey.sensors[0]:
+            continue
+        gap = bool(parts) and part.sample != parts[-1].sample + len(parts[-1].time_ns)
+        if parts and (gap or count >= PIECE_S * rate):
+            yield _joined(parts)
+            parts, count = ([] if gap else parts[-_tail(parts, rate) :]), 0
+            count = sum(len(each.time_ns) for each in parts)
+        parts.append(part)
+        count += len(part.time_ns)
+    if parts:
+        yield _joined(parts)
+
+
+def _tail(parts: list[Heard], rate: float) -> int:
+    """Count the parts of the last third, with which the next piece begins: no piece is a short rest."""
+    return max(1, int(PIECE_S * rate / 3.0 / max(1, len(parts[-1].time_ns))))
+
+
+def _joined(parts: list[Heard]) -> tuple[float, Float]:
+    return parts[0].time_ns[0] * 1e-9, measured_axes(np.concatenate([part.acceleration for part in parts]))

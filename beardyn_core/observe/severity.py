@@ -1,0 +1,191 @@
+"""Severity: how wide a spall is that was found, from the two events of a roller that enters and leaves it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite, nan, pi
+from typing import Annotated as A
+from typing import NamedTuple
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.name_plate import NamePlate
+
+NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
+# a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]
+ENTRY_AND_EXIT = 1.1e-3
+_LEAST_ROLLER = 15e-3  # of a roller for which that was found, [m]
+_DEVELOPED_FROM = 4e-3  # [m]
+_SEVERE_SHARE = 0.5  # of the distance of two rollers
+# half of the 95 % interval: of the relation and the sampling, and of the way
+_DOUBT, _RELATIVE_DOUBT = 0.4e-3, 0.04
+_LOWEST, _HIGHEST_SHARE = 1500.0, 0.45  # of the band, [Hz] and of the sampling rate
+_LEAST_PASSAGES = 40
+_PROFILE = 256  # steps of a passage
+_BEFORE, _WITH = 0.35, 0.8  # of a passage: how long before its loudest place, how long in all
+_BESIDE, _WITHOUT = 0.5, 0.35  # the same of the part that has no event
+_SPECTRUM, _CEPSTRUM = 4096, 8192
+# of the part without an event, over that of the passage: how uneven its spectrum is; else it is noise alone
+_LEAST_STRUCTURE = 0.5
+_SHORTEST_WAY = 0.6e-3  # [m]
+_SHORTEST_S = 0.32e-3  # between two events; what modes of a box leave beats faster
+_SEARCHED = 0.45  # of a passage
+_LONGEST_SHARE = 0.3  # of a passage: a longer way needs more than there is between two passages
+_STANDS_OUT = 4.0  # times the median of the cepstrum
+_CLEAR = 1.25  # times the next peak that is no multiple
+_MULTIPLE = 0.12  # within which a peak is twice another, relative
+
+
+@dataclass(frozen=True)
+class Severity:
+    """How much a fault matters, beside that there is one."""
+
+    grade: A[str, "``incipient``, ``developed``, ``severe``, or ``not measurable``"]
+    width: A[float, "of the spall in rolling direction, NaN where not measurable, [m]"]
+    low: A[float, "lower end of its 95 % interval, [m]"]
+    high: A[float, "upper end, [m]"]
+    reason: A[str, "the same in a sentence"]
+
+
+class _Events(NamedTuple):
+    """Cepstrum of the passages over a fault."""
+
+    way: Float  # shape [line], [m]
+    height: Float  # shape [line]
+    shortest: float  # that the modes of a box are not taken for, [m]
+    longest: float  # [m]
+
+
+def severity_of(
+    acceleration: Float, rate: float, shaft_angle: Float, fault: str, order: float, plate: NamePlate
+) -> Severity:
+    """Measure a spall of the cup or the cone.
+
+    Parameters
+    ----------
+    acceleration : float64 array, shape [sample, axis]
+        Of a stretch in which the shaft turns steadily, [m/s^2].
+    rate : float
+        [Hz].
+    shaft_angle : float64 array, shape [sample]
+        Increasing, [rad].
+    fault : str
+        ``cup`` or ``cone``; of a roller nothing is measured.
+    order : float
+        Passages of the fault per revolution of the shaft, as found, [-].
+    plate : NamePlate
+
+    Notes
+    -----
+    Entry and exit strike the same structure twice, so the logarithm of the mean spectrum of a passage has a
+    ripple of one over the time between; in its cepstrum that is a peak at this time. What the structure
+    itself has of peaks is in the part of the passage without an event, too, and is taken away; so the noise
+    of rolling must show the structure there, else nothing is measured: a mode would be taken for a second
+    event. The time over that of a passage is the way over the distance of two rollers on the raceway, at
+    any speed.
+
+    The width is the way and 1.1 mm: a roller gives up its load 0.6 mm behind the leading edge and takes it up
+    as much before the trailing one, over spalls from 3 mm on (docs/impact.md). Smaller ones make one event.
+    A spall from 4 mm on is *developed*, one wider than half of the distance of two rollers *severe*. Both
+    limits are assumed: which size a vehicle may run with is its keeper's to say.
+
+    References
+    ----------
+    Sawalhi, Randall (2011), Vibration response of spalled rolling element bearings, Mech. Syst. Signal
+    Process. 25: the two events, pre-whitening and the cepstrum of them.
+    """
+    if fault not in ("cup", "cone"):
+        return _unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
+    if plate.roller_diameter < _LEAST_ROLLER:
+        return _unmeasured(
+            f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "
+            "mm on, not of "
+            f"{1e3 * plate.roller_diameter:.3g} mm"
+        )
+    sign = 1.0 if fault == "cup" else -1.0
+    across = sign * plate.roller_diameter * float(np.cos(plate.contact_angle))
+    spacing = pi * (plate.pitch_diameter + across) / plate.roller_count
+    events = _events(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
+    if events is None:
+        return _unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
+    way = _clear_peak(events)
+    if not isfinite(way):
+        return _unmeasured(
+            "no second event stands out: a small spall, one that is worn round, or a noisy sensor"
+        )
+    width, doubt = way + ENTRY_AND_EXIT, _DOUBT + _RELATIVE_DOUBT * way
+    severe = _SEVERE_SHARE * spacing
+    grade = INCIPIENT if width < _DEVELOPED_FROM else DEVELOPED if width < severe else SEVERE
+    low, high = width - doubt, width + doubt
+    return Severity(
+        grade, width, low, high,
+        f"{grade}: {1e3 * width:.1f} mm wide ({1e3 * low:.1f} to {1e3 * high:.1f}), entry and exit are "
+        f"{1e3 * way:.1f} mm apart; developed from {1e3 * _DEVELOPED_FROM:g} mm, severe from "
+        f"{1e3 * severe:.0f} mm",
+    )  # fmt: skip
+
+
+def _unmeasured(reason: str) -> Severity:
+    return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
+
+
+def _events(acceleration: Float, rate: float, passed: Float, spacing: float) -> _Events | None:
+    """Compute the cepstrum of passages, less that of their parts without an event; `passed` counts them."""
+    count = len(acceleration)
+    lines, frequency = np.fft.rfft(acceleration, axis=0), np.fft.rfftfreq(count, 1.0 / rate)
+    high = _HIGHEST_SHARE * rate
+    inside = (frequency > _LOWEST) & (frequency < high)
+    heard = np.fft.irfft(lines * inside[:, None], count, axis=0)
+    first, last = int(passed[0]) + 1, int(passed[-1]) - 1
+    if last - first < _LEAST_PASSAGES:
+        return None
+    place = (passed % 1.0 * _PROFILE).astype(int)
+    power = np.bincount(place, weights=np.sum(heard**2, axis=1), minlength=_PROFILE)
+    loudest = float(power.argmax()) / _PROFILE
+    period = float(np.median(np.diff(np.interp(np.arange(first, last), passed, np.arange(count)))))
+
+    def mean_logarithm(begin: float, share: float) -> Float:
+        starts = np.interp(np.arange(first, last) + loudest + begin, passed, np.arange(count)).astype(int)
+        length = int(share * period)
+        ramp = np.sin(0.5 * pi * np.arange(max(2, length // 8)) / max(2, length // 8)) ** 2
+        window = np.ones(length)
+        window[: len(ramp)], window[-len(ramp) :] = ramp, ramp[::-1]
+        parts = [heard[s : s + length] * window[:, None] for s in starts if s >= 0 and s + length <= count]
+        spectra = (np.abs(np.fft.rfft(part, _SPECTRUM, axis=0)) ** 2 for part in parts)
+        return np.asarray(np.mean([np.log(each + 1e-12) for each in spectra], axis=0))
+
+    struck, quiet = mean_logarithm(-_BEFORE, _WITH), mean_logarithm(_BESIDE, _WITHOUT)
+    ripple = struck - quiet
+    frequency = np.fft.rfftfreq(_SPECTRUM, 1.0 / rate)
+    inside = (frequency > 1.5 * _LOWEST) & (frequency < high)
+    kept, at = ripple[inside], frequency[inside] / rate
+    if np.std(quiet[inside]) < _LEAST_STRUCTURE * np.std(struck[inside]):
+        return _Events(np.empty(0), np.empty(0), 0.0, 0.0)
+    trend = np.vander(at, 5)
+    kept = kept - trend @ np.linalg.lstsq(trend, kept, rcond=None)[0]
+    cepstrum = np.abs(np.fft.fft(kept * np.hanning(len(kept))[:, None], _CEPSTRUM, axis=0)).sum(axis=1)
+    way = np.arange(_CEPSTRUM) * _SPECTRUM / _CEPSTRUM / period * spacing
+    wanted = (way > _SHORTEST_WAY) & (way < _SEARCHED * spacing)
+    return _Events(
+        way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing, _LONGEST_SHARE * spacing
+    )
+
+
+def _clear_peak(events: _Events) -> float:
+    """Find the peak that is clear of the others, NaN without one, [m]."""
+    height = events.height
+    if len(height) < 3:
+        return nan
+    top = np.flatnonzero((height[1:-1] > height[:-2]) & (height[1:-1] >= height[2:])) + 1
+    if not len(top):
+        return nan
+    best = int(top[height[top].argmax()])
+    way = float(events.way[best])
+    others = [
+        float(height[k]) for k in top if k != best and abs(events.way[k] / (2.0 * way) - 1.0) > _MULTIPLE
+    ]
+    clear = height[best] > _STANDS_OUT * np.median(height) and height[best] > _CLEAR * max(
+        others, default=0.0
+    )
+    return way if clear and events.shortest <= way <= events.longest else nan

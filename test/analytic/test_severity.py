@@ -1,0 +1,66 @@
+"""The width of a spall follows from its two events, and is not measurable where there is one."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.observe.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_of
+
+RATE = 25_600.0
+PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitch_diameter=185e-3)
+SPACING = {"cup": np.pi * (185e-3 + 26.7e-3) / 17, "cone": np.pi * (185e-3 - 26.7e-3) / 17}
+
+
+def _passages(fault, width, speed=19.0, seed=1, seconds=2.0, rolling=0.05):
+    """Two strikes a passage, the way of a spall apart, and rolling noise, through three modes."""
+    random = np.random.default_rng(seed)
+    time = np.arange(int(seconds * RATE)) / RATE
+    angle = 2 * np.pi * speed * time
+    order = PLATE.frequencies.bpfo if fault == "cup" else PLATE.frequencies.bpfi
+    passage = np.arange(1, int(speed * order * seconds) - 1) / (speed * order)
+    impulses = np.zeros(len(time))
+    ways = [0.0] if width is None else [0.0, (width - ENTRY_AND_EXIT) / SPACING[fault]]
+    for way, strength in zip(ways, (0.8, -1.0)[: len(ways)], strict=True):
+        at = (passage + way / (speed * order)) * RATE
+        whole = at.astype(int)
+        np.add.at(impulses, whole, strength * (1.0 - (at - whole)))
+        np.add.at(impulses, whole + 1, strength * (at - whole))
+    impulses += rolling * random.normal(size=len(time))
+    signal = np.zeros(len(time))
+    for frequency, damping in ((2300.0, 0.1), (5200.0, 0.08), (8300.0, 0.06)):
+        pole = np.exp(2 * np.pi * frequency * (-damping + 1j) / RATE)
+        signal += lfilter([1.0], [1.0, -2 * pole.real, abs(pole) ** 2], impulses)
+    signal += 0.01 * signal.std() * random.normal(size=len(time))
+    return signal[:, None], angle, order
+
+
+@pytest.mark.parametrize("fault", ["cup", "cone"])
+@pytest.mark.parametrize("width", [3e-3, 5e-3, 8e-3, 12e-3])
+def test_width_follows_from_entry_and_exit(fault, width):
+    signal, angle, order = _passages(fault, width)
+    found = severity_of(signal, RATE, angle, fault, order, PLATE)
+    if (
+        found.grade == NOT_MEASURABLE
+    ):  # ways beyond three tenths of the distance of two rollers, or faint ones
+        assert fault == "cone"
+        assert width > 5e-3
+        return
+    assert found.low <= width <= found.high
+    assert found.width == pytest.approx(width, abs=0.3e-3)
+    assert found.grade == (
+        "incipient" if width < 4e-3 else "severe" if width > 0.5 * SPACING[fault] else "developed"
+    )
+
+
+def test_one_event_noise_and_rollers_are_not_measurable():
+    signal, angle, order = _passages("cup", None)
+    assert severity_of(signal, RATE, angle, "cup", order, PLATE).grade == NOT_MEASURABLE
+    bare, angle, order = _passages("cup", None, rolling=0.0)
+    assert severity_of(bare, RATE, angle, "cup", order, PLATE).grade == NOT_MEASURABLE
+    noise = np.random.default_rng(2).normal(size=signal.shape)
+    assert "no second event" in severity_of(noise, RATE, angle, "cup", order, PLATE).reason
+    assert "not on roller" in severity_of(signal, RATE, angle, "roller", order, PLATE).reason
+    assert "fewer than" in severity_of(signal[:3000], RATE, angle[:3000], "cup", order, PLATE).reason
+    small = NamePlate(name="6205", roller_count=9, roller_diameter=7.94e-3, pitch_diameter=39.04e-3)
+    assert "of rollers from 15 mm on" in severity_of(signal, RATE, angle, "cup", order, small).reason
