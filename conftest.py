@@ -36,6 +36,8 @@ LONG_FILES = (
     "test/choice/test_choose.py",
     "test/ros/test_several_axleboxes.py",
     "test/ros/test_nothing_lost.py",
+    "test/population/test_sweeping.py",
+    "test/engine/test_engine.py",
     "test/analytic/test_dynamics_steady.py",
     "test/analytic/test_missing_rollers.py",
     "evidence/hard/test_hard.py",

@@ -18,12 +18,15 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
+SWEEP = ["pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
+TORCH = ["torch>=2.2"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
 TEST = [
     *DATA,
     *STRUCTURE,
     *MEASURED,
+    *SWEEP,
     "hypothesis>=6.100",
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
@@ -77,6 +80,7 @@ setup(
         (f"lib/{NAME}", sorted(glob("scripts/*"))),
     ],
     install_requires=[
+        "distributed>=2024.8",  # with dask: the engine of sweeps, trials and studies, pure Python
         "matplotlib>=3.8",
         "mcap>=1.6",
         "numba>=0.68,<0.69",
@@ -93,6 +97,8 @@ setup(
         "ros": ROS_WHEELS,
         "data": DATA,
         "structure": STRUCTURE,
+        "sweep": SWEEP,
+        "torch": [*SWEEP, *TORCH],
         "measured": MEASURED,
         "test": TEST,
         "dev": DEV,

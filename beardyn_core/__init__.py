@@ -35,7 +35,9 @@ twin       a scene that advances block by block
 run        the one loop: load, kernels, equilibrium, blocks to the end
 record     the topic table, MCAP files, runs as arrays, the rerun view
 measured   files of measuring programs as recordings and runs
+engine     many runs at once, on all cores or a Dask cluster
 study      desk runs, ladders, trials, summaries, pictures
+population sweeps: sets of labelled runs, and a learner to compare with
 api        the functions of this module
 cli        the beardyn command, a module a subcommand
 ========== ===================================================================
@@ -65,6 +67,7 @@ if TYPE_CHECKING:
         stiffness,
         torque,
     )
+    from beardyn_core.api.sweeping import open_set, sweep
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
@@ -73,6 +76,7 @@ if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.chain import Chain, MonitorSettings
     from beardyn_core.observe.summary import RunSummary
+    from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.record.run import Run
     from beardyn_core.run import blocks
     from beardyn_core.scene.scene import Scene
@@ -80,11 +84,20 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, scene
 
-__all__ = ["Bearing", "Block", "Chain", "EffectSet", "InputError", "Lubricant", "MonitorSettings"]
+__all__ = [
+    "Bearing",
+    "Block",
+    "Chain",
+    "EffectSet",
+    "InputError",
+    "LabelledSet",
+    "Lubricant",
+    "MonitorSettings",
+]
 __all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
 __all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
-__all__ += ["lubricant", "monitor", "name_plate", "read", "read_measured", "scene", "severity", "simulate"]
-__all__ += ["steady_heat", "stiffness", "torque", "trend"]
+__all__ += ["lubricant", "monitor", "name_plate", "open_set", "read", "read_measured", "scene", "severity"]
+__all__ += ["simulate", "steady_heat", "stiffness", "sweep", "torque", "trend"]
 
 _MODULES = {
     "api.heat": ("steady_heat",),
@@ -95,6 +108,7 @@ _MODULES = {
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
     ),
+    "api.sweeping": ("open_set", "sweep"),
     "bearing.geometry": ("Bearing",),
     "bearing.lubricant": ("Lubricant",),
     "bearing.name_plate": ("NamePlate",),
@@ -103,6 +117,7 @@ _MODULES = {
     "observe.block": ("Block",),
     "observe.chain": ("Chain", "MonitorSettings"),
     "observe.summary": ("RunSummary",),
+    "population.labelled_set": ("LabelledSet",),
     "record.run": ("Run",),
     "run": ("blocks",),
     "scene.scene": ("Scene",),

@@ -42,13 +42,15 @@ class Simulation:
             yield block
 
 
-def start(scene: Scene, duration: float | None = None) -> Simulation:
+def start(scene: Scene, duration: float | None = None, load: LoadHistory | None = None) -> Simulation:
     """Make the load of a scene, compile its kernels and solve its equilibrium.
 
     Parameters
     ----------
     duration : float, optional
         Simulated time in place of the scene's own; rounded up to whole blocks, [s].
+    load : LoadHistory, optional
+        In place of that of the scene's operation, as long as the run.
 
     Raises
     ------
@@ -61,7 +63,8 @@ def start(scene: Scene, duration: float | None = None) -> Simulation:
         twin = Twin(scene)
         seconds = scene.duration if duration is None else duration
         count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))
-        load = load_of_run(scene, count * twin.block_ns * 1e-9)
+        if load is None:
+            load = load_of_run(scene, count * twin.block_ns * 1e-9)
         twin.warm()
         twin.start(load)
         return Simulation(twin, load.until(count * twin.block_ns), count)

@@ -12,7 +12,7 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.errors import ValidityError
+from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.rest import rest_under, weight_on_cone
 from beardyn_core.integrate.snapshot import Snapshot
@@ -66,6 +66,11 @@ class Twin:
     block_ns = BLOCK_NS
 
     def __init__(self, scene: Scene) -> None:
+        if scene.axleboxes is not None:
+            raise InputError(
+                f"scene {scene.name}: has axleboxes, {2 * scene.axleboxes.axles} of them, and a twin is one: "
+                "beardyn simulate runs them all; leave axleboxes out here"
+            )
         self.scene = scene
         self.load = LoadBuffer()
         self._arrangement = Arrangement(

@@ -47,6 +47,7 @@ monitor_node          monitoring: vibration, shaft, load and temperature, nothin
 viewer_node           live view in rerun
 car                   the axleboxes of a car by name and place; one process for the nodes of all
 car_scenario          one scenario as the loads of all boxes, each wheel over the same track later
+car_twin              the twins of all boxes in one process
 car_load              feeds every box of a car, all in step
 car_recorder          records every box of a car, a file each
 diagnostics           reports as diagnostic_msgs

@@ -6,7 +6,6 @@ A car has two bogies of two axles. Axle 1 leads; a box is called ``axle_<n>_<sid
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from re import fullmatch
 from typing import Any
 
@@ -14,11 +13,11 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from beardyn_core.errors import InputError
+from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_ros.parameters import NodeParameter
 from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE
 
-SIDES = ("left", "right")
-EIGHT_BOXES = tuple(f"axle_{axle}_{side}" for axle in range(1, 5) for side in SIDES)
+EIGHT_BOXES = tuple(box.name for box in Axleboxes(axles=4).boxes)
 NAMESPACE = "car"
 
 BOXES = NodeParameter(
@@ -26,36 +25,6 @@ BOXES = NodeParameter(
     " ".join(EIGHT_BOXES),
     "axleboxes, each a namespace below that of this node: axle_<1 to 4>_<left or right>, axle 1 leads",
 )
-
-
-@dataclass(frozen=True)
-class Box:
-    """One axlebox of a car.
-
-    Parameters
-    ----------
-    name : str
-    axle : int
-        1 leads.
-    side : str
-        ``left`` or ``right``, looking forwards.
-    """
-
-    name: str
-    axle: int
-    side: str
-
-    def behind(self, axle_distance: float, bogie_distance: float) -> float:
-        """Compute how far its wheel runs behind the first, [m].
-
-        Parameters
-        ----------
-        axle_distance : float
-            Between the axles of a bogie, [m].
-        bogie_distance : float
-            Between the centres of the bogies, [m].
-        """
-        return (self.axle - 1) // 2 * bogie_distance + (self.axle - 1) % 2 * axle_distance
 
 
 def boxes_named(text: str) -> tuple[Box, ...]:

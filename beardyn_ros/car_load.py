@@ -12,8 +12,9 @@ from typing import Any
 from std_srvs.srv import SetBool
 
 from beardyn_core.errors import InputError
-from beardyn_ros.car import BOXES, Box, NodeGroup, boxes_named
-from beardyn_ros.car_scenario import CarGeometry, CarScenario
+from beardyn_core.scene.axleboxes import Axleboxes, Box
+from beardyn_ros.car import BOXES, NodeGroup, boxes_named
+from beardyn_ros.car_scenario import CarScenario
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.load_node import LoadNode
 from beardyn_ros.load_parameters import PARAMETERS as LOAD_PARAMETERS
@@ -64,8 +65,13 @@ class CarLoadNode(NodeGroup):
                 f"node load: wheel_defects_on '{values.wheel_defects_on}' is none of the boxes "
                 f"{', '.join(names)}"
             )
-        geometry = CarGeometry(values.axle_distance, values.bogie_distance, values.wheel_defects_on)
-        scenario = CarScenario(boxes, geometry, values.scene, values.csv, values.duration)
+        car = Axleboxes(
+            axles=4,
+            axle_distance=values.axle_distance,
+            bogie_distance=values.bogie_distance,
+            faulty=(values.wheel_defects_on,) if values.wheel_defects_on else (),
+        )
+        scenario = CarScenario(boxes, car, values.scene, values.csv, values.duration)
         given = {parameter.name: getattr(values, parameter.name) for parameter in BOX_PARAMETERS}
         self.members = [BoxLoadNode(scenario, box, **self.of_member(box, given)) for box in boxes]
         for member in self.members:

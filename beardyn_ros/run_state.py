@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from beardyn_core.record.description import RunDescription
+
+if TYPE_CHECKING:
+    from beardyn_core.scene.scene import Scene
 
 IDLE = "idle"
 COMPILING = "compiling"
@@ -43,7 +46,12 @@ class Rig:
     background: str = ""
 
 
-def scene_rig(scene_name: str, tier: str = SCENE_OWN, effects: str = SCENE_OWN) -> Callable[[], Rig]:
+def scene_rig(
+    scene_name: str,
+    tier: str = SCENE_OWN,
+    effects: str = SCENE_OWN,
+    of_box: Callable[[Scene], Scene] = lambda scene: scene,
+) -> Callable[[], Rig]:
     """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
 
     What it leaves open is chosen when the first rig is built.
@@ -55,6 +63,8 @@ def scene_rig(scene_name: str, tier: str = SCENE_OWN, effects: str = SCENE_OWN) 
         `SCENE_OWN` for the scene's own.
     effects : str
         Preset, file or ``auto``; `SCENE_OWN` for the scene's own.
+    of_box : callable
+        Makes the scene of one axlebox of several.
     """
     from beardyn_core.choice.load import closed
     from beardyn_core.config import read_scene
@@ -67,7 +77,7 @@ def scene_rig(scene_name: str, tier: str = SCENE_OWN, effects: str = SCENE_OWN) 
     forces = background.name if background is not None and background.forces else ""
 
     def build() -> Rig:
-        scene = closed(found, outside_load=True)
+        scene = of_box(closed(found, outside_load=True))
         twin = Twin(scene)
         return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)
 

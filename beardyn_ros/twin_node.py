@@ -71,10 +71,12 @@ class TwinNode(LifecycleNode):
     ----------
     load_rig : callable or None
         Gives, for ``scene``, ``tier`` and ``effects``, a builder of rigs; ``None``: scenes.
+    **of_node
+        For one of several in a process: namespace, parameters.
     """
 
-    def __init__(self, load_rig: RigLoader | None = None) -> None:
-        super().__init__("twin", namespace="axlebox")
+    def __init__(self, load_rig: RigLoader | None = None, **of_node: Any) -> None:
+        super().__init__("twin", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
         self._load_rig = load_rig or scene_rig

@@ -13,7 +13,7 @@ from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
-NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_load", "car_recorder")
+NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_twin", "car_load", "car_recorder")
 
 HEAD = """# Nodes
 
@@ -135,6 +135,11 @@ one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its
 tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
 them a spall. The first twin publishes `/clock`.
 
+`car_twin` has the twins of all boxes in one process instead, each as `beardyn simulate` makes it of a scene
+with `axleboxes`: the right ones mirrored, every box another bearing of the lot, the defects of the scene in
+those of `faulty`. Beside it go `car_load` and `car_recorder`:
+`ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`.
+
 The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
 distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
 turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
@@ -237,7 +242,7 @@ def page() -> str:
     lines += [*(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items()), ""]
     lines += [LAUNCHES]
     for node in NODES:
-        if node == "car_load":
+        if node == "car_twin":
             lines.append(CAR)
         lines += [f"## {node}", "", f"{PROGRAMS[node][1].capitalize()}.", ""]
         lines += ["| parameter | type | default | allowed | meaning |", "|---|---|---|---|---|"]

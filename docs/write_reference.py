@@ -24,9 +24,9 @@ HEAD = """# Reference of the files
 
 Written by `python docs/write_reference.py` from the declarations in the code.
 
-Every key of scenes, bearings, lubricants, vehicles, effects, trials, boxes, sensors, backgrounds and name
-plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**: it
-must be given; *none*: then there is none).
+Every key of scenes, bearings, lubricants, vehicles, effects, trials, sweeps, boxes, sensors, backgrounds and
+name plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**:
+it must be given; *none*: then there is none).
 The unit of a number is the end of its key. A key with a mapping leads to its own table. Where a file of a
 bearing, lubricant, vehicle, sensor, background or name plate has a number it may as well have
 `{value: 17, source: catalogue}`.
@@ -40,6 +40,7 @@ TITLES = {
     "vehicle": "Vehicle",
     "effects": "Effects",
     "trial": "Trial",
+    "sweep": "Sweep",
     "structure": "Structure",
     "modes": "Structure by modes of another program",
     "sensor": "Sensor",
@@ -106,6 +107,8 @@ class Kind:
             return ""
         if found.get("type") == "object":
             return "mapping"
+        if "type" not in found:
+            return "anything that a scene file may hold"
         kind = _TYPES[found["type"]]
         limits = [f"{sign} {_number(found[name])}" for name, sign in _LIMITS.items() if name in found]
         if "minimum" in found and "exclusiveMinimum" in found:

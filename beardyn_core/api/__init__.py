@@ -8,6 +8,7 @@ simulating  simulate a scene
 reading     read a recording, let a monitor judge a run
 measuring   read measured files, make recordings of them
 statics     stiffness, torque, life, film and load distribution, no run needed
+sweeping    sets of labelled runs over a population of bearings
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================
 

@@ -19,10 +19,10 @@ from beardyn_core.observe.summary import RunSummary
 from beardyn_core.outputs import files_read, recording_problems
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import life_of
-from beardyn_core.record.sinks import McapSink, MemorySink, Sink
+from beardyn_core.record.sinks import McapSink, MemorySink, Sink, TrainSink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study import desk_run
+from beardyn_core.study import desk_run, train_run
 
 
 def simulate(
@@ -58,7 +58,8 @@ def simulate(
     Returns
     -------
     Run
-        Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
+        Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by name. Its
+        ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
         validity; the arrays end there.
 
     Warns
@@ -79,14 +80,16 @@ def simulate(
     with files_read() as inputs:
         made = scene if isinstance(scene, Scene) and untouched else make_scene(scene, **asked)  # type: ignore[arg-type]
     inputs += files_of(made)
+    if record is not None and (problems := recording_problems("", Path(record), inputs=inputs, force=force)):
+        raise InputError(problems)
+    for doubt in made.doubts:
+        warnings.warn(doubt, stacklevel=2)
+    if made.axleboxes is not None:
+        return _train(made, record, force, progress)
     memory = MemorySink()
     sinks: list[Sink] = [memory]
     if record is not None:
-        if problems := recording_problems("", Path(record), inputs=inputs, force=force):
-            raise InputError(problems)
         sinks.append(McapSink(record, replace=force))
-    for doubt in made.doubts:
-        warnings.warn(doubt, stacklevel=2)
     with _bar(made.duration, progress) as advance:
         summary = desk_run.run(made, sinks, advance, life=False)
     if not summary.complete:
@@ -99,6 +102,29 @@ def simulate(
         )
     load = None if memory.run is None else memory.run.load
     return memory.to_run(partial(_with_life, summary, made, load))
+
+
+def _train(scene: Scene, record: Path | str | None, force: bool, progress: bool) -> Run:
+    """Simulate all axleboxes of a scene; see `simulate`."""
+    assert scene.axleboxes is not None
+    pictures = scene.axleboxes.pictures
+    sink = None if record is None else TrainSink(record, replace=force, pictures=pictures)
+    boxes = train_run.start(scene)
+    with _bar(scene.duration, progress) as shown:
+
+        def advance(blocks: Mapping[str, Block]) -> None:
+            if shown is not None and blocks:
+                shown(next(iter(blocks.values())))
+
+        done = train_run.advance(boxes, sink, keep=True, progress=advance)
+    runs: dict[str, Run] = {}
+    for name, summary in done.summaries.items():
+        one = next(each for each in boxes if each.name == name)
+        if not summary.complete:
+            warnings.warn(f"{name}: {summary.status}", RuntimeWarning, stacklevel=3)
+        whole_one = partial(_with_life, summary, one.scene, one.description.load)
+        runs[name] = Run.of_blocks(one.kept, one.description, summary.status, whole_one, runs)
+    return runs[boxes[0].name]
 
 
 def _with_life(summary: RunSummary, scene: Scene, load: LoadHistory | None) -> RunSummary:

@@ -43,8 +43,13 @@ def rib(evidence: Evidence) -> Rule:
         more += costs.extra("rib lubrication mixed")
     if effect.roller_end or effect.drilling:
         more += costs.extra("rib roller_end, drilling")
-    tiers, word = (FULL, "lubricated") if fuller else (FAST | FULL, "on")
+    tiers = FULL if effect.roller_end else FAST | FULL
+    word = "lubricated" if fuller else "on"
     found = [Alternative({"rib": effect}, reason, {}, basic + more, tiers, word)]
+    if effect.roller_end:
+        # where rollers do not lean beyond their rims, what is left of it is the same
+        inside = replace(effect, roller_end=False)
+        found.append(Alternative({"rib": inside}, reason, {}, basic + more, FAST, word))
     if fuller:
         influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
         drive = losses.drive(evidence.scene.effects.traction, evidence.scene.effects.film)

@@ -12,6 +12,7 @@ demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
 new              a copy of a shipped file to start from
 simulate         a desk run
+simulate_train   the same of several axleboxes at once
 import_          a recording of measured files
 measured_options options of measured files and name plates, from their declarations
 explain          which effects a scene is computed with, why, and what each costs
@@ -26,6 +27,8 @@ structure        modes of an axlebox
 trend            levels of many records: `beardyn monitor --trend`
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
+sweep            sets of labelled runs over a population of bearings
+baseline         a simple learner on such a set
 schema           JSON schemas for editors
 ================ ========================================================================
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.interrupts import last_words
 
 
@@ -16,9 +16,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="write signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
         description="Write signals of a recording to a file of another format, SI units. Parquet, NPZ "
         "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV "
-        "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING.",
+        "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING. A set of runs that "
+        "`beardyn sweep` has made goes to one file, .h5, .npz or .parquet, with signals and labels.",
     )
-    parser.add_argument("recording", metavar="run.mcap", help="recording to read")
+    parser.add_argument("recording", metavar="run.mcap", help="recording to read, or folder of a set")
     parser.add_argument(
         "-o",
         "--output",
@@ -33,6 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
         "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
+    add_box(parser)
     add_force(parser)
     add_json(parser)
     parser.set_defaults(run=run)
@@ -41,17 +43,39 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command and return the exit code."""
     import sys
+    from pathlib import Path
 
+    if Path(args.recording).is_dir() and (Path(args.recording) / "set.json").is_file():
+        return _export_set(args)
     from beardyn_core.record.exporting import export
     from beardyn_core.record.reading import read_run
 
     with last_words(lambda: "nothing has been written"):
-        recording = read_run(args.recording)
+        recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
-    names = [name.strip() for name in args.signals.split(",") if name.strip()]
+    names = _names(args)
     with last_words(lambda: "files that are written are whole, the others are as they were"):
         written = export(recording, args.output, signals=names, force=args.force)
+    if args.json:
+        print(json_text("export", {"recording": args.recording, "files": written}))
+        return 0
+    for path in written:
+        print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")
+    return 0
+
+
+def _names(args: argparse.Namespace) -> list[str]:
+    return [name.strip() for name in args.signals.split(",") if name.strip()]
+
+
+def _export_set(args: argparse.Namespace) -> int:
+    """Write a set of runs to one file."""
+    from beardyn_core.population.exporting import export_set
+    from beardyn_core.population.labelled_set import LabelledSet
+
+    with last_words(lambda: "nothing has been written"):
+        written = export_set(LabelledSet(args.recording), args.output, _names(args), args.force)
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0

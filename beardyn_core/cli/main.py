@@ -26,6 +26,7 @@ COMMANDS = {
     "simulate": ("simulate", "explain", "ladder", "warmup"),
     "recordings": ("import", "view", "report", "monitor", "export"),
     "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
+    "populations": ("sweep", "baseline"),
     "files": ("schema",),
 }
 """The subcommands, each a module of this package, under the headings of the help."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from contextlib import nullcontext, suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.bearing.name_plate import NamePlate
@@ -17,7 +18,7 @@ from beardyn_core.cli.measured_options import (
     reading_of,
     says_how_to_read,
 )
-from beardyn_core.cli.options import add_json, add_monitor
+from beardyn_core.cli.options import add_box, add_json, add_monitor
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.errors import InputError
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
     from beardyn_core.observe.chain import Algorithm
+    from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
 
 _UNITS = {
@@ -52,6 +54,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="FILE",
         help="recording to analyse, or measured files in the order of time",
     )
+    add_box(parser, "every one")
     add_monitor(parser)
     add_json(parser)
     add_plates(parser, "default that of the recording")
@@ -100,18 +103,32 @@ def _ending(findings: list[Finding]) -> str:
 
 
 def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
-    """Let the monitor analyse a recording."""
+    """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
+    from beardyn_core.record.reading import read_run
+
+    path = args.files[0]
+    recording = read_run(path, args.box)
+    if recording.problem:
+        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
+    if args.box or len(recording.boxes) == 1:
+        return _of_box(args, recording, algorithm)
+    found: dict[Mounted, list[Finding]] = {}
+    for name, run in recording.boxes.items():
+        for mounted, findings in _of_box(args, run, algorithm).items():
+            label = name if mounted.label == USUAL_LABEL else f"{name} {mounted.label}"
+            found[replace(mounted, label=label)] = findings
+    return found
+
+
+def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, list[Finding]]:
+    """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.choice import scene_from_text
     from beardyn_core.measured.about import Mounted, mounted_in
-    from beardyn_core.record.reading import read_run
     from beardyn_core.study.measured_severity import severity_in
     from beardyn_core.study.monitored_recording import conclude, findings_of
 
     path = args.files[0]
     bearings = mounted_of(args)
-    recording = read_run(path)
-    if recording.problem:
-        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
     recorded = None
     with suppress(InputError) if bearings else nullcontext():
         if recording.scene_text:

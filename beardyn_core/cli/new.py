@@ -12,7 +12,7 @@ from beardyn_core.cli.scenes import KINDS
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole, file_problems
 
-_NAME_KEY = {"scenes": "scene", "trials": "trial"}
+_NAME_KEY = {"scenes": "scene", "trials": "trial", "sweeps": "sweep"}
 _HOW = {
     "scenes": "beardyn simulate {file}     what is computed, and why: beardyn explain {file}",
     "bearings": "beardyn bearing {file}     in a scene beside it: bearing: {file}",
@@ -20,6 +20,7 @@ _HOW = {
     "vehicles": "in the operation of a scene beside it: vehicle: {file}",
     "effects": "beardyn simulate SCENE --effects {file}     in a scene beside it: effects: {file}",
     "trials": "beardyn trial {file}",
+    "sweeps": "beardyn sweep {file} -o DIR",
     "structures": "beardyn structure {file}",
     "sensors": "in a sensor of a scene beside it: type: {file}",
     "backgrounds": "in a scene beside it: background: {file}",

@@ -48,6 +48,15 @@ def names(text: str | None) -> list[str] | None:
     return None if text is None else [name.strip() for name in text.split(",")]
 
 
+def add_box(parser: ArgumentParser, usual: str = "the first one") -> None:
+    """Add the axlebox of a recording of several."""
+    parser.add_argument(
+        "--box",
+        metavar="NAME",
+        help=f"axlebox of a recording of several, such as axle_1_left; default {usual}",
+    )
+
+
 def add_monitor(parser: ArgumentParser) -> None:
     """Add the monitor of one's own."""
     parser.add_argument(

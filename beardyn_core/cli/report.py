@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.json_output import json_text, renamed
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import is_being_written
 
@@ -43,6 +43,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "recording", metavar="run.mcap", help="recording to report on, or its folder of several"
     )
+    add_box(parser)
     add_force(parser, "replace NAME.recovered.mcap when it exists")
     add_json(parser)
     parser.set_defaults(run=run)
@@ -54,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.mcap_scanning import EmptyRecordingError, recover, recovered_name
     from beardyn_core.record.reporting import report
 
-    found = report(args.recording)
+    found = report(args.recording, args.box)
     recovered: list[Path] = []
     problems: list[str] = []
     notes: list[str] = []

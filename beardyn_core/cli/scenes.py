@@ -23,6 +23,7 @@ KINDS = (
     "vehicles",
     "effects",
     "trials",
+    "sweeps",
     "structures",
     "sensors",
     "backgrounds",
@@ -43,6 +44,7 @@ _USE = {
     "vehicles": "in a scene: operation: {kind: quarter_vehicle, vehicle: NAME, ...}",
     "effects": "in a scene: effects: NAME; for one run: beardyn simulate SCENE --effects NAME",
     "trials": "run: beardyn trial NAME",
+    "sweeps": "make: beardyn sweep NAME -o DIR",
     "structures": "modes: beardyn structure NAME",
     "sensors": "in a scene: sensors: [{name: top, type: NAME}]",
     "backgrounds": "in a scene: background: NAME",
@@ -54,7 +56,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "scenes",
-        help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials, boxes, sensors, ...",
+        help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials, sweeps, boxes, ...",
         description="List what is shipped, with what each is for. Every name is a YAML file that "
         "`beardyn new NAME` copies.",
     )
@@ -211,6 +213,18 @@ def _trial(name: str) -> dict[str, Any]:
     }
 
 
+def _sweep(name: str) -> dict[str, Any]:
+    from beardyn_core.config.nouns import read_sweep
+
+    sweep, _ = read_sweep(name)
+    return {
+        "purpose": sweep.purpose,
+        "scene": sweep.scene,
+        "run_count": sweep.run_count,
+        "varied": [each.key for each in sweep.vary],
+    }
+
+
 def _structure(name: str) -> dict[str, Any]:
     from beardyn_core.config.nouns import load_box
 
@@ -263,6 +277,7 @@ _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "vehicles": _vehicle,
     "effects": _effects,
     "trials": _trial,
+    "sweeps": _sweep,
     "structures": _structure,
     "sensors": _sensor,
     "backgrounds": _background,
@@ -342,6 +357,7 @@ _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "vehicles": lambda entry: [f"{entry['body_mass_kg'] / 1e3:g} t"],
     "effects": lambda entry: [f"{len(entry['effects'])} effects"],
     "trials": lambda entry: [f"{entry['run_count']} runs", f"of {entry['scene']}"],
+    "sweeps": lambda entry: [f"{entry['run_count']} runs", f"of {entry['scene']}"],
     "structures": lambda entry: [f"for {entry['bearing']}"],
     "sensors": _sensor_figures,
     "backgrounds": lambda entry: [", ".join(entry["parts"])],

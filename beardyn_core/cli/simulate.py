@@ -57,6 +57,10 @@ def run(args: argparse.Namespace) -> int:
             args.scene, duration=args.duration, laminae=args.laminae, seed=args.seed, **chosen(args)
         )
 
+    if scene.axleboxes is not None:
+        from beardyn_core.cli import simulate_train
+
+        return simulate_train.run(scene, args)
     from tqdm import tqdm
 
     from beardyn_core.record.sinks import McapSink

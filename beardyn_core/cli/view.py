@@ -9,7 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from beardyn_core.cli.options import add_force
+from beardyn_core.cli.options import add_box, add_force
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems
@@ -24,6 +24,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "Without an option the viewer opens in a window.",
     )
     parser.add_argument("recording", metavar="run.mcap", help="recording to show")
+    add_box(parser)
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--web", action="store_true", help="serve the viewer to a browser on this machine")
     where.add_argument(
@@ -57,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
     ]
     if problems:
         raise InputError(problems)
-    recording = read_run(args.recording)
+    recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
     if args.save:

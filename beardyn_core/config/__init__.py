@@ -14,6 +14,7 @@ scene_file   what a scene file says otherwise than its nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed
 automatic    what `auto` leaves open
 missing      rows and rollers that are not there
+boxes        the scene of one axlebox of several; a scene mirrored
 nouns        files of one noun: bearings, lubricants, boxes, effects, trials
 load         scenes: references resolved, every mistake found
 plates       name plates by name
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
         load_lubricant,
         load_sensor,
         load_vehicle,
+        read_sweep,
         read_trial,
     )
     from beardyn_core.config.plates import load_plate
@@ -53,6 +55,7 @@ __all__ += [
     "read_scene",
     "read_scene_mapping",
     "read_scene_text",
+    "read_sweep",
     "read_trial",
     "scene_text",
     "shipped_names",

@@ -18,6 +18,7 @@ KINDS = (
     "effects",
     "scenes",
     "trials",
+    "sweeps",
     "structures",
     "sensors",
     "backgrounds",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -48,6 +48,7 @@ class OpenScene:
     scene: A[Scene, "with stand-ins for what is open"]
     free: A[Free, "what the file leaves to be chosen with ``auto``"]
     step_given: A[bool, "whether the file gives the time step"]
+    keys: A[dict[str, Any], "of its file, every reference replaced by what it names"]
 
 
 def read_scene(
@@ -79,9 +80,19 @@ def read_scene_text(text: str, label: str = "scene") -> OpenScene:
     return read_scene_mapping(read_mapping(text, label), label, Path())
 
 
-def read_scene_mapping(data: dict[str, Any], label: str, folder: Path) -> OpenScene:
-    """Read the scene of the mapping in a scene file that lies in a folder; see `read_scene`."""
-    return _Reading(data, label, folder).scene({})
+def read_scene_mapping(
+    data: dict[str, Any], label: str, folder: Path, origins: Sequence[Origin] = ()
+) -> OpenScene:
+    """Read the scene of the mapping in a scene file that lies in a folder; see `read_scene`.
+
+    Parameters
+    ----------
+    origins : sequence of Origin, optional
+        Places whose values stand in another file, for what is said of them.
+    """
+    reading = _Reading(data, label, folder)
+    reading.origins += origins
+    return reading.scene({})
 
 
 class _Reading:
@@ -117,7 +128,8 @@ class _Reading:
         self._check_integrator(free)
         if self.problems or scene is None:
             raise InputError(list(dict.fromkeys(self.problems)))
-        return OpenScene(self_contained(scene), free, "steps_per_sample" in self.data.get("numerics", {}))
+        given = "steps_per_sample" in self.data.get("numerics", {})
+        return OpenScene(self_contained(scene), free, given, self.data)
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = located(place, self.origins)

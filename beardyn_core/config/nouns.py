@@ -24,6 +24,7 @@ from beardyn_core.outputs import note_read
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.sensor import SensorType
+from beardyn_core.scene.sweep import Sweep
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.imported import ModeFile
@@ -124,6 +125,29 @@ def read_trial(
         data["effects"] = effects
     trial: Trial = read_noun(Trial, data, str(path))
     return replace(trial, folder=path.parent, sizes=tuple(sorted(trial.sizes))), path
+
+
+def read_sweep(name: str | Path | dict[str, Any], **changes: Any) -> tuple[Sweep, str]:
+    """Read the sweep of a shipped name, a file or a mapping, and find what to call it in messages.
+
+    Parameters
+    ----------
+    name : str, Path or dict
+    **changes
+        Keys in place of the file's, such as ``runs`` and ``seed``; ``None``: the file's own.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the file.
+    """
+    path = None if isinstance(name, dict) else find("sweeps", str(name))
+    data = dict(name) if isinstance(name, dict) else read_file(find("sweeps", str(name)))
+    data |= {key: value for key, value in changes.items() if value is not None}
+    label = "sweep" if path is None else str(path)
+    sweep: Sweep = read_noun(Sweep, data, label)
+    folder = Path() if path is None else path.parent
+    return replace(sweep, folder=folder, changes=dict(sweep.changes or {})), label
 
 
 def _load(noun: type, path: Path) -> Any:

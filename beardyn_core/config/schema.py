@@ -12,6 +12,7 @@ from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.sensor import SensorType
+from beardyn_core.scene.sweep import Sweep
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.imported import ModeFile
@@ -23,6 +24,7 @@ _NOUNS: dict[str, type] = {
     "vehicle": Vehicle,
     "effects": EffectSet,
     "trial": Trial,
+    "sweep": Sweep,
     "structure": Box,
     "modes": ModeFile,
     "sensor": SensorType,

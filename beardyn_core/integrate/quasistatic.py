@@ -37,6 +37,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     cup_wrench,
     held_losses,
     lane_total,
+    pocket_torque,
     relative_cone,
     rolling_torque,
     show_contacts,
@@ -111,6 +112,7 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
         forces = (cup[0], cone[0], rib)
         if due:
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
+            rolling = rolling + counted * pocket_torque(cone[0], speeds, k, p.base.effects.drag, k.pocket)
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)

@@ -176,16 +176,20 @@ def soften(lanes, tangent, spring, damage):
 
 @inline
 def gap_moments(lanes, near, lamina, count, damage):
-    """Work out the mean gap [m] and mean squared gap [m^2] along one lamina; neglects softness of edges."""
+    """Work out the share of a lamina under a patch, the share of its stiffness lost, and the gap that counts.
+
+    Shares of the lamina [-]; the gap times the share and its firmness [m].
+    """
     zero = lanes.constant(0.0)
     if damage is None:
-        return zero, zero
+        return zero, zero, zero
     if near:
         field = layout.SPRING_FIELDS * (count + lamina)
         gap = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_GAP)
-        mean = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE) * gap
-        return mean, mean * gap
-    return zero, zero
+        share = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE)
+        firm = share * lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_FIRMNESS)
+        return share, share - firm, firm * gap
+    return zero, zero, zero
 
 
 @inline

@@ -12,7 +12,7 @@ from beardyn_core.kernels.bodies import X, Y, Z
 from beardyn_core.kernels.drag import churning_rate
 from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector
 from beardyn_core.kernels.film import film_output, log2_entrainment
-from beardyn_core.kernels.lane_math import at_least, exp2, log2
+from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.rib import rib_friction, rib_log2_film, spin_reach, with_spin
 from beardyn_core.kernels.rolling import rolling_couple
 from beardyn_core.model import layout
@@ -213,6 +213,31 @@ def sliding_torque(load, speeds, p, rib):
     log2_film = rib_log2_film(load, entrainment, rib.film)
     friction = rib_friction(load, root, squared, log2_film, rib, rib.film)
     return friction * squared_over(squared, speeds[0])
+
+
+@inline
+def pocket_torque(cone_load, speeds, k, drag, pocket):
+    """Work out the torque of the pockets of a block of rollers, along the shaft's rotation, [N m].
+
+    A roller that the cone does not press is pushed round by its bar, against the medium and its weight; what
+    it takes another roller in the load zone gives to its own bar. Neglects what ribs and rolling resistance
+    drive or brake idle rollers with, and the rattle of those that the load holds.
+    """
+    if pocket is None:
+        return 0.0 * cone_load
+    push = pocket.weight + drag_push(speeds, k, drag)
+    floor = pocket.regularisation
+    torque = pocket.lever * push * (speeds[0] / math.sqrt(speeds[0] * speeds[0] + floor * floor))
+    return where_greater(cone_load, _SMALLEST_LOAD, 0.0 * cone_load, torque + 0.0 * cone_load)
+
+
+@inline
+def drag_push(speeds, k, drag):
+    """Work out the force of the medium on the orbit of a roller, [N]."""
+    if drag is None:
+        return 0.0
+    flow = speeds[1] * k.radius
+    return drag.orbit * flow * flow
 
 
 @inline

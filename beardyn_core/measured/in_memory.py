@@ -12,7 +12,7 @@ from beardyn_core.measured.survey import Survey
 from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.reading import MessageSource
+from beardyn_core.record.message_source import MessageSource
 from beardyn_core.record.run import Run
 
 

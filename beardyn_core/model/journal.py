@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -35,7 +36,10 @@ def modes_of(scene: Scene) -> Modes | None:
     operation = scene.operation
     if not isinstance(operation, QuarterVehicleOperation) or not operation.bends_in_the_twin:
         return None
-    return _modes(operation, scene.mounting, scene.bearing)
+    modes = _modes(operation, scene.mounting, scene.bearing)
+    if modes is None or scene.mounting.side == "left":
+        return modes
+    return replace(modes, journal_slope=-modes.journal_slope)  # the axle goes on towards +y
 
 
 @lru_cache(maxsize=8)  # a warming bearing asks again and again

@@ -9,7 +9,8 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
+from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
+from beardyn_core.effects import KinematicCage
 from beardyn_core.model.arrangement import Arrangement, aligned_copy
 from beardyn_core.model.faults import FaultParams
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE
@@ -17,6 +18,14 @@ from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.scatter import mean_crown
 from beardyn_core.model.tier_bending import BendingParams
 from beardyn_core.scene.scene import Scene
+
+
+class PocketParams(NamedTuple):
+    """Friction of the pockets, from what it takes to push a roller round that no cone drives."""
+
+    weight: float  # part of a roller's weight that its bar carries on average over the orbit [N]
+    lever: float  # torque on the shaft over the push: both bars, friction, spin over shaft speed [m]
+    regularisation: float  # shaft speed below which it falls to zero [rad/s]
 
 
 class KinematicParams(NamedTuple):
@@ -38,6 +47,7 @@ class KinematicParams(NamedTuple):
     rolling_on_cone: float
     rolling_weight: float  # of all rollers and cages [N]
     rolling_count: float  # rollers of all rows
+    pocket: PocketParams | None
 
 
 class RingMotionParams(NamedTuple):
@@ -152,6 +162,21 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
         rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
         rolling_count=float(scene.roller_total),
+        pocket=_pocket_params(scene),
+    )
+
+
+def _pocket_params(scene: Scene) -> PocketParams | None:
+    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
+    cage, bearing = scene.effects.cage, scene.bearing
+    if cage is None or isinstance(cage, KinematicCage):
+        return None
+    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
+    fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
+    return PocketParams(
+        weight=2.0 / math.pi * fall * bearing.roller_mass,
+        lever=2.0 * cage.friction * spin,
+        regularisation=cage.regularisation_speed / spin,
     )
 
 

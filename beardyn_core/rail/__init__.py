@@ -21,6 +21,7 @@ measured      load and speed from a CSV file or a recording
 transfer_path ratio of a sensor to the rigid box, measured, from a CSV or Universal file
 build         any `scene.operation.Operation` to a `scene.load.LoadHistory`
 events        what a run meets on its way, as truth
+train         the loads of several axleboxes, each wheel over the same track later
 ============= ===============================================================================
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile

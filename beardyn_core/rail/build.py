@@ -112,8 +112,13 @@ def load_of_run(scene: Scene, duration: float) -> LoadHistory:
     A computed load goes on for `LOOK_AHEAD` samples, so that a run does not depend on where it ends; a
     measured one has nothing to go on with.
     """
+    return load_of_scene(scene, length_of_load(scene, duration))
+
+
+def length_of_load(scene: Scene, duration: float) -> float:
+    """Compute how long the load of a run has to be, [s]; see `load_of_run`."""
     computed = isinstance(scene.operation, ConstantOperation | SteppedOperation | QuarterVehicleOperation)
-    return load_of_scene(scene, duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9)
+    return duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9
 
 
 def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
@@ -202,7 +207,7 @@ def _quarter_vehicle(
             tilt = tilt + besides.sway.flexing.tilt
         slow = decimated(tilt, 1, thinning_kernel(_TILT_FACTOR))
         moment = tilting_moment(slow, mounting, 1.0 / RIDE_RATE)
-        wrench[:, 3] = moment[::factor][:count]
+        wrench[:, 3] = (-1.0 if mounting.side == "right" else 1.0) * moment[::factor][:count]
     return sampled_load(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
 
 

@@ -14,9 +14,10 @@ load_stream        load histories as messages of ``load/blocks`` and back
 load_reading       load and speed of a recording, for an operation from a file
 checking           whether a message is what its topic promises
 description        what a run says about itself (the content of ``truth``)
-sinks              where blocks go: memory, MCAP
+sinks              where blocks go: memory, MCAP, one file for several axleboxes
 background_file    a file that a slow disk does not hold up
 bag_metadata       what rosbag2 wants to know of a recording
+chunk_writing      chunks of many messages at once
 mcap_writing       crash-safe MCAP that rosbag2 reads
 mcap_scanning      reading that survives a cut file
 other_messages     numbers in the messages of other tools, and whose a file is
@@ -24,7 +25,8 @@ bag_scanning       the files of a recording in several, and whichever of both a 
 bag_writing        a recording split by size and time into a folder with an index
 arrays             the arrays of a run: signals, angles, bodies, contacts, load
 run                a run as named arrays, whatever it comes from
-reading            the messages of a recording as a run
+message_source     the arrays of a run from its messages, decoded at the first look
+reading            the messages of a recording as a run, one of each of its axleboxes
 collecting         the blocks of a simulation as a run
 tables             the signals of a run as columns, as xarray and as pandas
 exporting          signals of a run to Parquet, CSV, NPZ, HDF5 and WAV

@@ -111,15 +111,20 @@ class RunDescription:
         truth: Mapping[str, Any],
         body_names: Sequence[str],
         load: LoadHistory | None = None,
+        text: str | None = None,
     ) -> RunDescription:
-        """Describe a run of a scene; the truth gets labels of the load when the load is known."""
+        """Describe a run of a scene; the truth gets labels of the load when the load is known.
+
+        ``text`` is that of the scene, written when it is left out, which takes longer than a short run of a
+        fast tier: empty where nobody reads it.
+        """
         from beardyn_core.config.yaml_text import scene_text  # pydantic is not for readers of a recording
 
         if load is not None:
             truth = {**truth, **load_labels(load.time_ns, load.wrench, load.shaft_speed, truth)}
         return cls(
             scene=scene.name,
-            scene_text=scene_text(scene),
+            scene_text=scene_text(scene) if text is None else text,
             shape=BearingShape.of(scene.bearing),
             body_names=tuple(body_names),
             sensor_names=tuple(sensor.name for sensor in scene.sensors),

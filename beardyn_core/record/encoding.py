@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Annotated as A
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
@@ -20,6 +22,7 @@ from beardyn_core.scene.load import WRENCH_AXES
 ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
 DIAGNOSTICS_EVERY = 10
+USUAL_NAME = "beardyn twin"
 POSE_AXES = ("x", "y", "z", "qx", "qy", "qz", "qw")
 ACCELERATION_AXES = ("ax", "ay", "az")
 TWIST_AXES = ("vx", "vy", "vz", "wx", "wy", "wz")
@@ -105,6 +108,19 @@ def orbit_joints(roller_count: int) -> tuple[str, ...]:
     return ("cage_0", "cage_1", *rollers, "shaft")
 
 
+class Batch(NamedTuple):
+    """Messages of one topic in the order of time, all of the same length."""
+
+    topic: A[str, "its name in the table"]
+    stamps_ns: A[Int, "shape [message], [ns]"]
+    rows: A[NDArray[np.uint8], "CDR, shape [message, byte]"]
+
+
+def single(topic: str, stamp_ns: int, cdr: bytes) -> Batch:
+    """Make a batch of one message."""
+    return Batch(topic, np.array([stamp_ns], np.int64), np.frombuffer(cdr, np.uint8)[None])
+
+
 class BlockEncoder:
     """Blocks of one run as CDR messages of the topic table.
 
@@ -134,28 +150,31 @@ class BlockEncoder:
 
     def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
         """Encode a block as messages: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
+        for batch in self.batches(block):
+            for stamp, row in zip(batch.stamps_ns.tolist(), batch.rows, strict=True):
+                yield batch.topic, stamp, row.tobytes()
+
+    def batches(self, block: Block, pictures: bool = True) -> Iterator[Batch]:
+        """Encode a block as messages, those of a topic together; bodies and contacts if asked for."""
         if len(block.trend_time_ns):
             yield from self._trend(block)
         if len(block.waveform_time_ns):
             yield from self._waveforms(block)
-        if len(block.snapshot_time_ns):
+        if pictures and len(block.snapshot_time_ns):
             yield from self._snapshots(block)
         if block.temperature is not None and block.index % TEMPERATURE_EVERY == 0:
             stamp = np.array([block.end_ns], dtype=np.int64)
             for template, kelvin in zip(self._temperatures, block.temperature, strict=True):
-                (cdr,) = template.encode(stamp, celsius=np.array([[kelvin - ZERO_CELSIUS]]))
-                yield "temperature", block.end_ns, cdr
+                yield Batch(
+                    "temperature", stamp, template.rows(stamp, celsius=np.array([[kelvin - ZERO_CELSIUS]]))
+                )
 
-    def _trend(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+    def _trend(self, block: Block) -> Iterator[Batch]:
         times = block.trend_time_ns
         turned, turning = block.shaft_angle[:, None], block.shaft_speed[:, None]
-        for name, messages in (
-            ("force", self._force.encode(times, wrench=block.force)),
-            ("imu", self._imu.encode(times, acceleration=block.specific_force)),
-            ("shaft", self._shaft.encode(times, position=turned, velocity=turning)),
-        ):
-            for stamp, cdr in zip(times.tolist(), messages, strict=True):
-                yield name, stamp, cdr
+        yield Batch("force", times, self._force.rows(times, wrench=block.force))
+        yield Batch("imu", times, self._imu.rows(times, acceleration=block.specific_force))
+        yield Batch("shaft", times, self._shaft.rows(times, position=turned, velocity=turning))
         every = slice(block.trend_sample % 2, None, 2)
         count = len(times[every])
         position, velocity = (
@@ -167,16 +186,15 @@ class BlockEncoder:
         )
         effort = np.zeros_like(position)
         effort[:, -1] = block.shaft_torque[every]
-        messages = self._joints.encode(times[every], position=position, velocity=velocity, effort=effort)
-        for stamp, cdr in zip(times[every].tolist(), messages, strict=True):
-            yield "joint_states", stamp, cdr
+        rows = self._joints.rows(times[every], position=position, velocity=velocity, effort=effort)
+        yield Batch("joint_states", times[every], rows)
 
-    def _waveforms(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+    def _waveforms(self, block: Block) -> Iterator[Batch]:
         times = block.waveform_time_ns
         stamp = int(times[0])
         points = points_of(WAVEFORM, block.waveform_sample, times, stamp)
         fill(points, WRENCH_AXES, block.force_waveform)
-        yield "force_waveform", stamp, self._waveform.encode(points, stamp)
+        yield single("force_waveform", stamp, self._waveform.encode(points, stamp))
         for sensor, vibration in enumerate(block.vibration):
             if not len(vibration.time_ns):
                 continue
@@ -184,9 +202,9 @@ class BlockEncoder:
             points = points_of(VIBRATION, vibration.sample, vibration.time_ns, stamp)
             fill(points, ACCELERATION_AXES, vibration.acceleration)
             cdr = self._vibration[sensor].encode(points, stamp)
-            yield vibration_topic(sensor, self._sensor_names), stamp, cdr
+            yield single(vibration_topic(sensor, self._sensor_names), stamp, cdr)
 
-    def _snapshots(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+    def _snapshots(self, block: Block) -> Iterator[Batch]:
         times = block.snapshot_time_ns
         stamp = int(times[0])
         bodies = block.body_pose.shape[1]
@@ -196,17 +214,17 @@ class BlockEncoder:
         points["body"] = np.tile(np.arange(bodies), len(times))
         numbers = np.concatenate((block.body_pose, block.body_twist), axis=2).reshape(-1, 13)
         fill(points, POSE_AXES + TWIST_AXES, numbers)
-        yield "bodies", stamp, self._bodies.encode(points, stamp)
+        yield single("bodies", stamp, self._bodies.encode(points, stamp))
 
         snapshot, row, roller, kind = np.nonzero(np.any(block.contacts[..., 3:6] != 0.0, axis=-1))
         points = points_of(CONTACTS, 0, times[snapshot], stamp)
         points["sample"] = samples[snapshot]
         points["row"], points["roller"], points["kind"] = row, roller, kind
         fill(points, CONTACT_FIELDS, block.contacts[snapshot, row, roller, kind])
-        yield "contacts", stamp, self._contacts.encode(points, stamp)
+        yield single("contacts", stamp, self._contacts.encode(points, stamp))
 
 
-def block_diagnostic(block: Block) -> Diagnostic:
+def block_diagnostic(block: Block, name: str = USUAL_NAME) -> Diagnostic:
     """Report how a block was computed: real-time factor, status bits, energy residual, losses by source."""
     span = (block.end_ns - block.start_ns) * 1e-9
     values = [
@@ -218,7 +236,7 @@ def block_diagnostic(block: Block) -> Diagnostic:
         values.append(("energy_residual", f"{block.audit.residual:.3e}"))
         values += _losses(block.audit)
     sentence = "running" if block.status == 0 else f"the model left its validity, status {block.status}"
-    return Diagnostic("beardyn twin", 0 if block.status == 0 else 2, sentence, tuple(values))
+    return Diagnostic(name, 0 if block.status == 0 else 2, sentence, tuple(values))
 
 
 def loss_key(source: str) -> str:

@@ -14,8 +14,8 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import GAP, Measurement
 from beardyn_core.record.bag_scanning import scan_recording
 from beardyn_core.record.load_stream import decode_load, joined_load
+from beardyn_core.record.message_source import wrench_values
 from beardyn_core.record.messages import decode, header_stamp
-from beardyn_core.record.reading import wrench_values
 from beardyn_core.record.topics import JOINTS, TWIST, WRENCH, namespace_of, relative_name
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_check import problem_with

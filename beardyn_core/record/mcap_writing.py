@@ -9,16 +9,17 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import numpy as np
 import yaml
-from mcap.data_stream import RecordBuilder
-from mcap.records import ChunkIndex
 from mcap.well_known import MessageEncoding, SchemaEncoding
-from mcap.writer import CompressionType, Writer
+from numpy.typing import NDArray
 
+from beardyn_core.arrays import Int
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
 from beardyn_core.record.background_file import BackgroundFile
 from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, yaml_text
+from beardyn_core.record.chunk_writing import MESSAGE_BYTES, ChunkWriter
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
@@ -34,7 +35,7 @@ MEASURED_FILE = "measured.json"
 COMPLETE = "complete"
 
 _VERSION = versions()["beardyn"]
-_RECORD_BYTES = 31 + 16  # around a message in a chunk, and of it in the index
+_RECORD_BYTES = MESSAGE_BYTES + 16  # around a message in a chunk, and of it in the index
 
 
 class McapWriter:
@@ -76,9 +77,7 @@ class McapWriter:
         self._file: Any = file
         if background:
             self._file = BackgroundFile(file)
-        # Chunks end where `add` and `flush_if_due` say.
-        self._writer = Writer(self._file, chunk_size=1 << 62, compression=CompressionType.ZSTD)
-        self._writer._Writer__chunk_indices = _PackedIndexes()  # type: ignore[attr-defined]
+        self._writer = ChunkWriter(self._file)  # chunks end where `add_rows` and `flush_if_due` say
         self._chunk_bytes = 0
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
@@ -112,26 +111,36 @@ class McapWriter:
             self._writer.flush()
 
     def add(self, name: str, stamp_ns: int, cdr: bytes) -> None:
-        """Append a message of the topic table.
+        """Append a message of the topic table; see `add_rows`."""
+        self.add_rows(name, np.array([stamp_ns], np.int64), np.frombuffer(cdr, np.uint8)[None])
+
+    def add_rows(self, name: str, stamps_ns: Int, rows: NDArray[np.uint8]) -> None:
+        """Append messages of one topic and one length.
 
         Parameters
         ----------
         name : str
             Name in the topic table.
-        stamp_ns : int
-            Stamp of its header, which becomes the log time, [ns]. Times before zero are logged as 0:
+        stamps_ns : int64 array, shape [message]
+            Stamps of their headers, which become the log times, [ns]. Times before zero are logged as 0:
             MCAP does not know them; the header keeps the true one.
+        rows : uint8 array, shape [message, byte]
+            CDR.
         """
-        log_time = max(int(stamp_ns), 0)
+        count = len(rows)
+        if not count:
+            return
+        times = np.maximum(stamps_ns, 0)
         with self._disk():
             channel = self._channels.get(name)
             if channel is None:
                 channel = self._open_channel(topic(name))
-            sequence = self._counts[name] = self._counts[name] + 1
-            self._writer.add_message(channel, log_time, cdr, log_time, sequence & 0xFFFFFFFF)
-        self._chunk_bytes += len(cdr) + _RECORD_BYTES
-        self._first_ns = log_time if self._first_ns is None else min(self._first_ns, log_time)
-        self._last_ns = max(self._last_ns, log_time)
+            self._writer.add_rows(channel, times, self._counts[name] + 1, rows)
+            self._counts[name] += count
+        self._chunk_bytes += count * (rows.shape[1] + _RECORD_BYTES)
+        first = int(times.min())
+        self._first_ns = first if self._first_ns is None else min(self._first_ns, first)
+        self._last_ns = max(self._last_ns, int(times.max()))
         self.flush_if_due()
 
     def flush_if_due(self) -> None:
@@ -228,21 +237,3 @@ class McapWriter:
         )
         self._channels[entry.name], self._counts[entry.name] = channel, 0
         return channel
-
-
-class _PackedIndexes:
-    """Indexes of the chunks of a file as bytes; the library keeps ten times as much until the end."""
-
-    def __init__(self) -> None:
-        self._records = bytearray()
-
-    def append(self, index: ChunkIndex) -> None:
-        builder = RecordBuilder()
-        index.write(builder)
-        self._records += builder.end()
-
-    def __iter__(self) -> Iterator[_PackedIndexes]:
-        return iter((self,))
-
-    def write(self, builder: RecordBuilder) -> None:
-        builder.write(self._records)

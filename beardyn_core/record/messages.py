@@ -164,25 +164,26 @@ class Template:
         self._row = row
         self._fixed = fixed
 
-    def encode(self, stamps_ns: NDArray[np.int64], **values: NDArray[np.float64]) -> list[bytes]:
-        """Encode one message per stamp as CDR.
+    def rows(self, stamps_ns: NDArray[np.int64], **values: NDArray[np.float64]) -> NDArray[np.uint8]:
+        """Encode one message per stamp as CDR, shape [message, byte].
 
         Parameters
         ----------
         stamps_ns : int64 array, shape [message], [ns]
         **values : float64 arrays, shape [message, length of the slot]
         """
-        count = len(stamps_ns)
-        rows = np.empty((count, len(self._row)), np.uint8)
+        rows = np.empty((len(stamps_ns), len(self._row)), np.uint8)
         rows[:] = self._row
         view = rows.reshape(-1).view(self._dtype)
         view["sec"] = stamps_ns // _SECOND
         view["nanosec"] = stamps_ns % _SECOND
         for name, value in values.items():
             view[name] = value
-        size = len(self._row)
-        data = rows.tobytes()
-        return [data[i * size : (i + 1) * size] for i in range(count)]
+        return rows
+
+    def encode(self, stamps_ns: NDArray[np.int64], **values: NDArray[np.float64]) -> list[bytes]:
+        """Encode one message per stamp as CDR; arguments as of `rows`."""
+        return [row.tobytes() for row in self.rows(stamps_ns, **values)]
 
     def decode(self, cdrs: Sequence[bytes]) -> NDArray[Any] | None:
         """Decode stamps and slots of many messages as a structured array.

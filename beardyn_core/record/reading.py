@@ -1,63 +1,25 @@
 """From the messages of a recording, or of a live graph, to a `Run`."""
 
-# ruff: noqa: D102 (a method gives the array of `Run` of its name)
-
 from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
-from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
 from beardyn_core.record import arrays
 from beardyn_core.record.bag_scanning import BagScan, scan_recording
 from beardyn_core.record.checking import MessageChecker, take_out_malformed
-from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import (
-    ACCELERATION_AXES,
-    POSE_AXES,
-    TWIST_AXES,
-    ZERO_CELSIUS,
-    force_template,
-    imu_template,
-    joint_template,
-)
-from beardyn_core.record.load_stream import decode_load, joined_load
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE, DESCRIPTION_FILE, END_RECORD, MEASURED_FILE, SCENE_FILE
-from beardyn_core.record.messages import (
-    Template,
-    decode,
-    decode_diagnostics,
-    decode_string,
-    header_stamp,
-)
+from beardyn_core.record.message_source import MessageSource
+from beardyn_core.record.messages import decode_string
 from beardyn_core.record.run import Run
-from beardyn_core.record.topics import (
-    IMU,
-    JOINTS,
-    NAMESPACE,
-    TEMPERATURE,
-    WRENCH,
-    namespace_of,
-    relative_name,
-    vibration_topic,
-)
-from beardyn_core.scene.load import WRENCH_AXES
-
-ROWS = 2
+from beardyn_core.record.topics import NAMESPACE, namespace_of, relative_name
 
 
 def read_run(path: Path | str, namespace: str | None = None) -> Run:
@@ -66,7 +28,8 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     Parameters
     ----------
     namespace : str, optional
-        Of the axlebox to read; by default the first one in the file.
+        Of the axlebox to read, such as ``axle_1_left``; by default the first one in the file. All of them
+        are in `Run.boxes`.
 
     Raises
     ------
@@ -79,32 +42,89 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     for message in scan.messages():
         recorded[message.topic].append(message.cdr)
         types[message.topic] = message.type
+    boxes = _Boxes(scan, recorded, types)
     if namespace is None:
-        namespace = namespace_in(recorded)
-    names = {path: relative_name(path, namespace) for path in recorded}
-    if not any(name != path for path, name in names.items()):
-        found = f"it has {', '.join(sorted(recorded))}" if recorded else scan.problem or "it has no messages"
-        raise InputError(f"{scan.path}: no messages under the namespace {namespace}; {found}")
-    with arrays.decoding_checked(scan.path):
-        cdrs = {names[path]: messages for path, messages in recorded.items()}
-        return _run(scan, cdrs, {names[path]: kind for path, kind in types.items()})
+        return boxes.first()
+    wanted = namespace.strip("/")
+    if wanted not in boxes:
+        names = ", ".join(boxes)
+        found = f"it has {names or ', '.join(sorted(recorded)) or scan.problem or 'no messages'}"
+        raise InputError(f"{scan.path}: no messages under the namespace /{wanted}; {found}")
+    return boxes[wanted]
+
+
+class _Boxes(Mapping[str, Run]):
+    """The axleboxes of a recording, each read when it is asked for."""
+
+    def __init__(
+        self, scan: McapScan | BagScan, recorded: Mapping[str, list[bytes]], types: Mapping[str, str]
+    ) -> None:
+        self._scan, self._recorded, self._types = scan, recorded, types
+        self._names = [each.strip("/") for each in namespaces_in(recorded)]
+        self._read: dict[str, Run] = {}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __getitem__(self, name: str) -> Run:
+        if name not in self._names:
+            raise KeyError(name)
+        if name not in self._read:
+            self._read[name] = self._made(name)
+        return self._read[name]
+
+    def first(self) -> Run:
+        """Read the first axlebox; raises `InputError` where there is none."""
+        if not self._names:
+            found = f"it has {', '.join(sorted(self._recorded))}" if self._recorded else ""
+            what = found or self._scan.problem or "it has no messages"
+            raise InputError(f"{self._scan.path}: no messages under the namespace {NAMESPACE}; {what}")
+        return self[self._names[0]]
+
+    def _made(self, name: str) -> Run:
+        space = f"/{name}"
+        own = {
+            path: relative_name(path, space)
+            for path in self._recorded
+            if len(self) == 1 or path.startswith(f"{space}/") or namespace_of(path) is None
+        }
+        with arrays.decoding_checked(self._scan.path):
+            cdrs = {short: self._recorded[path] for path, short in own.items()}
+            types = {short: self._types[path] for path, short in own.items()}
+            return _run(self._scan, cdrs, types, self, name if len(self) > 1 else "")
+
+
+def namespaces_in(paths: Iterable[str]) -> list[str]:
+    """List the namespaces of the axleboxes that absolute topic names tell of, in their order."""
+    return list(dict.fromkeys(space for space in map(namespace_of, paths) if space is not None))
 
 
 def namespace_in(paths: Iterable[str]) -> str:
-    """Find the namespace of the first axlebox that absolute topic names tell of."""
-    return next((space for space in map(namespace_of, paths) if space is not None), NAMESPACE)
+    """Find the first of `namespaces_in`."""
+    return next(iter(namespaces_in(paths)), NAMESPACE)
 
 
-def _run(scan: McapScan | BagScan, cdrs: dict[str, list[bytes]], types: Mapping[str, str]) -> Run:
+def _run(
+    scan: McapScan | BagScan,
+    cdrs: dict[str, list[bytes]],
+    types: Mapping[str, str],
+    boxes: Mapping[str, Run],
+    box: str,
+) -> Run:
+    """Make a run of the messages of one axlebox; ``box`` is its name where there are several."""
     malformed = take_out_malformed(cdrs, types, MessageChecker())
-    description = _description(scan, cdrs)
+    description = _description(scan, cdrs, alone=not box)
     if description is not None:
         known = MessageChecker(len(description.body_names), description.roller_count)
         malformed += take_out_malformed(cdrs, types, known, ("bodies", "contacts"))
-    scene_text = scan.attachments.get(SCENE_FILE, b"").decode(errors="replace")
+    scene_text = "" if box else scan.attachments.get(SCENE_FILE, b"").decode(errors="replace")
     return run_of_messages(
         cdrs,
         description,
+        box,
         path=scan.path,
         complete=scan.complete,
         problem=scan.problem,
@@ -112,190 +132,27 @@ def _run(scan: McapScan | BagScan, cdrs: dict[str, list[bytes]], types: Mapping[
         scene_text=scene_text or (description.scene_text if description else ""),
         malformed=malformed,
         measured=_measured(scan),
+        boxes=boxes,
     )
 
 
 def run_of_messages(
-    cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None, **facts: Any
+    cdrs: Mapping[str, Sequence[bytes]], description: RunDescription | None, box: str = "", **facts: Any
 ) -> Run:
     """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
-    The messages are decoded when their array is first used. What else is known goes to `Run`.
+    The messages are decoded when their array is first used. What else is known goes to `Run`. A name of one
+    axlebox of several tells which diagnostics are its own.
     """
     sensors = tuple((facts.get("measured") or {}).get("sensors", ()))
-    return Run(MessageSource(cdrs, description, sensors), description, **facts)
+    return Run(MessageSource(cdrs, description, sensors, box), description, **facts)
 
 
-class MessageSource:
-    """The arrays of a run, decoded from its messages.
-
-    Parameters
-    ----------
-    sensor_names : tuple of str
-        Accelerometers of a run without a description, in the order of their topics.
-    """
-
-    def __init__(
-        self,
-        cdrs: Mapping[str, Sequence[bytes]],
-        description: RunDescription | None,
-        sensor_names: tuple[str, ...] = (),
-    ) -> None:
-        self._cdrs = cdrs
-        self._description = description
-        self._sensor_names = sensor_names if description is None else description.sensor_names
-
-    def _of(self, name: str) -> Sequence[bytes]:
-        return self._cdrs.get(name, ())
-
-    def force(self) -> arrays.Signal:
-        return _stamped(
-            self._of("force"), WRENCH, force_template, "wrench", wrench_values, WRENCH_AXES, "N, N m"
-        )
-
-    def force_waveform(self) -> arrays.Signal:
-        return _waveform(self._of("force_waveform"), WRENCH_AXES, "N, N m")
-
-    def sensors(self) -> dict[str, arrays.Signal]:
-        known = self._sensor_names
-        topics = {vibration_topic(number, known): name for number, name in enumerate(known)}
-        found = sorted(n for n in self._cdrs if n == "vibration" or n.startswith("vibration/"))
-        order = [name for name in topics if name in found] + [name for name in found if name not in topics]
-        return {
-            topics.get(name, name.rpartition("/")[2]): _waveform(self._of(name), ACCELERATION_AXES, "m/s^2")
-            for name in order
-            if self._of(name)
-        }
-
-    def specific_force(self) -> arrays.Signal:
-        return _stamped(
-            self._of("imu"), IMU, imu_template, "acceleration", _imu_values, ACCELERATION_AXES, "m/s^2"
-        )
-
-    def shaft(self) -> arrays.Turning:
-        joints = _joints(self._of("shaft"))
-        column = slice(0, 1) if joints.names else slice(0)
-        return arrays.Turning(
-            joints.time_ns, joints.position[:, column].ravel(), joints.velocity[:, column].ravel()
-        )
-
-    @cached_property
-    def _orbit(self) -> _Joints:
-        return _joints(self._of("joint_states"))
-
-    def torque(self) -> arrays.Signal:
-        orbit, nothing = self._orbit, np.zeros(0, np.int64)
-        if "shaft" not in orbit.names or not orbit.effort.shape[1]:
-            return arrays.no_signal((), "N m")
-        return arrays.Signal(orbit.time_ns, orbit.effort[:, orbit.names.index("shaft")], (), "N m", nothing)
-
-    def cages(self) -> arrays.Turning:
-        orbit = self._orbit
-        columns = [orbit.names.index(name) for name in ("cage_0", "cage_1") if name in orbit.names]
-        if not len(orbit.time_ns):
-            return arrays.Turning(orbit.time_ns, np.zeros((0, ROWS)), np.zeros((0, ROWS)))
-        return arrays.Turning(orbit.time_ns, orbit.position[:, columns], orbit.velocity[:, columns])
-
-    def rollers(self) -> arrays.Turning:
-        orbit = self._orbit
-        columns = [k for k, name in enumerate(orbit.names) if name.startswith("roller_")]
-        shape = (len(orbit.time_ns), ROWS, len(columns) // ROWS)
-        return arrays.Turning(
-            orbit.time_ns,
-            orbit.position[:, columns].reshape(shape),
-            orbit.velocity[:, columns].reshape(shape),
-        )
-
-    @cached_property
-    def _bodies(self) -> arrays.Bodies:
-        points, time_ns = _clouds(self._of("bodies"))
-        names = () if self._description is None else self._description.body_names
-        if not len(points):
-            nothing = np.zeros(0, np.int64)
-            return arrays.Bodies(
-                nothing, names, np.zeros((0, len(names), 7)), np.zeros((0, len(names), 6)), nothing
-            )
-        count = int(points["body"].max()) + 1
-        numbers = _columns(points, POSE_AXES + TWIST_AXES).reshape(-1, count, 13)
-        return arrays.Bodies(
-            time_ns[::count],
-            names or tuple(f"body_{k}" for k in range(count)),
-            numbers[..., :7],
-            numbers[..., 7:],
-            points["sample"][::count].astype(np.int64),
-        )
-
-    def bodies(self) -> arrays.Bodies:
-        return self._bodies
-
-    def contacts(self) -> arrays.Contacts:
-        """Give `Run.contacts`, at the snapshots of the bodies where the file has them."""
-        points, time_ns = _clouds(self._of("contacts"))
-        sample, times = self._bodies.sample, self._bodies.time_ns
-        if not len(sample) and len(points):
-            found, first = np.unique(points["sample"], return_index=True)
-            sample, times = found.astype(np.int64), time_ns[first]
-        rollers = 0 if self._description is None else self._description.roller_count
-        if not rollers and len(points):
-            rollers = int(points["roller"].max()) + 1
-        shape = (len(sample), ROWS, rollers, len(CONTACT_KINDS), len(CONTACT_FIELDS))
-        numbers = np.full(shape, np.nan)
-        numbers[..., 3:6] = 0.0
-        if len(points) and len(sample):
-            place = np.minimum(np.searchsorted(sample, points["sample"]), len(sample) - 1)
-            known = sample[place] == points["sample"]
-            here = points[known]
-            numbers[place[known], here["row"], here["roller"], here["kind"]] = _columns(here, CONTACT_FIELDS)
-        return arrays.Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
-
-    def load(self) -> arrays.Load:
-        parts = [decode_load(cdr) for cdr in self._of("load/blocks")]
-        load = joined_load([part for part, _ in parts])
-        sample = np.concatenate([np.zeros(0, np.int64), *(sample for _, sample in parts)])
-        return arrays.Load(load.time_ns, load.wrench, load.shaft_speed, load.bogie, sample)
-
-    def temperature(self) -> arrays.Signal:
-        """Give `Run.temperature`: one sample where all parts have one."""
-        found: dict[int, dict[str, float]] = defaultdict(dict)
-        for cdr in self._of("temperature"):
-            message = decode(TEMPERATURE, cdr)
-            part = message.header.frame_id.rpartition("/")[2]
-            found[header_stamp(cdr)][part] = float(message.temperature) + ZERO_CELSIUS
-        rows = {stamp: parts for stamp, parts in sorted(found.items()) if all(n in parts for n in NODES)}
-        values = np.array([[parts[name] for name in NODES] for parts in rows.values()]).reshape(
-            -1, len(NODES)
-        )
-        return arrays.Signal(np.array(list(rows), np.int64), values, NODES, "K", np.zeros(0, np.int64))
-
-    def diagnostics(self) -> arrays.Diagnostics:
-        return tuple(decode_diagnostics(cdr) for cdr in self._of("/diagnostics"))
-
-    def results(self) -> arrays.Diagnostics:
-        return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
-
-    def duration(self) -> float:
-        """Give `Run.duration`: a block ends with its last snapshot."""
-        snapshots = self._bodies.time_ns
-        times = snapshots if len(snapshots) > 1 else self.shaft().time_ns
-        if self._description is None and len(snapshots) < 2:  # a tachometer may begin late and end early
-            times = next((each.time_ns for each in self.sensors().values() if len(each) > 1), times)
-        return float(times[-1] - 2 * times[0] + times[1]) * 1e-9 if len(times) > 1 else 0.0
-
-
-@dataclass(frozen=True)
-class _Joints:
-    """Joint states over time, arrays [sample, joint]."""
-
-    names: tuple[str, ...]
-    time_ns: Int
-    position: Float
-    velocity: Float
-    effort: Float
-
-
-def _description(scan: McapScan | BagScan, cdrs: Mapping[str, list[bytes]]) -> RunDescription | None:
+def _description(
+    scan: McapScan | BagScan, cdrs: Mapping[str, list[bytes]], alone: bool
+) -> RunDescription | None:
     truth = cdrs.get("truth", ())
-    if DESCRIPTION_FILE in scan.attachments:
+    if alone and DESCRIPTION_FILE in scan.attachments:
         with suppress(InputError):  # damaged: the topic says the same
             return RunDescription.from_json(scan.attachments[DESCRIPTION_FILE].decode(errors="replace"))
     return RunDescription.from_json(decode_string(truth[0])) if truth else None
@@ -310,77 +167,3 @@ def _measured(scan: McapScan | BagScan) -> dict[str, Any]:
         if isinstance(found, dict):
             return found
     raise InputError(f"{scan.path}: what it says about its measured files is damaged ({MEASURED_FILE})")
-
-
-def _clouds(cdrs: Sequence[bytes]) -> tuple[NDArray[Any], Int]:
-    if not cdrs:
-        return np.zeros(0, np.dtype([("sample", "<u4"), ("t", "<u4")])), np.zeros(0, np.int64)
-    parts = [cloud_to_arrays(cdr) for cdr in cdrs]
-    times = [cloud_times(cdr, part) for cdr, part in zip(cdrs, parts, strict=True)]
-    return np.concatenate(parts), np.concatenate(times)
-
-
-def _columns(points: NDArray[Any], names: Sequence[str]) -> Float:
-    if not len(points):
-        return np.zeros((0, len(names)))
-    return np.stack([points[name].astype(np.float64) for name in names], axis=1)
-
-
-def _waveform(cdrs: Sequence[bytes], names: tuple[str, ...], unit: str) -> arrays.Signal:
-    points, time_ns = _clouds(cdrs)
-    return arrays.Signal(time_ns, _columns(points, names), names, unit, points["sample"].astype(np.int64))
-
-
-def _times(rows: NDArray[Any]) -> Int:
-    return rows["sec"].astype(np.int64) * 1_000_000_000 + rows["nanosec"]
-
-
-def wrench_values(message: Any) -> list[float]:
-    """List force and moment of a ``geometry_msgs/WrenchStamped``, [N, N m]."""
-    force, torque = message.wrench.force, message.wrench.torque
-    return [force.x, force.y, force.z, torque.x, torque.y, torque.z]
-
-
-def _imu_values(message: Any) -> list[float]:
-    value = message.linear_acceleration
-    return [value.x, value.y, value.z]
-
-
-def _stamped(
-    cdrs: Sequence[bytes],
-    msgtype: str,
-    template: Any,
-    slot: str,
-    numbers: Callable[[Any], list[float]],
-    names: tuple[str, ...],
-    unit: str,
-) -> arrays.Signal:
-    if not cdrs:
-        return arrays.no_signal(names, unit)
-    nothing = np.zeros(0, np.int64)
-    maker: Template = template(decode(msgtype, cdrs[0]).header.frame_id)
-    rows = maker.decode(cdrs)
-    if rows is not None:
-        return arrays.Signal(_times(rows), rows[slot].astype(np.float64), names, unit, nothing)
-    times = np.array([header_stamp(cdr) for cdr in cdrs], np.int64)
-    values = np.array([numbers(decode(msgtype, cdr)) for cdr in cdrs], float)
-    return arrays.Signal(times, values, names, unit, nothing)
-
-
-def _joints(cdrs: Sequence[bytes]) -> _Joints:
-    if not cdrs:
-        return _Joints((), np.zeros(0, np.int64), *(np.zeros((0, 0)) for _ in range(3)))
-    first = decode(JOINTS, cdrs[0])
-    names = tuple(first.name)
-    rows = joint_template(names, first.header.frame_id, len(first.effort) > 0).decode(cdrs)
-    if rows is not None:
-        effort = rows["effort"] if "effort" in (rows.dtype.names or ()) else np.zeros((len(rows), 0))
-        return _Joints(names, _times(rows), rows["position"].copy(), rows["velocity"].copy(), effort.copy())
-    efforts = len(first.effort)
-    stamped = [(header_stamp(cdr), decode(JOINTS, cdr)) for cdr in cdrs]
-    stamped = [each for each in stamped if tuple(each[1].name) == names and len(each[1].effort) == efforts]
-    parts = (
-        [getattr(message, part) for _, message in stamped] for part in ("position", "velocity", "effort")
-    )
-    times = np.array([stamp for stamp, _ in stamped], np.int64)
-    return _Joints(names, times, *(np.array(part, float) for part in parts))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.observe.summary import TorqueBudget
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan, scan_recording
@@ -82,6 +83,7 @@ class Report:
         "topics of which the twin has published more than is recorded; ``None``: it had no last word",
     ]
     malformed_messages: A[Mapping[str, int], "left out because they are not what their topic promises"]
+    boxes: A[Mapping[str, str], "condition of every axlebox by name; empty for a recording of one"]
     measured: A[Mapping[str, Any], "files, channels, units and speed of what was measured; empty: simulated"]
 
     def to_json(self) -> dict[str, Any]:
@@ -95,8 +97,13 @@ class Report:
         return "\n".join(_lines(self))
 
 
-def report(path: Path | str) -> Report:
+def report(path: Path | str, box: str | None = None) -> Report:
     """Read a recording, also a cut-off one, and report its content.
+
+    Parameters
+    ----------
+    box : str, optional
+        Axlebox of several that what is said of a scene is about; by default the first.
 
     Raises
     ------
@@ -107,7 +114,7 @@ def report(path: Path | str) -> Report:
     times: dict[tuple[str, str], list[int]] = defaultdict(list)
     for message in scan.messages():
         times[message.topic, message.type].append(message.log_time)
-    run = read_run(path)
+    run = read_run(path, box)
     with decoding_checked(scan.path):
         return _report(scan, run, times)
 
@@ -151,6 +158,9 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         else {},
         missing_messages=_missing(run, times),
         malformed_messages=run.malformed,
+        boxes={name: str(each.truth.get("condition", "not known")) for name, each in run.boxes.items()}
+        if len(run.boxes) > 1
+        else {},
         measured=run.measured,
     )
 
@@ -208,6 +218,11 @@ def _lines(r: Report) -> list[str]:
     ending = "" if r.status in (None, COMPLETE) else f"; the run ended: {r.status}"
     lines += [f"closed properly{ending}" if r.complete else r.problem, ""]
     lines += _measured_lines(r.measured)
+    if r.boxes:
+        sound = sum(each == HEALTHY for each in r.boxes.values())
+        others = "; ".join(f"{name}: {each}" for name, each in r.boxes.items() if each != HEALTHY)
+        lines.append(f"boxes    {len(r.boxes)}, {sound} healthy; {others or 'none faulty'}")
+        lines.append(f"         of the one that --box names, or the first, {next(iter(r.boxes))}:")
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         if r.chosen is not None:

@@ -15,17 +15,18 @@ from beardyn_core.observe.labels import flat_labels, load_labels
 from beardyn_core.observe.monitoring import MonitorInput, measured_axes
 from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
-from beardyn_core.record.topics import vibration_topic
+from beardyn_core.record.topics import NAMESPACE, vibration_topic
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.summary import RunSummary
     from beardyn_core.record.collecting import BlockSource
     from beardyn_core.record.description import RunDescription
-    from beardyn_core.record.reading import MessageSource
+    from beardyn_core.record.message_source import MessageSource
 
 Part = TypeVar("Part")
 
+USUAL_BOX = NAMESPACE.strip("/")
 MONITOR_PART = 512  # vibration samples that a monitor gets at a time
 _NONE = np.zeros(0)
 _SILENCE = arrays.no_signal(ACCELERATION_AXES, "m/s^2")
@@ -56,6 +57,8 @@ class Run:
     measured : mapping, optional
         Of a run that was measured and not simulated: files, channels, units, speed, name plates; see
         docs/measured.md. Empty for a simulated one.
+    boxes : mapping, optional
+        Of a run of several axleboxes: every one by its name.
     """
 
     def __init__(
@@ -71,6 +74,7 @@ class Run:
         summary: Callable[[], RunSummary] | None = None,
         malformed: Mapping[str, int] | None = None,
         measured: Mapping[str, Any] | None = None,
+        boxes: Mapping[str, Run] | None = None,
     ) -> None:
         self._source = source
         self.description = description
@@ -82,6 +86,12 @@ class Run:
         self.malformed = dict(malformed or {})
         self.measured = dict(measured or {})
         self._summary = summary
+        self._boxes = boxes
+
+    @property
+    def boxes(self) -> Mapping[str, Run]:
+        """Every axlebox of the run or recording by its name; this one alone where there is one."""
+        return self._boxes or {USUAL_BOX: self}
 
     @classmethod
     def of_blocks(
@@ -90,6 +100,7 @@ class Run:
         description: RunDescription | None = None,
         status: str | None = None,
         summary: Callable[[], RunSummary] | None = None,
+        boxes: Mapping[str, Run] | None = None,
     ) -> Run:
         """Make a run of blocks, such as `beardyn_core.blocks` or a live twin gives.
 
@@ -106,14 +117,16 @@ class Run:
             How the run ended.
         summary : callable, optional
             Gives the summary of the simulation.
+        boxes : mapping, optional
+            See `Run`.
         """
         from beardyn_core.record.collecting import BlockSource
-        from beardyn_core.record.reading import MessageSource
+        from beardyn_core.record.message_source import MessageSource
 
         given = tuple(blocks)
         source = BlockSource(given, description) if given else MessageSource({}, description)
         text = "" if description is None else description.scene_text
-        return cls(source, description, status=status, scene_text=text, summary=summary)
+        return cls(source, description, status=status, scene_text=text, summary=summary, boxes=boxes)
 
     @cached_property
     def force(self) -> arrays.Signal:

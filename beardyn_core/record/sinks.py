@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 
+from beardyn_core.model.build import BLOCK_NS
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import DIAGNOSTICS_EVERY, BlockEncoder, block_diagnostic
+from beardyn_core.record.encoding import (
+    DIAGNOSTICS_EVERY,
+    USUAL_NAME,
+    Batch,
+    BlockEncoder,
+    block_diagnostic,
+    single,
+)
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_writing import COMPLETE, McapWriter
 from beardyn_core.record.messages import encode_diagnostics, encode_string
@@ -79,29 +87,18 @@ class McapSink:
         self._path = Path(path)
         self._replace = replace
         self._writer: McapWriter | None = None
-        self._load_written = 0
 
     def open(self, run: RunDescription) -> None:
         """Create the file; it holds the description from the first moment on."""
-        self._run = run
-        self._encoder = BlockEncoder(run.roller_count, run.sensor_names, FRAME)
-        self._load_written = 0
-        self._first = True
+        self._messages = RunMessages(run)
         self._writer = McapWriter(self._path, NAMESPACE, replace=self._replace)
         self._writer.describe(run)
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""
         writer = self._opened()
-        if self._first:
-            self._first = False
-            writer.add("truth", block.start_ns, encode_string(self._run.to_json()))
-        self._write_load(writer, block.end_ns)
-        for name, stamp, cdr in self._encoder.encode(block):
-            writer.add(name, stamp, cdr)
-        if block.index % DIAGNOSTICS_EVERY == 0 or block.status != 0:
-            status = block_diagnostic(block)
-            writer.add("/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, FRAME, [status]))
+        for batch in self._messages.of(block):
+            writer.add_rows(*batch)
 
     def close(self, status: str = "") -> None:
         """Finish the file."""
@@ -113,7 +110,82 @@ class McapSink:
             raise RuntimeError("McapSink.write before McapSink.open")
         return self._writer
 
-    def _write_load(self, writer: McapWriter, until_ns: int) -> None:
+
+class TrainSink:
+    """Writes the runs of several axleboxes to one MCAP file, each in a namespace of its name.
+
+    Parameters
+    ----------
+    replace : bool
+        See `McapSink`.
+    pictures : bool
+        Whether bodies and contacts are recorded.
+    """
+
+    def __init__(self, path: Path | str, *, replace: bool = False, pictures: bool = True) -> None:
+        self._path = Path(path)
+        self._replace, self._pictures = replace, pictures
+        self._writer: McapWriter | None = None
+
+    def open(self, runs: Mapping[str, RunDescription]) -> None:
+        """Create the file."""
+        self._messages = {box: RunMessages(run, box, self._pictures) for box, run in runs.items()}
+        self._writer = McapWriter(self._path, f"/{next(iter(runs))}", replace=self._replace)
+
+    def encode(self, box: str, block: Block) -> list[Batch]:
+        """Make the messages of a block; for different boxes from different threads."""
+        return list(self._messages[box].of(block))
+
+    def write(self, batches: Iterable[Batch]) -> None:
+        """Append messages."""
+        if self._writer is None:
+            raise RuntimeError("TrainSink.write before TrainSink.open")
+        for batch in batches:
+            self._writer.add_rows(*batch)
+
+    def close(self, status: str = "") -> None:
+        """Finish the file."""
+        if self._writer is not None:
+            self._writer.close(status)
+
+
+class RunMessages:
+    """The messages of a run, block by block: its truth, the load it has used, what it gives, diagnostics.
+
+    Parameters
+    ----------
+    box : str
+        Name of one axlebox of several, whose topics then have a namespace of their own.
+    pictures : bool
+        Whether bodies and contacts are among them.
+    """
+
+    def __init__(self, run: RunDescription, box: str = "", pictures: bool = True) -> None:
+        self._run, self._box, self._frame, self._pictures = run, box, box or FRAME, pictures
+        self._encoder = BlockEncoder(run.roller_count, run.sensor_names, self._frame)
+        self._load_written = 0
+        self._first = True
+
+    def of(self, block: Block) -> Iterator[Batch]:
+        """Make the messages of a block."""
+        for batch in self._own(block):
+            absolute = not self._box or batch.topic.startswith("/")
+            yield batch if absolute else batch._replace(topic=f"/{self._box}/{batch.topic}")
+
+    def _own(self, block: Block) -> Iterator[Batch]:
+        if self._first:
+            self._first = False
+            yield single("truth", block.start_ns, encode_string(self._run.to_json()))
+        yield from self._load(block.end_ns)
+        yield from self._encoder.batches(block, self._pictures)
+        count = (block.end_ns - block.start_ns) // BLOCK_NS
+        if -block.index % DIAGNOSTICS_EVERY < count or block.status != 0:
+            status = block_diagnostic(block, f"{self._box}/twin" if self._box else USUAL_NAME)
+            yield single(
+                "/diagnostics", block.end_ns, encode_diagnostics(block.end_ns, self._frame, [status])
+            )
+
+    def _load(self, until_ns: int) -> Iterator[Batch]:
         load = self._run.load
         if load is None:
             return
@@ -121,6 +193,6 @@ class McapSink:
         last = min(int(np.searchsorted(load.time_ns, until_ns)) + 1, len(load))
         while self._load_written < last:
             part = load.part(self._load_written, min(self._load_written + LOAD_MESSAGE_SAMPLES, last))
-            cdr = encode_load(part, self._load_written, FRAME)
-            writer.add("load/blocks", int(part.time_ns[0]), cdr)
+            cdr = encode_load(part, self._load_written, self._frame)
+            yield single("load/blocks", int(part.time_ns[0]), cdr)
             self._load_written += len(part)

@@ -86,11 +86,18 @@ _BY_NAME = {topic.name: topic for topic in TOPICS}
 def topic(name: str) -> Topic:
     """Find the entry of the table; ``vibration/<name>`` is one of a further accelerometer.
 
+    An absolute name is that of a topic in a namespace of its own, as several axleboxes in one file have.
+
     Raises
     ------
     KeyError
         The table has no such topic.
     """
+    if name.startswith("/") and name not in _BY_NAME:
+        space = namespace_of(name)
+        if space is None:
+            raise KeyError(name)
+        return replace(topic(relative_name(name, space)), name=name)
     if name.startswith("vibration/"):
         return replace(_BY_NAME["vibration"], name=name)
     return _BY_NAME[name]
@@ -104,6 +111,9 @@ def relative_name(path: str, namespace: str = NAMESPACE) -> str:
 
 def namespace_of(path: str) -> str | None:
     """Find the namespace of an absolute topic name that ends with a relative name of the table."""
+    head, between, _ = path.rpartition("/vibration/")
+    if between:
+        return head
     names = (entry.name for entry in TOPICS if not entry.name.startswith("/"))
     ends = [name for name in names if path.endswith("/" + name)]
     # load/shaft ends with shaft too: the longer name is the right one.

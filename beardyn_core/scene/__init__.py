@@ -18,8 +18,10 @@ waviness          harmonics of raceways and rollers
 scatter           manufacturing scatter from a grade and a seed
 sensor            accelerometers, their kinds, measured paths to them
 background        what they hear besides the bearing
+axleboxes         those of a wheelset, a bogie, a car or a train, by name and place
 tier              which bodies move by their own equations of motion, how the full tier takes a time step
 scene             all of it, and what of it may be chosen
 trial             the matrix of scenes that a monitor is put to
+sweep             distributions that the scenes of a set of runs are drawn from
 ================= ================================================================================
 """

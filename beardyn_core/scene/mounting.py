@@ -110,6 +110,12 @@ class Mounting:
         float, At("MN_per_m", ge=0.0), "of a spring between journal and ground along y; a single row needs it"
     ] = 0.0
     axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper beside that spring"] = 0.0
+    side: A[
+        str,
+        At(one_of=("left", "right"), absent=True),
+        "end of the wheelset that the axlebox is on: the axle that bends goes on towards -y from a left one. "
+        "left when left out",
+    ] = "left"
 
     def rules(self) -> Iterator[str]:
         """Check inertia and centre of mass of the axlebox against each other."""

@@ -11,6 +11,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.edge import INTERNAL, SEED, At
 from beardyn_core.effects import EffectSet
+from beardyn_core.scene.axleboxes import Axleboxes
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
@@ -25,9 +26,6 @@ from beardyn_core.units import UNITS
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
 USUAL_QUANTITIES = QUANTITIES[:-1]
 EFFECTS = tuple(field.name for field in fields(EffectSet))
-
-# options of the rib that only the full tier has
-_FULL_RIB_OPTIONS = ("lubrication", "roller_end", "drilling")
 
 
 @dataclass(frozen=True)
@@ -96,6 +94,9 @@ class Scene:
     ] = None
     mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
     rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2
+    axleboxes: A[
+        Axleboxes | None, "all boxes of a wheelset, a bogie, a car or a train at once; left out: one box"
+    ] = None
     missing_rollers: A[tuple[MissingRoller, ...], "rollers that are not there"] = ()
     defects: A[tuple[Defect, ...], "patches, a roller of another diameter, worn pockets"] = ()
     waviness: A[tuple[Waviness, ...], "harmonics of raceways and rollers"] = ()
@@ -188,8 +189,9 @@ class Scene:
     def missing_effects(self) -> tuple[str, ...]:
         """Names of the effects and options that are asked for and that the tier does not represent."""
         rib = self.effects.rib
-        options = () if rib is None else (name for name in _FULL_RIB_OPTIONS if getattr(rib, name))
-        return missing_effects(self.tier, (*self.effect_names, *(f"rib.{name}" for name in options)))
+        # the contact beyond the rim of a roller end; film and drilling are in the torque of every tier
+        beyond_rim = ("rib.roller_end",) if rib is not None and rib.roller_end else ()
+        return missing_effects(self.tier, (*self.effect_names, *beyond_rim))
 
 
 @dataclass(frozen=True)

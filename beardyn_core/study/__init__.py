@@ -4,12 +4,14 @@
 module              responsibility
 =================== =========================================================================
 desk_run            a scene from start to end, with its means
+train_run           several axleboxes at once, in a few threads
 monitored_recording a monitor beside a recording, or over one; its results in words and messages
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 measured_severity   how wide the spall is that a monitor found in a run
 code_digest         hashes of the code of a monitor and of the simulator
+compiling           kernels compiled once on a machine, whatever processes want them
 trial               its runs with a monitor beside each, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        a trial as table and JSON

@@ -75,7 +75,7 @@ def _fed(
     twin, load = simulation.twin, simulation.load
     description = RunDescription.of(scene, twin.truth(), twin.body_names, load)
 
-    trend = _Trend(scene.sensors)
+    trend = Trend(scene.sensors)
     wall_time = 0.0
     status = COMPLETE
     opened: list[Sink] = []
@@ -132,7 +132,7 @@ def _fed(
 def _close(sinks: Sequence[Sink], status: str) -> list[str]:
     """Close every sink, also when one fails; gives what went wrong."""
     failures: list[str] = []
-    with _undisturbed():
+    with undisturbed():
         for sink in sinks:
             try:
                 sink.close(status)
@@ -142,7 +142,7 @@ def _close(sinks: Sequence[Sink], status: str) -> list[str]:
 
 
 @contextmanager
-def _undisturbed() -> Iterator[None]:
+def undisturbed() -> Iterator[None]:
     """Ignore Ctrl-C: an impatient second one must not cut the file that the first one closes."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -154,7 +154,7 @@ def _undisturbed() -> Iterator[None]:
         signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
 
 
-class _Trend:
+class Trend:
     """The 400 Hz signals of a run that its means are taken from."""
 
     def __init__(self, sensors: Sequence[Accelerometer]) -> None:

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-import multiprocessing
-import os
-import signal
-import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, dataclass
 from math import isfinite
-from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any, BinaryIO
@@ -23,6 +17,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import trial_scene, with_choices
 from beardyn_core.config import scene_text
 from beardyn_core.config.content import files_of
+from beardyn_core.engine import Cluster, Engine
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
@@ -264,33 +259,19 @@ def _at_once(plan: Plan, jobs: int) -> Generator[TrialRun, None, None]:
     """Conduct runs on several processes, which end with the first failure or interrupt."""
     if not plan.missing:
         return
-    others = set(multiprocessing.active_children())
-    pool = ProcessPoolExecutor(jobs, get_context("spawn"), _quiet_worker, (os.getcwd(),))
-    try:
-        with _interrupts_held():  # the processes that begin here inherit it
-            waiting = {
-                pool.submit(conduct_run, plan.trial, cell, plan.algorithm, plan.digests[cell.key])
-                for cell in plan.missing
-            }
-        while waiting:
-            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-            yield from (future.result() for future in done)
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in set(multiprocessing.active_children()) - others:
-            process.terminate()  # a run takes long, and nothing of one that is not done is kept
-        raise
-    pool.shutdown()
+    with Engine(Cluster(workers=jobs)) as engine:
+        for ended in engine.run(_conducted, plan.missing, plan.trial, plan.algorithm, plan.digests):
+            if ended.killed:
+                raise InputError(
+                    f"{ended.task.key}: {ended.killed} processes died while they computed this run, out of "
+                    "memory or by a crash; the runs before are kept"
+                )
+            yield ended.value
 
 
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Delay Ctrl-C to the end of the context."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def _conducted(cell: Cell, trial: Trial, algorithm: str, digests: dict[str, str]) -> TrialRun:
+    """Conduct a run in a process of the engine."""
+    return conduct_run(trial, cell, algorithm, digests[cell.key])
 
 
 class _Keeper:
@@ -342,17 +323,3 @@ class _Keeper:
                 f"{self._path}: cannot be written: {error.strerror or error}; the {self._kept} runs before "
                 "are kept, and the same command goes on from there"
             ) from error
-
-
-def _quiet_worker(folder: str) -> None:
-    """Prepare a process: it ends silently with its parent and works in its parent's folder."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.chdir(folder)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        connection.wait([parent.sentinel])
-        os._exit(1)

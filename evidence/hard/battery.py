@@ -12,20 +12,20 @@ import logging
 import pickle
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from multiprocessing import get_context
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numba
 import numpy as np
 
 import beardyn_core
+from beardyn_core.engine import Cluster, Engine
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
+from beardyn_core.study.compiling import warm_once
 from evidence.hard.case import HardCase
 from evidence.hard.case_scene import scene_of
 from evidence.hard.run import STARTS, keep, run_case
@@ -66,45 +66,27 @@ def run_battery(
     todo = [case for case in cases if case.name not in done]
     if not todo:
         return [done[case.name] for case in cases]
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_quiet) as pool:
-        for outcome in _as_done(pool, todo, folder, jobs, starts):
+    size = Counter(kernel_of(case) for case in todo)
+    # long cases first, so that no process works alone at the end; kernels of many cases before others
+    todo.sort(key=lambda case: (not case.long, -size[kernel_of(case)]))
+    with Engine(Cluster(workers=jobs)) as engine:
+        for ended in engine.run(_one, todo, folder, starts):
+            outcome = ended.value
+            if ended.killed:
+                outcome = Outcome(ended.task.name, FAILED, (f"crashed: {ended.killed} processes died of it",))
             done[outcome.name] = outcome
             report(outcome, len(done), len(cases))
     return [done[case.name] for case in cases]
 
 
-def _as_done(
-    pool: ProcessPoolExecutor, cases: list[HardCase], folder: Path, jobs: int, starts: int
-) -> Iterator[Outcome]:
-    """Yield outcomes as they come; two processes never compile the same kernel."""
-    kernels = {case.name: kernel_of(case) for case in cases}
-    size = Counter(kernels.values())
-    # kernels of many cases first; of each a short case first, then the long ones
-    waiting = sorted(cases, key=lambda case: (-size[kernels[case.name]], not case.long))
-    ready: set[str] = set(_NO_KERNEL)
-    running: dict[Future[Outcome], str] = {}
-    while waiting or running:
-        for case in list(waiting):
-            kernel = kernels[case.name]
-            alone = kernel not in ready
-            if len(running) < jobs and not (alone and (kernel in running.values() or case.long)):
-                running[pool.submit(_one, case, _place(case, folder, starts), starts)] = kernel
-                waiting.remove(case)
-        if not running:  # only long ones of a new kernel are left
-            ready.update(kernels.values())
-            continue
-        for future in wait(running, return_when=FIRST_COMPLETED).done:
-            ready.add(running.pop(future))
-            yield future.result()
-
-
-def _quiet() -> None:
-    logging.getLogger("beardyn").setLevel(logging.WARNING)
-
-
-def _one(case: HardCase, place: Path, starts: int) -> Outcome:
+def _one(case: HardCase, folder: Path, starts: int) -> Outcome:
     """Run a case in this process; a crash of the model is a verdict too."""
+    logging.getLogger("beardyn").setLevel(logging.WARNING)
+    place = _place(case, folder, starts)
     try:
+        kernel = kernel_of(case)
+        if kernel not in (*_NO_KERNEL, "none"):
+            warm_once(scene_of(case), kernel)
         outcome = run_case(case, place.with_suffix(".checkpoint"), starts)
     except Exception:
         outcome = Outcome(case.name, FAILED, (f"crashed: {traceback.format_exc(limit=-3)}",))

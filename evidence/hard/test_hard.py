@@ -86,7 +86,7 @@ def test_battery_keeps_what_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     told: list[Outcome] = []
     first = run_battery(cases, tmp_path, 1, lambda outcome, _there, _of: told.append(outcome))
     assert [outcome.verdict for outcome in first] == ["refused"]
-    monkeypatch.setattr(battery, "ProcessPoolExecutor", None)
+    monkeypatch.setattr(battery, "Engine", None)
     again = run_battery(cases, tmp_path, 1, lambda outcome, _there, _of: told.append(outcome))
     assert again[0].sentence == first[0].sentence
     assert len(told) == 2

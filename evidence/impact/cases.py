@@ -20,6 +20,7 @@ WHEEL_RADIUS = 0.46  # of emu_300, [m]
 HALF = 25e-3  # length of the spall in `cup_spall`, half of the contact, [m]
 WHOLE = load_bearing(BEARING).effective_length
 DEPTH = 100e-6
+DEEP = 400e-6  # no roller that passes falls so far, up to 6 mm
 # a charge amplifier behind a piezoelectric accelerometer: 0.05 pC rms (Ono Sokki, CH-1200A) over an assumed
 # band of 30 kHz, at 1 pC per m/s^2; range of Bruel & Kjaer type 4391
 NOISE, RANGE = 2.9e-4, 20_000.0
@@ -28,6 +29,8 @@ WIDTHS = tuple(1e-3 * each for each in (1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 15.0))
 SPEEDS = (40.0, 90.0, 200.0, 300.0)
 LOADS = tuple(1e3 * each for each in (40.0, 80.0, 120.0))
 BOTH = (90.0, 200.0)  # speeds at which everything but the speed is varied, [km/h]
+# over which levels are taken, for single speeds beat, [km/h]
+SPEED_RANGE = (60.0, 85.0, 120.0, 170.0, 240.0)
 SQUARES = tuple((1e-3 * w, 1e-3 * length) for w, length in ((3.0, 10.0), (6.0, 20.0), (15.0, 50.0)))
 
 
@@ -42,6 +45,7 @@ class Case:
     length: A[float, "of the spall along the roller, [m]"] = HALF
     caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
     damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
+    depth: A[float, "of the floor of the spall, [m]"] = DEPTH
 
     def scene(self) -> Scene:
         """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
@@ -54,7 +58,7 @@ class Case:
         modes = modes_of_effects(effects)
         assert modes is not None
         patch = Patch(
-            on=self.on, row=0, azimuth=0.0, width=self.width, depth=DEPTH, length=self.length
+            on=self.on, row=0, azimuth=0.0, width=self.width, depth=self.depth, length=self.length
         )  # fmt: skip
         return replace(
             scene,
@@ -98,6 +102,37 @@ def over_area(speed: float) -> tuple[Case, ...]:
 def across(speed: float, damping: float | None = None) -> tuple[Case, ...]:
     """List spalls over the whole contact, which unload a roller altogether, at a speed [km/h]."""
     return tuple(Case(width, speed, length=WHOLE, damping=damping) for width in WIDTHS if width >= 6e-3)
+
+
+def over_range(case: Case) -> tuple[Case, ...]:
+    """List a case at all speeds of `SPEED_RANGE`."""
+    return tuple(replace(case, speed=speed) for speed in SPEED_RANGE)
+
+
+def _natural(width: float) -> Case:
+    return Case(width, length=min(2.0 * width, WHOLE), depth=min(0.1 * width, DEEP))
+
+
+GROWING: dict[str, tuple[Case, ...]] = {
+    "whole contact, deep": tuple(
+        Case(width, length=WHOLE, depth=DEEP) for width in (1e-3, 2e-3, 3e-3, 4e-3, 6e-3)
+    ),
+    "whole contact, 100 um": tuple(Case(width, length=WHOLE) for width in (4e-3, 6e-3, 10e-3)),
+    "twice as long, a tenth as deep": tuple(
+        _natural(width) for width in (1e-3, 2e-3, 4e-3, 6e-3, 10e-3, 15e-3)
+    ),
+    "25 mm long, 100 um": tuple(Case(width) for width in (1e-3, 2e-3, 3e-3, 4e-3, 6e-3, 10e-3)),
+}
+LOADED: dict[str, tuple[Case, ...]] = {
+    "6 mm, whole contact": tuple(Case(load=load, length=WHOLE) for load in LOADS),
+    "6 mm, 25 mm long": tuple(Case(load=load) for load in LOADS),
+}
+
+
+def ranged() -> list[Case]:
+    """List all runs of `GROWING`, `LOADED` and a sound bearing over `SPEED_RANGE`, each once."""
+    kinds = [case for series in (GROWING, LOADED) for cases in series.values() for case in cases]
+    return list(dict.fromkeys(each for case in [Case(0.0), *kinds] for each in over_range(case)))
 
 
 def every() -> list[Case]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -28,9 +28,11 @@ from evidence.impact.cases import (
     over_area,
     over_load,
     over_width,
+    ranged,
 )
 from evidence.impact.crossing import crossing, ring_down
 from evidence.impact.edges import LAWS, sinks, strike
+from evidence.impact.loud import listed, loud
 from evidence.impact.published import published
 from evidence.impact.study import RATE, SPANS_KHZ, heard, run
 from evidence.pages import DOCS, PICTURES, save_small
@@ -95,10 +97,10 @@ CAUSES = """
 
 Runs that remove the cause stand beside.
 
-- **Above about 2 mm the width does not make a spall of one length louder.** From there on all load has left
-  the spalled part of the roller before it is taken up again, so that a longer way adds nothing. A spall
-  that grows in both directions is louder (3 x 10, 6 x 20, 15 x whole above; the last unloads its rollers
-  altogether, which is most of its rise).
+- **Above about 2 mm the width does not make a spall of one length louder** where the rest of the contact
+  carries the roller. From there on all load has left the spalled part before it is taken up again, and it
+  is taken up where the far edge is as near as the roller is pressed in, on the same slope at every width. A
+  longer way adds nothing to that; what grows with a spall on a rig is its area, as above.
 - **A spall of 1 mm is louder than one of 2 mm**: peaks of {narrow} m/s^2 at {speeds} km/h. Edges give way
   under the roller as those of an elastic half-space do, where a held roller strikes harder over 1 mm, too:
   it gives up its load and takes it up again at once, one stroke of twice the change; over 2 mm there is a
@@ -218,12 +220,6 @@ def damping_row(time: float) -> str:
     )
 
 
-def listed(values: Sequence[float], form: str) -> str:
-    """Write numbers one after the other, the last with an "and"."""
-    texts = [format(value, form) for value in values]
-    return f"{', '.join(texts[:-1])} and {texts[-1]}"
-
-
 def above(*cases: Case) -> str:
     """Write the part of the power above 5 kHz of some cases."""
     return listed([100.0 * sum(heard(case).shares[2:]) for case in cases], ".0f") + " %"
@@ -281,6 +277,8 @@ def main() -> int:
         if case.on == "cup" and case.width > 0.0:
             crossing(case)
         print(name(case), case.speed, case.load, f"{found.peak:.1f} {found.rms:.2f}", flush=True)
+    for case in ranged():
+        print(name(case), case.speed, case.load, f"{heard(case).peak:.1f}", flush=True)
     draw()
     bands = " | ".join(f"{low:g}-{high:g} kHz" for low, high in SPANS_KHZ)
     dashes = "--:|" * len(SPANS_KHZ)
@@ -297,6 +295,7 @@ def main() -> int:
     text += "".join(f"{heard_row(case)}\n" for case in cases_heard())
     text += SHARES.format(bands=bands, dashes=dashes)
     text += "".join(f"{shares_row(part, speed)}\n" for speed in BOTH for part in PARTS)
+    text += loud()
     text += published()
     peaks = [listed([heard(case).peak for case in over_width(speed)[:2]], ".0f") for speed in BOTH]
     text += CAUSES.format(

@@ -4,9 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from evidence.impact.cases import BOTH, OVER_SPEED, Case, across, healthy, over_area, over_width
+from evidence.impact.cases import (
+    BOTH,
+    GROWING,
+    OVER_SPEED,
+    Case,
+    across,
+    healthy,
+    over_area,
+    over_range,
+    over_width,
+)
 from evidence.impact.crossing import crossing
-from evidence.impact.study import Heard, heard
+from evidence.impact.study import Heard, heard, loudness
 
 TITLE = """
 ## Published, and ours
@@ -27,6 +37,11 @@ def _span(values: list[float], form: str) -> str:
 def _power(values: list[float]) -> float:
     """Fit a power of the speed through values of `OVER_SPEED`."""
     return float(np.polyfit(np.log([case.speed for case in OVER_SPEED]), np.log(values), 1)[0])
+
+
+def _over(name: str) -> list[float]:
+    """List the rms of a line of `GROWING`."""
+    return [loudness(over_range(case)).rms for case in GROWING[name]]
 
 
 def _all(cases: list[Case]) -> list[Heard]:
@@ -75,6 +90,16 @@ def published() -> str:
             "km/h from 1 to 15 mm; rms from 4 to 15 mm stays within "
             f"{max(each.rms for each in spalled[:4]) / min(each.rms for each in spalled[:4]) - 1.0:.0%} at "
             "90 km/h",
+        ),
+        (
+            "Rao and Ratnam 2015, Tribol. Ind. 37, 176; cylindrical roller bearing, defect of the outer race "
+            "seeded larger and larger (abstract)",
+            "vibration tells a defect when it has become severe; earlier work, with defects of several "
+            "kinds, found no relation of size and level",
+            f"over {_span([case.speed for case in over_range(Case())], 'g')} km/h rms "
+            f"{_span(_over('25 mm long, 100 um'), '.0f')} m/s^2 from 1 to 10 mm of one length, "
+            f"{_span(_over('twice as long, a tenth as deep'), '.0f')} m/s^2 from 1 to 15 mm where length and "
+            f"depth grow, {loudness(over_range(Case(0.0))).rms:.0f} sound",
         ),
         (
             "Tarawneh and others, freight axlebox bearings on a rig (from memory); Rail. Eng. Sci. 2021 "

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Annotated as A
 
 import numpy as np
@@ -47,7 +48,7 @@ class Run:
     status: str
 
 
-@cache
+@lru_cache(maxsize=4)
 def run(case: Case) -> Run:
     """Run a case; the last few are kept."""
     scene = case.scene()
@@ -96,6 +97,7 @@ class Heard:
     levels: A[tuple[float, ...], "rms in `SPANS_KHZ`, [m/s^2]"]
     kurtosis: A[float, "3 for Gaussian noise"]
     ringing: A[float, "kurtosis in the band `RINGING`"]
+    ringing_rms: A[float, "rms in the band `RINGING`, [m/s^2]"]
     band: A[tuple[float, float], "what the shipped kurtogram chooses, [Hz]"]
     stands_out: A[bool, "the kurtogram found a band, and did not fall back on its default"]
     line: A[float, "fault line in the spectrum of the squared envelope over its background there, [dB]"]
@@ -126,15 +128,42 @@ def heard(case: Case) -> Heard:
     )
     stretch = Stretch(RATE, signal[:, None], made.shaft_angle, case.load, 0)
     chosen = by_kurtogram(stretch, MonitorSettings())
+    rings = passed(signal, RINGING)
     envelope = stretch.squared_envelope((chosen.low, chosen.high))[stretch.inner]
     name, times = FAULTS[case.on]
     order = times * getattr(fault_frequencies(case.scene().bearing), name)
     fault = order * stretch.shaft_frequency
     return Heard(
         float(np.median([np.abs(part).max() for part in np.array_split(signal, 10)])), levels,
-        float(stats.kurtosis(signal) + 3.0), float(stats.kurtosis(passed(signal, RINGING)) + 3.0),
+        float(stats.kurtosis(signal) + 3.0), float(stats.kurtosis(rings) + 3.0), float(rings.std()),
         (chosen.low, chosen.high), math.isfinite(chosen.kurtosis), over_noise(envelope, fault),
         over_noise(signal, fault), made.status,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Loudness:
+    """Levels of one spall, geometric means over several speeds, and what they grow with."""
+
+    peak: A[float, "[m/s^2]"]
+    rms: A[float, "[m/s^2]"]
+    ringing: A[float, "rms in the band `RINGING`, [m/s^2]"]
+    kurtosis: A[float, "the smallest of all speeds, 3 for Gaussian noise"]
+    with_speed: A[float, "power of the speed with which the peak grows"]
+
+
+def loudness(cases: Sequence[Case]) -> Loudness:
+    """Take the levels of cases that differ by their speed."""
+    found = [heard(case) for case in cases]
+
+    def mean(values: list[float]) -> float:
+        return float(np.exp(np.mean(np.log(values))))
+
+    peaks = [each.peak for each in found]
+    return Loudness(
+        mean(peaks), mean([each.rms for each in found]), mean([each.ringing_rms for each in found]),
+        min(each.kurtosis for each in found),
+        float(np.polyfit(np.log([case.speed for case in cases]), np.log(peaks), 1)[0]),
     )  # fmt: skip
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from beardyn_core.config import load_bearing
-from evidence.impact.cases import BEARING, BOTH, Case, across, every, healthy, over_width
+from evidence.impact.cases import BEARING, BOTH, GROWING, Case, across, every, healthy, over_width, ranged
 from evidence.impact.crossing import BURST, crossing
 from evidence.impact.edges import LAWS, load_of, sinks, sound_depth, strike
 from evidence.impact.elastic import PLACE, approach, cup_radius, sink
@@ -21,6 +22,7 @@ def test_every_case_of_the_page_is_run_once() -> None:
     cases = every()
     assert len(cases) == len(set(cases))
     assert {*cases_heard(), *cases_of_crossings()} <= set(cases)
+    assert len(ranged()) == len(set(ranged()))
 
 
 def test_a_line_stands_out_of_noise_by_its_own_power() -> None:
@@ -97,6 +99,19 @@ def test_spalls_of_every_width_from_3_mm_are_more_impulsive_than_a_sound_bearing
 def test_a_spall_of_3_mm_is_as_loud_as_one_of_2_mm_or_louder_at_90_km_h() -> None:
     two, three = (heard(Case(width, 90.0)).peak for width in (2e-3, 3e-3))
     assert two <= three
+
+
+@pytest.mark.slow
+def test_a_spall_that_grows_in_both_directions_gets_louder_all_the_way() -> None:
+    levels = [heard(replace(case, speed=120.0)).rms for case in GROWING["twice as long, a tenth as deep"]]
+    assert levels == sorted(levels)
+    assert levels[-1] > 4.0 * levels[0]
+
+
+@pytest.mark.slow
+def test_a_deep_spall_over_the_whole_contact_gets_louder_from_1_to_6_mm() -> None:
+    levels = [heard(replace(case, speed=170.0)).rms for case in GROWING["whole contact, deep"]]
+    assert 1.4 * levels[0] < levels[1] < levels[-1]
 
 
 @pytest.mark.slow

@@ -41,8 +41,8 @@ sensor to that of the rigid box at its place: a CSV file with `frequency_Hz` and
 is applied as a filter of 160 ms (80 ms at 51.2 kHz) **behind the rigid model**: rollers and raceways do
 not feel it. That is the cheaper and less true kind of a structure, for boxes that were measured and not
 modelled; `beardyn explain` and the recorded scene name it so. Below its first frequency the ratio goes
-to 1 at rest, above its last one it fades to nothing within a tenth. A ratio that rings longer, or has
-its response before its cause, is refused.
+to 1 at rest, so that gravity stays; a row at 0 Hz is not used. Above its last one it fades to
+nothing within a tenth. A ratio that rings longer, or has its response before its cause, is refused.
 
 ## Background
 
@@ -59,7 +59,10 @@ bearing:
 - `pickup`: side bands of the inverter's switching, in millivolts in the sensors' cables; levels assumed.
 
 A background with forces samples the load at 20 kHz instead of 2 or 10, and needs steps of a sample or
-shorter.
+shorter. The forces are part of the load: a twin node has them from the load node of the same scene. Fed
+with a load from elsewhere, of which it cannot know what is in it, it adds none; where that load comes with
+less than 20 kHz, or live, it says so in its log and on `/diagnostics` (WARN). Pickup is the sensors' own and
+always there.
 
 Parts:
 
@@ -69,10 +72,13 @@ Parts:
 
 
 SERVICE = """
+Where the monitor says *cup* here it is wrong: rollers of this tier pass as evenly as they are drawn, and
+without roughness nothing lies around their lines ([model.md](model.md#manufacturing-scatter)).
+
 ## Service scenes
 
-Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. The box has the
-modes of its class (effect `structure`), and the load's background is there.
+Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. Effects `standard` in
+boxes that ring, with the load's background; wheelsets of freight and high speed bend in the twin too.
 """
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
-from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.engine import Cluster, Engine
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX
 from beardyn_core.study.measures import NOMINAL_BANDS
@@ -94,25 +93,12 @@ def run_study(
     report("explicit steps across their limit")
     unstable = unstable_runs(points)
     results: dict[Job, StepRun | str] = {}
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        waiting = {
-            pool.submit(attempt, point, method, number, extent.settling, extent.duration): (
-                point,
-                method,
-                number,
-            )
-            for point, method, number in jobs_of
-        }
-        try:
-            for done, future in enumerate(as_completed(waiting), start=1):
-                point, method, number = waiting[future]
-                found = results[point, method, number] = future.result()
-                report(
-                    f"{done:3}/{len(waiting)}  {point.name}, {method.name}, run {number + 1}: {_said(found)}"
-                )
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    with Engine(Cluster(workers=jobs)) as engine:
+        ended = engine.run(_attempted, jobs_of, extent.settling, extent.duration)
+        for done, each in enumerate(ended, start=1):
+            point, method, number = each.task
+            found = results[each.task] = each.value or f"{each.killed} processes died of it"
+            report(f"{done:3}/{len(jobs_of)}  {point.name}, {method.name}, run {number + 1}: {_said(found)}")
     runs: Runs = {}
     for point, method, number in jobs_of:
         runs.setdefault((point, method), []).append(results[point, method, number])
@@ -131,6 +117,12 @@ def run_study(
         "unstable": unstable,
         "points": [point_mapping(point, extent, runs) for point in points],
     }
+
+
+def _attempted(job: Job, settling: float, duration: float) -> StepRun | str:
+    """Do one run in a process of the engine."""
+    point, method, number = job
+    return attempt(point, method, number, settling, duration)
 
 
 def _said(found: StepRun | str) -> str:

@@ -4,5 +4,6 @@
 module responsibility
 ====== ==============================================================
 page   docs/trial.md and its picture from what the command wrote
+tiers  a spall in service in two tiers, and the noise that it stands out of
 ====== ==============================================================
 """

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
+
 from beardyn_core.choice import load_trial
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
 from evidence.trial.page import page
+from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
 
 
@@ -28,3 +31,18 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     assert "- cup: 6 mm (6 mm to beyond the largest)" in text
     assert "## `quasistatic` against `full`" in text
     assert "did not come to their end" not in text
+
+
+def test_a_spall_adds_its_own_power() -> None:
+    sound = np.array([0.0, 10.0, 3.0])
+    spalled = 10.0 * np.log10(10.0 ** (0.1 * sound) + [1.0, 100.0, 0.0])
+    found = added(spalled, sound)
+    np.testing.assert_allclose(found[:2], [0.0, 20.0], atol=1e-12)
+
+
+def test_tiers_are_compared_on_the_same_run_in_a_box_that_rings() -> None:
+    trial = of_trial()
+    full, fast = (scene_of(trial, tier, SPEEDS[0], spalled=True) for tier in TIERS)
+    assert full.effects.structure is not None
+    assert full.effects == fast.effects
+    assert (full.seed, full.defects) == (fast.seed, fast.defects)

@@ -172,7 +172,7 @@ def test_samples_at_the_end_of_a_sensor_s_range_are_counted_and_told() -> None:
     heard = np.concatenate([block.vibration[0].acceleration for block in blocks])
     largest = float(np.abs(heard).max())
     for range_, count in ((2.0 * largest, 0), (largest, int((np.abs(heard) >= largest).any(axis=1).sum()))):
-        trend = desk_run._Trend((Accelerometer(range=range_),))
+        trend = desk_run.Trend((Accelerometer(range=range_),))
         for block in blocks:
             trend.add(block)
         summary = trend.summary(load_scene("static_5kN"), 1.0, desk_run.COMPLETE)

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import asdict, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import pytest
 
 from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
-from beardyn_core.cli import simulate
+from beardyn_core.cli import simulate, simulate_train
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text, plain
 from beardyn_core.cli.main import COMMANDS, DONE, main, module_of
 from beardyn_core.integrate.rating_life import RatingLife
@@ -122,7 +123,13 @@ def test_simulate() -> None:
     found = read(json_text("simulate", simulate.json_object(summary, Path("run.mcap"))))
     assert found["mean_force_N"] == [1.0, 2.0, None]
     assert found["life"]["L10m_rev"] is None
-    check("simulate", found)
+    train = SimpleNamespace(
+        summaries={"axle_1_left": summary}, failures=(), duration=1.0, wall_time=0.5,
+        processor_time=0.9, real_time_factor=2.0,
+    )  # fmt: skip
+    several = read(json_text("simulate", simulate_train.json_object(train, Path("run.mcap"))))  # type: ignore[arg-type]
+    assert several["axleboxes"]["axle_1_left"]["shaft_torque_N_m"] == -3.0
+    check("simulate", found, several)
 
 
 def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -150,6 +157,7 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         faults=[asdict(fault) for fault in faults],
         missing_messages=(MissingMessages("imu", 80, 32),),
         malformed_messages={"load/blocks": 1},
+        boxes={"axle_1_left": "healthy"},
         measured=MEASURED,
     )
     found = read(json_text("report", report_command.json_object(full, ())))

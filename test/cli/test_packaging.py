@@ -14,7 +14,7 @@ import pytest
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import KINDS
 
-EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_load", "car_recorder")
+EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_twin", "car_load", "car_recorder")
 # no rosdep key
 FROM_PIP = {
     "asammdf",

@@ -25,6 +25,7 @@ from beardyn_core.config import (
     load_plate,
     load_sensor,
     load_vehicle,
+    read_sweep,
     shipped_names,
 )
 
@@ -35,6 +36,7 @@ LOADERS: dict[str, Any] = {
     "vehicles": load_vehicle,
     "effects": load_effects,
     "trials": load_trial,
+    "sweeps": lambda name: read_sweep(name)[0],
     "structures": load_box,
     "sensors": load_sensor,
     "backgrounds": load_background,

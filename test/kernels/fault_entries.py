@@ -18,6 +18,7 @@ from beardyn_core.kernels.laminae import released_power
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import free_pocket
 from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
+from beardyn_core.kernels.spring_roller import over_patches
 from beardyn_core.kernels.vectors import Twist, dot, scale
 from beardyn_core.kernels.waviness import wave_gap
 from test.kernels.entries import pocket_of
@@ -44,6 +45,16 @@ def patch_springs(
             lanes.store(out, case, 5 * k + 2, ring_slope * near)
             lanes.store(out, case, 5 * k + 3, roller_slope * near)
             lanes.store(out, case, 5 * k + 4, (1.0 - firmness) * near)
+
+
+@entry
+def seen_by_sound_rollers(lanes: Any, cases: Any, out: Any) -> None:
+    """Rollers of the lumped tier over patches: inputs approach and moments, outputs approach and slope."""
+    for case in range(cases.shape[0]):
+        moments = load_vector(lanes, cases, case, 1)
+        approach, slope = over_patches(lanes.load(cases, case, 0), moments)
+        lanes.store(out, case, 0, approach)
+        lanes.store(out, case, 1, slope)
 
 
 @entry

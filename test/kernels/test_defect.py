@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.model.arrangement import Arrangement
@@ -25,6 +26,7 @@ from test.kernels.fault_entries import (
     damaged_contacts,
     patch_springs,
     powers,
+    seen_by_sound_rollers,
     wave_gaps,
     worn_pockets,
 )
@@ -193,6 +195,32 @@ def test_narrow_spall_is_limited_by_its_edges_and_wide_one_by_its_floor(lanes: A
     assert bridged == pytest.approx(radius - math.sqrt(radius**2 - 1e-6), rel=1e-9)
     wide = replace(FULL, width=2e-2, depth=2e-5)
     assert springs(lanes, [0.3], wide)[0, 0, 1] == pytest.approx(2e-5)
+
+
+def test_a_roller_of_one_spring_over_a_patch_carries_what_two_raceways_let_it(lanes: Any) -> None:
+    """A rigid roller between a whole raceway and one with a patch: to 3.5 % of the load of a sound one.
+
+    Under the patch is a share f of firmness s, with a gap of g over the approach. The twin takes the depth as
+    linear, which costs most, 3.3 %, where all of the roller is half as firm.
+    """
+    grid = list(itertools.product((0.0, 0.16, 0.5, 1.0), (1.0, 0.5), (0.0, 0.2, 0.45, 0.8, 1.5)))
+    approach = 2.4e-5
+    cases = np.array([(approach, f, f * (1.0 - s), f * s * g * approach) for f, s, g in grid])
+    found = through(lanes, seen_by_sound_rollers, np.repeat(cases, lanes.width, axis=0), 2)
+    seen, slope = found.reshape(len(grid), lanes.width, 2)[:, 0].T
+
+    def exact(approach: float, f: float, s: float, gap: float) -> float:
+        def excess(e: float) -> float:
+            over = f * s * max(e - gap, 0.0) ** (10.0 / 9.0)
+            return (1.0 - f) * e ** (10.0 / 9.0) + over - (approach - e) ** (10.0 / 9.0)
+
+        depth = brentq(excess, 0.0, approach)
+        return (2.0 * (approach - depth)) ** (10.0 / 9.0)
+
+    loads = np.array([exact(approach, f, s, g * approach) for f, s, g in grid]) / approach ** (10.0 / 9.0)
+    np.testing.assert_allclose((seen / approach) ** (10.0 / 9.0), loads, atol=0.035)
+    assert loads.min() < 0.01
+    assert np.all((slope >= 0.0) & (slope <= 1.0))
 
 
 def test_patch_covers_the_share_of_each_lamina_that_lies_in_it(lanes: Any) -> None:

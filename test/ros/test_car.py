@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import signal
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,8 +15,9 @@ import pytest
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.reading import read_run
+from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.car import EIGHT_BOXES, Box, NodeGroup, boxes_named
+from beardyn_ros.car import EIGHT_BOXES, NodeGroup, boxes_named
 from test.ros.graph import Graph
 
 TWO = ("axle_1_left", "axle_4_right")
@@ -32,7 +35,7 @@ def history(speed: np.ndarray, spacing_ns: int = 500_000) -> LoadHistory:
 
 
 def test_a_wheel_further_back_gets_the_force_later_by_the_way_over_the_speed() -> None:
-    from beardyn_ros.car_scenario import passed_later
+    from beardyn_core.rail.train import passed_later
 
     whole = history(np.full(4001, 50.0))
     first, begin = passed_later(whole, RADIUS, 0.0, 20.0)
@@ -47,7 +50,7 @@ def test_a_wheel_further_back_gets_the_force_later_by_the_way_over_the_speed() -
 
 
 def test_a_slowing_train_has_one_speed_and_longer_delays() -> None:
-    from beardyn_ros.car_scenario import passed_later
+    from beardyn_core.rail.train import passed_later
 
     speed = np.linspace(60.0, 20.0, 8001)
     whole = history(speed)
@@ -60,7 +63,7 @@ def test_a_slowing_train_has_one_speed_and_longer_delays() -> None:
 
 
 def test_a_train_that_stands_or_turns_back_is_refused_with_a_sentence() -> None:
-    from beardyn_ros.car_scenario import passed_later
+    from beardyn_core.rail.train import passed_later
 
     with pytest.raises(InputError, match=r"20 m behind the first.*runs 0\.0 m"):
         passed_later(history(np.zeros(100)), RADIUS, 20.0, 20.0)
@@ -76,7 +79,8 @@ def test_boxes_are_named_by_axle_and_side() -> None:
         Box("axle_3_left", 3, "left"),
         Box("axle_4_right", 4, "right"),
     )
-    assert [box.behind(2.5, 17.5) for box in boxes_named(" ".join(EIGHT_BOXES))[::2]] == [0, 2.5, 17.5, 20]
+    car = Axleboxes(axles=5)
+    assert [car.behind(box) for box in car.boxes[::2]] == [0, 2.5, 17.5, 20, 25.0]
     for text, sentence in (
         ("", "is empty"),
         ("axle_9_left", "'axle_9_left' is no"),
@@ -87,11 +91,11 @@ def test_boxes_are_named_by_axle_and_side() -> None:
 
 
 def test_the_right_rail_is_another_one_and_a_wheel_defect_stays_with_its_wheel() -> None:
-    from beardyn_ros.car_scenario import CarGeometry, CarScenario
+    from beardyn_ros.car_scenario import CarScenario
 
     boxes = boxes_named("axle_1_left axle_2_left axle_1_right")
-    geometry = CarGeometry(2.5, 17.5, "axle_2_left")
-    scenario = CarScenario(boxes, geometry, "wheel_flat", "", 0.5)
+    car = Axleboxes(axles=4, faulty=("axle_2_left",))
+    scenario = CarScenario(boxes, car, "wheel_flat", "", 0.5)
     leading, flat, right = (scenario.of(box) for box in boxes)
     assert len(leading.history) * 5 == pytest.approx(
         len(flat.history), rel=0.02
@@ -252,6 +256,45 @@ def test_load_of_a_car_refuses_what_it_cannot_do(graph: Graph) -> None:
         assert graph.exit_code(name) == 2
         assert word in graph.processes.log(name)
         assert "Traceback" not in graph.processes.log(name)
+
+
+def test_twins_of_a_car_refuse_boxes_that_there_are_not(graph: Graph) -> None:
+    graph.start("twins", "beardyn_ros", "car_twin", boxes="axle_1_left", faulty="axle_2_left")
+    assert graph.exit_code("twins") == 2
+    assert "faulty has axle_2_left; the boxes are axle_1_left" in graph.processes.log("twins")
+
+
+def _has_ended(graph: Graph, name: str) -> bool:
+    return graph.processes.exit_code(name) is not None
+
+
+@pytest.mark.slow
+def test_twins_of_several_boxes_run_in_one_process(graph: Graph) -> None:
+    from beardyn_core.choice import load_scene
+    from beardyn_core.config.boxes import scene_of_box
+    from beardyn_core.twin import Twin
+
+    boxes = "axle_1_left axle_1_right"
+    car = Axleboxes(axles=4, faulty=("axle_1_right",))
+    scene = replace(load_scene("cup_spall", tier="lumped", effects="standard"), axleboxes=car)
+    for box in car.boxes[:2]:
+        Twin(scene_of_box(scene, box)).warm()
+    graph.start(
+        "twins", "beardyn_ros", "car_twin",
+        boxes=boxes, scene="cup_spall", tier="lumped", effects="standard", faulty="axle_1_right",
+    )  # fmt: skip
+    output = str(graph.folder / "car.mcap")
+    graph.start("recorder", "beardyn_ros", "car_recorder", boxes=boxes, output=output)
+    graph.start(
+        "load", "beardyn_ros", "car_load", boxes=boxes, scene="cup_spall", duration=0.5, axle_distance=0.0
+    )
+    for name in ("twins", "recorder"):
+        graph.until(partial(_has_ended, graph, name), name, timeout=200.0)
+        assert graph.exit_code(name) == 0, graph.processes.log(name)
+    for name in boxes.split():
+        run = read_run(graph.folder / f"car_{name}.mcap")
+        assert len(run.vibration) > 24 * 512  # less what the filter of the sensor looks ahead
+        assert [fault["row"] for fault in run.truth["faults"]] == ([1] if name == "axle_1_right" else [])
 
 
 @pytest.mark.slow

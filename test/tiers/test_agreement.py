@@ -18,6 +18,7 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
+from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from beardyn_core.twin import Twin
 from test.tiers.runs import FAST, blocks_of, means, scene_of, static_mean
 
@@ -160,3 +161,16 @@ def test_play_and_side_load_share_the_rows_as_the_static_solution_does(tier: str
     np.testing.assert_allclose(cup, static.cup_load, atol=tolerance * static.cup_load.max())
     rib = np.linalg.norm(block.contacts[-1, :, :, 2, 3:6], axis=-1)
     np.testing.assert_allclose(rib, static.rib_load, atol=tolerance * static.rib_load.max())
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_a_spall_shakes_the_box_as_in_the_full_tier(tier: str) -> None:
+    """Third octaves from 400 Hz to 5 kHz, within 2 dB."""
+    levels = []
+    for each in ("full", tier):
+        blocks = blocks_of(scene_of("cup_spall", each), 0.6)
+        heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
+        levels.append(third_octave_levels(heard[:, None]))
+    bands = (BAND_CENTRES > 380.0) & (BAND_CENTRES < 5200.0)
+    apart = np.abs(levels[1] - levels[0])[bands]
+    assert apart.max() < 2.0

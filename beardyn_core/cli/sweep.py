@@ -1,0 +1,184 @@
+"""``beardyn sweep``: labelled runs by the thousand, on this machine or any Dask cluster."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from beardyn_core.cli.files import checked
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.errors import InputError
+from beardyn_core.interrupts import last_words
+from beardyn_core.outputs import folder_problems
+
+if TYPE_CHECKING:
+    from beardyn_core.engine import Cluster
+    from beardyn_core.population.sweeping import Swept
+
+DONE, DIFFERS, INTERRUPTED = 0, 3, 130
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "sweep",
+        help="make a set of labelled runs over a population of bearings, on all cores or a Dask cluster",
+        description="Draw runs from the distributions of a sweep file, simulate them on all cores of this "
+        "machine or on the workers of a Dask scheduler; keep signals (Zarr), labels with units (Parquet), "
+        "features, a data card and checksums in a folder. Parts for training and testing share no bearing. "
+        "An interrupted sweep goes on where it was with the same command; the same seed gives the same bits "
+        "on any number of workers.",
+    )
+    parser.add_argument(
+        "sweep", metavar="SWEEP", nargs="?", help="shipped sweep or YAML file; needed but for --verify"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, required=True, help="folder of the set, without default"
+    )
+    parser.add_argument("--runs", metavar="N", type=int, help="how many runs; default the sweep's")
+    parser.add_argument("--seed", metavar="N", type=int, help="of all draws; default the sweep's")
+    parser.add_argument(
+        "--hours", metavar="H", type=float, help="stop after so long, h; default the sweep's, or never"
+    )
+    parser.add_argument(
+        "--workers", metavar="N", type=int, help="processes of this machine; default one for each core"
+    )
+    parser.add_argument(
+        "--memory",
+        metavar="GB",
+        type=float,
+        help="of a worker, GB, above which it is started anew; default its share of the machine's",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="ADDR",
+        default="",
+        help="Dask scheduler whose workers do the runs, tcp://host:8786; default this machine",
+    )
+    for name, what in (("ca", "of the authority"), ("cert", "of this client"), ("key", "its private key")):
+        parser.add_argument(
+            f"--tls-{name}", metavar="FILE", type=Path, help=f"PEM file {what}, for tls://; default none"
+        )
+    parser.add_argument(
+        "--verify", action="store_true", help="compare the files of a finished set with its checksums, no run"
+    )
+    add_force(parser, "start over in a folder that holds a set, and lose it")
+    add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    if args.verify:
+        return _verify(args)
+    if args.sweep is None:
+        raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
+    from beardyn_core.api.sweeping import Lines, cluster_of
+    from beardyn_core.config import read_sweep
+    from beardyn_core.engine import EngineError
+    from beardyn_core.population.plan import plan_of
+    from beardyn_core.population.sweeping import conduct
+
+    tls = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
+    cluster = cluster_of(
+        args.workers, args.scheduler, {k: v for k, v in tls.items() if v is not None}, args.memory
+    )
+    with checked(lambda inputs: option_problems(args, cluster, inputs)):
+        sweep, label = read_sweep(args.sweep, runs=args.runs, seed=args.seed, hours=args.hours)
+        plan = plan_of(sweep, label, _say)
+    bar = _Bar(sweep.run_count) if sys.stderr.isatty() else Lines()
+    try:
+        with last_words(lambda: f"{bar.done} of {sweep.run_count} runs are done; the same command goes on"):
+            swept = conduct(plan, args.output, cluster, force=args.force, report=bar, say=_say)
+    except EngineError as error:
+        raise InputError(str(error)) from error
+    finally:
+        bar.close()
+    print(json_text("sweep", json_object(swept)) if args.json else told(swept), flush=True)
+    return DONE
+
+
+def option_problems(args: argparse.Namespace, cluster: Cluster, inputs: Sequence[Path] = ()) -> list[str]:
+    """List what is wrong with the options; nothing is created."""
+    return cluster.problems() + folder_problems("--output", args.output, inputs=inputs)
+
+
+def json_object(swept: Swept) -> dict[str, object]:
+    """Give what `--json` prints."""
+    return {
+        "folder": swept.folder,
+        "complete": swept.complete,
+        "runs": swept.total,
+        "done": swept.done,
+        "failed": swept.failed,
+        "here": swept.here,
+        "wall_time_s": swept.seconds,
+    }
+
+
+def told(swept: Swept) -> str:
+    """Say what there is."""
+    from beardyn_core.api.sweeping import clock
+
+    if not swept.here:
+        return f"{swept.folder}: all {swept.done} runs were done before, {swept.failed} failed"
+    rate = swept.here / swept.seconds
+    rest = "" if swept.complete else f" of {swept.total}; the same command goes on"
+    return (
+        f"{swept.folder}: {swept.done} runs{rest}, {swept.failed} failed; {swept.here} of them now, in "
+        f"{clock(swept.seconds)}, {rate:.2f} a second"
+    )
+
+
+def _verify(args: argparse.Namespace) -> int:
+    from beardyn_core.population.closing import verify
+
+    problems = verify(args.output)
+    if args.json:
+        print(json_text("sweep", {"folder": args.output, "problems": problems}))
+    for problem in problems:
+        print(f"beardyn: {problem}", file=sys.stderr)
+    if not problems and not args.json:
+        print(f"{args.output}: every file is what it was when the set was closed")
+    return DIFFERS if problems else DONE
+
+
+class _Bar:
+    """Progress with rate, time left and failures; called after every task."""
+
+    def __init__(self, total: int) -> None:
+        from tqdm import tqdm
+
+        self.done = 0
+        self._linked = False
+        self._bar = tqdm(
+            total=total,
+            bar_format="{bar:30} {n_fmt}/{total_fmt} runs{postfix}",
+            disable=None,
+            leave=False,
+        )
+
+    def __call__(self, now: object) -> None:
+        from beardyn_core.api.sweeping import clock
+        from beardyn_core.population.sweeping import Progress
+
+        assert isinstance(now, Progress)
+        if not self._linked and now.dashboard:
+            _say(f"dashboard {now.dashboard}")
+            self._linked = True
+        self.done = now.done
+        left = f", {clock(now.remaining)} left" if now.here else ""
+        failed = f", {now.failed} failed" if now.failed else ""
+        self._bar.n = now.done
+        self._bar.set_postfix_str(f"{now.rate:.2f} a second, {now.workers} workers{left}{failed}")
+
+    def close(self) -> None:
+        self._bar.close()
+
+
+def _say(text: str) -> None:
+    print(f"beardyn: {text}", file=sys.stderr, flush=True)

@@ -1,0 +1,152 @@
+"""What a worker does: several runs in one process, each to its signals, labels and features."""
+
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import dataclass
+from typing import Annotated as A
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.jit import LANE_WIDTH
+from beardyn_core.observe.block import Block
+from beardyn_core.population.draw import Row
+from beardyn_core.population.features import NAMES, features_of
+from beardyn_core.population.plan import Plan, bearing_name, check_rows
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.run import Run
+from beardyn_core.record.tables import parts_of, signal_of
+from beardyn_core.run import start
+from beardyn_core.scene.scene import Scene
+from beardyn_core.study.code_digest import simulator_digest
+from beardyn_core.study.compiling import warm_once
+
+DONE, FAILED = "complete", "failed"
+_WIDE = ("angle",)  # grows without end: of eight bytes, the others of four
+
+
+@dataclass(frozen=True)
+class Array:
+    """One array of a signal of a run."""
+
+    values: A[NDArray[Any], "shape [sample, ...]"]
+    dims: A[tuple[str, ...], "names of the axes after the time"]
+    unit: str
+    signal: A[str, "whose time it has"]
+
+
+@dataclass(frozen=True)
+class Made:
+    """One run that is done."""
+
+    run: int
+    labels: A[dict[str, Any], "a row of the table"]
+    features: A[dict[str, float], "by `features.NAMES`"]
+    arrays: A[dict[str, NDArray[Any]], "by name; empty where the run did not begin"]
+    seconds: A[float, "wall time on its worker, [s]"]
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Several runs that are done."""
+
+    made: tuple[Made, ...]
+    arrays: A[dict[str, Array], "what the arrays are, without values; empty when no run of the batch began"]
+    times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]"]
+    code: A[str, "digest of the code of the worker"]
+    worker: A[str, "process that did it: machine and process"]
+
+
+def run_batch(rows: tuple[Row, ...], plan: Plan) -> Batch:
+    """Simulate runs one after the other in this process."""
+    made, shapes, times = [], dict[str, Array](), dict[str, NDArray[np.int64]]()
+    for row in rows:
+        done, arrays, when = _made(row, plan)
+        made.append(done)
+        if arrays and not shapes and done.labels["status"] == DONE:
+            shapes = {
+                name: Array(each.values[:0], each.dims, each.unit, each.signal)
+                for name, each in arrays.items()
+            }
+            times = when
+    return Batch(tuple(made), shapes, times, code_digest(), f"{os.uname().nodename}:{os.getpid()}")
+
+
+def checked_batch(rows: tuple[Row, ...], plan: Plan) -> list[str]:
+    """List what is wrong with the scenes of runs; see `check_rows`."""
+    return check_rows(plan, rows)
+
+
+def code_digest() -> str:
+    """Hash the code of this worker, and how many rollers its kernels take at once, which sets the bits."""
+    return f"{simulator_digest()}-{LANE_WIDTH}"
+
+
+def _made(row: Row, plan: Plan) -> tuple[Made, dict[str, Array], dict[str, NDArray[np.int64]]]:
+    began = time.perf_counter()
+    values = plan.keys(row)[1]
+    labels: dict[str, Any] = {"run": row.run, "status": FAILED, "reason": "", "bearing_id": ""}
+    arrays: dict[str, Array] = {}
+    times: dict[str, NDArray[np.int64]] = {}
+    features = dict.fromkeys(NAMES, float("nan"))
+    try:
+        scene = plan.scene(row)
+        labels["bearing_id"] = bearing_name(scene)
+        run = simulated(scene)
+        complete = run.status == DONE
+        labels |= {"status": DONE if complete else FAILED, "reason": "" if complete else run.status}
+        labels |= {name: value for name, value in run.labels.items() if name not in labels}
+        arrays, times = arrays_of(run, plan.sweep.signals)
+        features = features_of(run, fault_frequencies(scene.bearing), scene.bearing.roller_count)
+    except (InputError, ValidityError) as error:
+        labels |= {"status": FAILED, "reason": str(error)}
+    except Exception as error:  # one run of thousands must not end the others
+        labels |= {"status": FAILED, "reason": f"{type(error).__name__}: {error}"}
+    labels = {name: value for name, value in labels.items() if name not in _NOT_LABELS} | values
+    plain = {name: each.values for name, each in arrays.items()}
+    return Made(row.run, labels, features, plain, time.perf_counter() - began), arrays, times
+
+
+# of no use to a learner, or the same in all runs and on the data card
+_NOT_LABELS = (
+    "purpose",
+    "versions_beardyn",
+    "versions_numba",
+    "versions_numpy",
+    "scene",
+    "step_s",
+    "laminae",
+)
+
+
+def simulated(scene: Scene) -> Run:
+    """Simulate a scene; what ended it early is in the status of the run."""
+    warm_once(scene)
+    simulation = start(scene)
+    twin, status, blocks = simulation.twin, DONE, list[Block]()
+    description = RunDescription.of(scene, twin.truth(), twin.body_names, simulation.load, text="")
+    try:
+        blocks.extend(simulation.blocks(twin.blocks_at_once))
+    except ValidityError as error:
+        status = str(error)
+        if isinstance(error.block, Block):
+            blocks.append(error.block)
+    return Run.of_blocks(blocks, description, status)
+
+
+def arrays_of(run: Run, signals: tuple[str, ...]) -> tuple[dict[str, Array], dict[str, NDArray[np.int64]]]:
+    """Take the arrays of some signals of a run, and the times of each, [ns]."""
+    arrays: dict[str, Array] = {}
+    times: dict[str, NDArray[np.int64]] = {}
+    for signal in signals:
+        times[signal] = signal_of(run, signal).time_ns
+        for part, array in parts_of(run, signal).items():
+            kept = np.float64 if part in _WIDE else np.float32
+            name = signal if part == "values" else f"{signal}_{part}"
+            arrays[name] = Array(np.asarray(array.values, kept), array.dims, array.unit, signal)
+    return arrays, times

@@ -1,0 +1,318 @@
+"""The plan of a sweep: the scene of each run, made and checked before anything runs."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated as A
+from typing import Any
+
+from beardyn_core.choice.load import choice_for, closed
+from beardyn_core.choice.trial import together
+from beardyn_core.config.folders import find
+from beardyn_core.config.load import OpenScene, read_scene_mapping
+from beardyn_core.config.problems import Origin
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.edge import written
+from beardyn_core.errors import InputError
+from beardyn_core.population.draw import Row, rows_of, scaled_value
+from beardyn_core.population.places import AbsentError, Place, place_of, with_value
+from beardyn_core.record.tables import SIGNALS, VIBRATION
+from beardyn_core.scene.scene import Free, Scene
+from beardyn_core.scene.sweep import Choice, Scaled, Sweep
+from beardyn_core.scene.tier import TIER_NAMES
+
+CHECKED_HERE = 256  # runs whose scenes are made before the workers are started, which make the others
+_SHOWN = 20  # sentences about rows
+_NAME = "scene"
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What all runs of a set have in common, so that their signals fit into the same arrays."""
+
+    duration: A[float, "[s]"]
+    sensors: A[tuple[tuple[str, float], ...], "name and rate of each, [Hz]"]
+    rollers: A[tuple[int, int], "rows, and rollers of each"]
+
+    @classmethod
+    def of(cls, scene: Scene) -> Frame:
+        """Take that of a scene."""
+        sensors = tuple((sensor.name, sensor.rate) for sensor in scene.sensors)
+        return cls(scene.duration, sensors, (scene.rows, scene.bearing.roller_count))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All that the runs of a sweep are made of."""
+
+    sweep: Sweep
+    label: A[str, "what its file is called in messages"]
+    base: A[dict[str, Any], "keys of the scene that every run starts from, references and choices resolved"]
+    folder: A[Path, "of the scene's file"]
+    scene_label: A[str, "what the scene's file is called in messages"]
+    frame: A[Frame | None, "of all runs"] = None
+    chosen: A[tuple[str, ...], "what was chosen for all runs together, with reasons"] = ()
+
+    def keys(self, row: Row) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Make the mapping of a run's scene, and the value of each varied key; ``None`` where it has none."""
+        data, values = self.base, dict[str, Any]()
+        for variable in self.sweep.vary:
+            key = variable.key
+            value = scaled_value(variable, values) if isinstance(variable, Scaled) else row.drawn[key]
+            values[key] = None
+            if value is None and isinstance(variable, Scaled):
+                continue
+            try:
+                data = with_value(data, place_of(key), value, self.folder)
+            except AbsentError:  # a sound bearing has no defects[0]
+                continue
+            values[key] = value
+        data = {**data, _NAME: f"{self.sweep.name}, run {row.run}"[:80]}
+        given = {*self.sweep.changes, *values}
+        if "seed" not in given:
+            data["seed"] = row.seed
+        if isinstance(data.get("scatter"), dict) and "scatter.seed" not in given:
+            data["scatter"] = {**data["scatter"], "seed": row.lot}
+        return data, values
+
+    def opened(self, row: Row) -> OpenScene:
+        """Read the scene of a run.
+
+        Raises
+        ------
+        InputError
+            With every mistake, those of varied keys in the words of the sweep's file.
+        """
+        data, values = self.keys(row)
+        label = f"{self.label}: run {row.run}"
+        origins = [Origin(place_of(key), label, place_of(key)) for key in values]
+        return read_scene_mapping(data, self.scene_label, self.folder, origins)
+
+    def scene(self, row: Row) -> Scene:
+        """Make the scene of a run, ready to run."""
+        return replace(closed(self.opened(row)), chosen=self.chosen)
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """Describe all that the runs depend on beside the code, as the folder of the set keeps it."""
+        sweep = written(replace(self.sweep, folder=Path()))
+        for key in ("purpose", "hours", "licence", "split"):
+            sweep.pop(key, None)
+        if self.sweep.extends:
+            sweep.pop("runs", None)
+        found: dict[str, Any] = json.loads(json.dumps({**sweep, "base": self.base}, default=str))
+        return found
+
+
+def bearing_name(scene: Scene) -> str:
+    """Name a bearing by all that it was made with: drawing and scatter, and neither load nor damage."""
+    scatter = None if scene.scattered is None else written(scene.scattered)
+    text = json.dumps([written(scene.bearing), scatter], sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:10]
+
+
+def plan_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: None) -> Plan:
+    """Make the plan of a sweep.
+
+    Parameters
+    ----------
+    sweep : Sweep
+    label : str
+        What its file is called in messages.
+    say : callable, optional
+        Told what takes time.
+
+    Raises
+    ------
+    InputError
+        With every mistake in the sweep, in its scene, and in the scenes of its runs.
+    """
+    plan, opened = _begun(sweep, label)
+    if problems := _unknown_signals(plan, opened.scene):
+        raise InputError(problems)
+    rows = rows_of(sweep)
+    extremes = _extremes(rows)
+    few = rows if len(rows) <= CHECKED_HERE else [*extremes, *rows[:: len(rows) // CHECKED_HERE]]
+    problems = check_rows(plan, few)
+    if problems:
+        raise InputError(problems)
+    plan = _settled(plan, opened, extremes, say)
+    frame = Frame.of(plan.scene(rows[0]))
+    return replace(plan, frame=frame)
+
+
+def _begun(sweep: Sweep, label: str) -> tuple[Plan, OpenScene]:
+    """Read the scene of a sweep with what the sweep sets in it."""
+    problems: list[str] = []
+    places: dict[str, Place] = {}
+    for key in (*sweep.changes, *(variable.key for variable in sweep.vary)):
+        try:
+            places[key] = place_of(key)
+        except InputError as error:
+            problems += [f"{label}: {problem}" for problem in error.problems]
+    try:
+        path = find("scenes", sweep.scene, sweep.folder)
+    except InputError as error:
+        raise InputError([*problems, *(f"{label}: scene: {each}" for each in error.problems)]) from None
+    data, folder = read_file(path), path.parent
+    origins = []
+    for key, value in sweep.changes.items():
+        if key not in places:
+            continue
+        try:
+            data = with_value(data, places[key], value, folder)
+        except AbsentError:
+            problems.append(f"{label}: set.{key}: the scene has no such entry; its list is shorter")
+        except InputError as error:
+            problems += [f"{label}: set.{key}: {problem}" for problem in error.problems]
+        origins.append(Origin(places[key], label, ("set", *places[key])))
+    try:
+        opened = read_scene_mapping(data, str(path), folder, origins)
+    except InputError as error:
+        raise InputError([*problems, *error.problems]) from None
+    if problems:
+        raise InputError(problems)
+    return Plan(sweep, label, opened.keys, folder, str(path)), opened
+
+
+def _unknown_signals(plan: Plan, scene: Scene) -> list[str]:
+    known = (*SIGNALS, *(f"{VIBRATION}_{sensor.name}" for sensor in scene.sensors[1:]))
+    return [
+        f"{plan.label}: signals[{index}] is {name!r}; allowed are {', '.join(known)}"
+        for index, name in enumerate(plan.sweep.signals)
+        if name not in known
+    ]
+
+
+def _extremes(rows: Sequence[Row]) -> list[Row]:
+    """Find the runs with the smallest and the largest number of every key, and one with each other value."""
+    found: dict[int, Row] = {}
+    for key in rows[0].drawn if rows else ():
+        numbers = sorted((row.drawn[key], row.run) for row in rows if isinstance(row.drawn[key], int | float))
+        others: dict[str, Row] = {}
+        for row in rows:
+            if not isinstance(row.drawn[key], int | float):
+                others.setdefault(json.dumps(row.drawn[key], sort_keys=True, default=str), row)
+        ends = [rows[run] for _, run in (numbers[0], numbers[-1])] if numbers else []
+        found |= {row.run: row for row in (*ends, *others.values())}
+    return [found[run] for run in sorted(found)] or list(rows[:1])
+
+
+def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
+    """List what is wrong with the scenes of runs: each kind of mistake once, with how many runs have it."""
+    found: dict[str, list[str]] = {}
+    frames: dict[Frame, int] = {}
+    used: set[str] = set()
+    names: set[str] = set()
+    rows = list(rows)
+    for row in rows:
+        try:
+            used |= {key for key, value in plan.keys(row)[1].items() if value is not None}
+            scene = plan.opened(row).scene
+        except InputError as error:
+            for problem in error.problems:
+                found.setdefault(_kind_of(problem, row), []).append(problem)
+            continue
+        frames.setdefault(Frame.of(scene), row.run)
+        names.add(bearing_name(scene))
+    problems = [
+        f"{sentences[0]}{f' (and {len(sentences) - 1} more runs like it)' if len(sentences) > 1 else ''}"
+        for sentences in found.values()
+    ]
+    problems += _unused(plan, rows, used, bool(found))
+    problems += _unlike(plan, frames)
+    if len(names) == 1 and len(rows) > 1 and not found:
+        problems.append(
+            f"{plan.label}: all {len(rows)} runs are of one and the same bearing, so that no part of the set "
+            "could be without it: give its lot a grade (set: {scatter: {grade: G1}}), or vary bearing keys"
+        )
+    return problems[:_SHOWN]
+
+
+def _kind_of(problem: str, row: Row) -> str:
+    """Take out of a sentence what differs from run to run."""
+    return problem.replace(f": run {row.run}:", ":").partition(" is ")[0]
+
+
+def _unused(plan: Plan, rows: Sequence[Row], used: set[str], wrong: bool) -> list[str]:
+    if wrong or not rows:
+        return []
+    return [
+        f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
+        "scene is shorter"
+        for index, variable in enumerate(plan.sweep.vary)
+        if variable.key not in used and not _reachable(plan, variable.key)
+    ]
+
+
+def _reachable(plan: Plan, key: str) -> bool:
+    """Tell whether some value of a choice brings the entry that a key is of; few runs may have drawn none."""
+    for choice in (each for each in plan.sweep.vary if isinstance(each, Choice)):
+        for value in choice.one_of:
+            try:
+                data = with_value(plan.base, place_of(choice.key), value, plan.folder)
+                with_value(data, place_of(key), None, plan.folder)
+            except (AbsentError, InputError):
+                continue
+            return True
+    return False
+
+
+def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:
+    """Say what makes the signals of runs of different lengths."""
+    if len(frames) < 2:
+        return []
+    (one, first), (other, second) = list(frames.items())[:2]
+    what = {
+        "duration_s": (one.duration, other.duration),
+        "sensors": (one.sensors, other.sensors),
+        "rows and rollers": (one.rollers, other.rollers),
+    }
+    needs_rollers = {"rollers", "bodies", "contacts", "cages"} & set(plan.sweep.signals)
+    if not needs_rollers:
+        del what["rows and rollers"]
+    return [
+        f"{plan.label}: {name} is {a} in run {first} and {b} in run {second}; the signals of a set are of "
+        "one length: leave it the same, or make two sets"
+        for name, (a, b) in what.items()
+        if a != b
+    ]
+
+
+def _settled(plan: Plan, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]) -> Plan:
+    """Choose what the scene leaves open, once for all runs: no learner must tell a fault by the effects."""
+    found = [plan.opened(row) for row in extremes]
+    free = opened.free
+    if not free.anything:
+        if opened.step_given:
+            return plan
+        steps = max(closed(each).numerics.steps_per_sample for each in found)
+        return _with_numerics(plan, opened.scene, steps_per_sample=steps)
+    say("choosing the effects of the runs: some seconds for each kind of run, kept for the next time")
+    choices = [choice_for(OpenScene(each.scene, free, opened.step_given, {})) for each in found]
+    tier = opened.scene.tier
+    if free.tier:
+        tier = max((choice.tier for choice in choices), key=TIER_NAMES.index)
+        if any(choice.tier != tier for choice in choices):  # the step of a tier is chosen for it
+            free = Free(False, free.laminae, free.steps, free.effects)
+            scenes = [replace(each.scene, tier=tier) for each in found]
+            choices = [choice_for(OpenScene(each, free, opened.step_given, {})) for each in scenes]
+    effects = together([choice.effects for choice in choices], found[0].scene.effects)
+    hardest = max(choices, key=lambda choice: choice.seconds)
+    plan = _with_numerics(
+        replace(plan, base={**plan.base, "tier": tier, "effects": written(effects)}),
+        opened.scene,
+        laminae=max(choice.laminae for choice in choices),
+        steps_per_sample=max(choice.steps_per_sample for choice in choices),
+    )
+    why = f"the same in all runs, which is what any of {len(choices)} kinds of them needs"
+    return replace(plan, chosen=(f"{hardest.summary}; {why}", *hardest.reasons[1:]))
+
+
+def _with_numerics(plan: Plan, scene: Scene, **changes: Any) -> Plan:
+    numerics = {**written(scene.numerics), **changes}
+    return replace(plan, base={**plan.base, "numerics": numerics})

@@ -1,0 +1,68 @@
+"""Kernels compiled once on a machine, however many processes want them at the same time."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections.abc import Hashable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from beardyn_core import twin
+from beardyn_core.jit import cache_folder
+from beardyn_core.scene.scene import Scene
+from beardyn_core.twin import Twin
+
+try:
+    import fcntl
+except ImportError:  # a system without file locks
+    fcntl = None  # type: ignore[assignment]
+
+_KINDS = cache_folder(Path(twin.__file__)) / "kinds"  # of this version of all that is compiled
+_ready: set[Hashable] = set()
+_readying = threading.Lock()
+
+
+def warm_once(scene: Scene, kind: Hashable = None) -> None:
+    """Compile the kernels of a scene, or wait while another process of this machine does and read them.
+
+    Parameters
+    ----------
+    kind : hashable, optional
+        Of kernels: of each kind it is done once in a process. By default what decides it: tier, effects and
+        sorts of faults.
+
+    Notes
+    -----
+    A file beside the kernels says which kinds are there: a process that only reads them waits for nobody who
+    compiles others.
+    """
+    if kind is None:
+        faults = sorted({type(each).__name__ for each in scene.faults})
+        kind = (scene.tier, repr(scene.effects), scene.effect_names, *faults)
+    with _readying:
+        if kind in _ready:
+            return
+        known = _KINDS / hashlib.sha256(repr(kind).encode()).hexdigest()[:16]
+        if known.exists():
+            Twin(scene).warm()
+        else:
+            with alone_on_this_machine():
+                Twin(scene).warm()
+            with suppress(OSError):
+                known.parent.mkdir(parents=True, exist_ok=True)
+                known.touch()
+        _ready.add(kind)
+
+
+@contextmanager
+def alone_on_this_machine() -> Iterator[None]:
+    """Let no other process of this machine compile meanwhile; the lock of a process that dies is free."""
+    if fcntl is None:
+        yield
+        return
+    folder = cache_folder(Path(__file__)).parent
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "compiling.lock").open("ab") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield

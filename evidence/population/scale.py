@@ -1,0 +1,154 @@
+"""How fast sets are made and read: throughput of the engine, memory, formats."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+
+from beardyn_core.config import read_sweep
+from beardyn_core.engine import Cluster, Engine, core_count
+from beardyn_core.population.batch import run_batch
+from beardyn_core.population.draw import rows_of
+from beardyn_core.population.folder import done_rows, size_of
+from beardyn_core.population.labelled_set import LabelledSet
+from beardyn_core.population.plan import plan_of
+from beardyn_core.population.store import library
+from evidence.population.sets import TRAINED
+
+WORKERS = (1, 2, 4, 8)
+SLOW_S = 0.5  # of a simulated slow run: it waits and takes no core
+TASKS_A_WORKER = 12
+RUNS_TIMED = 16
+BATCH = 64  # runs of a random batch
+REPEATS = 3
+
+
+def waited(number: int, seconds: float) -> int:
+    """Take as long as a run, without a core."""
+    time.sleep(seconds)
+    return number
+
+
+def engine_scaling() -> list[dict[str, float]]:
+    """Measure the throughput of the engine on simulated slow runs, over the number of workers."""
+    rows = []
+    for workers in WORKERS:
+        with Engine(Cluster(workers=workers)) as engine:
+            list(engine.run(waited, range(workers), 0.01))  # every process has begun
+            count = TASKS_A_WORKER * workers
+            began = time.perf_counter()
+            done = sum(1 for _ in engine.run(waited, range(count), SLOW_S))
+            wall = time.perf_counter() - began
+            assert engine.local is not None
+            processes = psutil.Process(engine.local.process_id).children(recursive=True)
+            memory = max(each.memory_info().rss for each in processes)
+        ideal = SLOW_S * count / workers
+        rows.append(
+            {"workers": workers, "runs": done, "wall_s": wall, "efficiency": ideal / wall, "bytes": memory}
+        )
+    return rows
+
+
+def formats(runs: LabelledSet) -> list[dict[str, Any]]:
+    """Write the vibration of a set in several ways; measure size and time to read a random batch."""
+    zarr, parquet, arrow = library("zarr"), library("pyarrow.parquet"), library("pyarrow")
+    chosen = runs.runs_of()
+    values = np.stack([runs.arrays["vibration"][int(run)] for run in chosen[:256]])
+    count, random = len(values), np.random.default_rng(0)
+    batches = [random.choice(count, min(BATCH, count), replace=False) for _ in range(REPEATS)]
+    blosc = [zarr.codecs.BloscCodec(cname="zstd", clevel=3, shuffle="bitshuffle")]
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, shards, chunks in (
+            ("Zarr, a file for each run", None, 1),
+            ("Zarr, 8 runs in a file, each by itself", 8, 1),
+            ("Zarr, 8 runs in a file, together", None, 8),
+        ):
+            path = Path(folder) / name
+            array = zarr.create_array(
+                str(path), shape=values.shape, dtype="f4", chunks=(chunks, *values.shape[1:]),
+                shards=None if shards is None else (shards, *values.shape[1:]), compressors=blosc,
+            )  # fmt: skip
+            array[:] = values
+            opened = zarr.open_array(str(path), mode="r")
+            read = _timed(batches, lambda batch, opened=opened: [opened[int(k)] for k in batch])
+            found.append({"format": name, **_size(path, values, count), "read_s": read})
+        for name, group in (("Parquet, a group of rows for each run", 1), ("Parquet, 8 runs in a group", 8)):
+            path = Path(folder) / f"{name}.parquet"
+            flat = np.moveaxis(values, 1, -1).reshape(count, -1)
+            kind = arrow.list_(arrow.float32(), flat.shape[1])
+            column = arrow.FixedSizeListArray.from_arrays(arrow.array(flat.reshape(-1)), type=kind)
+            parquet.write_table(
+                arrow.table({"vibration": column}), path, row_group_size=group, compression="zstd",
+                use_dictionary=False, use_byte_stream_split=True,
+            )  # fmt: skip
+            file = parquet.ParquetFile(path)
+
+            def rows_of(batch: Any, file: Any = file, group: int = group) -> list[Any]:
+                groups = [(file.read_row_group(int(k) // group), int(k) % group) for k in batch]
+                return [each["vibration"][k].values.to_numpy() for each, k in groups]
+
+            read = _timed(batches, rows_of)
+            found.append({"format": name, **_size(path, values, count), "read_s": read})
+    return found
+
+
+def _timed(batches: list[Any], read: Any) -> float:
+    """Time the fastest reading of a batch, [s]."""
+    walls = []
+    for batch in batches:
+        began = time.perf_counter()
+        read(batch)
+        walls.append(time.perf_counter() - began)
+    return min(walls)
+
+
+def _size(path: Path, values: Any, count: int) -> dict[str, float]:
+    files = [path] if path.is_file() else [each for each in path.rglob("*") if each.is_file()]
+    whole = sum(each.stat().st_size for each in files)
+    return {"bytes_a_run": whole / count, "share": whole / values.nbytes}
+
+
+def processor_time() -> float:
+    """Measure the processor time of a run of the sweep, kernels compiled, [s]."""
+    sweep, label = read_sweep(TRAINED, runs=2 * RUNS_TIMED)
+    plan = plan_of(sweep, label)
+    rows = tuple(rows_of(sweep))
+    run_batch(rows[:RUNS_TIMED], plan)
+    began = time.process_time()
+    run_batch(rows[RUNS_TIMED:], plan)
+    return (time.process_time() - began) / RUNS_TIMED
+
+
+def made(runs: LabelledSet) -> dict[str, Any]:
+    """Say what a set has taken: from its journal and its files."""
+    done = done_rows(runs.folder)
+    seconds = np.array([each["seconds"] for each in done.values()])
+    return {
+        "sweep": runs.about["sweep"],
+        "runs": len(done),
+        "failed": runs.about["failed"],
+        "processes": len({each["worker"] for each in done.values()}),
+        "cores": core_count(),
+        "median_s": float(np.median(seconds)),
+        "mean_s": float(seconds.mean()),
+        "total_s": float(seconds.sum()),
+        "processor_s": processor_time(),
+        "bytes_a_run": size_of(runs.folder) / len(done),
+    }
+
+
+def measure(runs: LabelledSet) -> dict[str, Any]:
+    """Measure everything."""
+    return {"engine": engine_scaling(), "formats": formats(runs), "made": made(runs)}
+
+
+def write(found: dict[str, Any], path: Path) -> None:
+    """Keep what was measured."""
+    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,1 @@
+"""The engine: workers that come, die and are replaced."""

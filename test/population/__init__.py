@@ -1,0 +1,1 @@
+"""Sweeps: draws, plans, sets, workers that die."""

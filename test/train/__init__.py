@@ -1,0 +1,1 @@
+"""Several axleboxes at once."""
