@@ -86,7 +86,7 @@ def by_trend(levels: Levels) -> Judged:
 def by_rms(levels: Levels) -> Judged:
     """Alarm where the rms of an axis is over that of the first records, record by record."""
     start = np.median(levels.rms[: TrendSettings().baseline], axis=0)
-    return Judged.of((levels.rms - start > RMS_RISE).any(axis=1).tolist())
+    return Judged.of([bool((rms - start > RMS_RISE).any()) for rms in levels.rms])
 
 
 def synthetic_alarms(seed: int = 1) -> int:
