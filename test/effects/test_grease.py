@@ -47,7 +47,7 @@ def test_fill_is_pushed_aside_and_does_not_come_back() -> None:
     assert aged_fill(0.3, 5.0) == pytest.approx(SETTLED_FILL)
     assert aged_fill(0.01, 5.0) == 0.01
     half = Drag(fill=0.3, million_revolutions=CHURNING)
-    assert half.present_fill == pytest.approx(SETTLED_FILL + (0.3 - SETTLED_FILL) / np.e)
+    assert half.present_fill == pytest.approx(SETTLED_FILL + (0.3 - SETTLED_FILL) * np.exp(-1.0))
 
 
 def test_ageing_reaches_film_and_drag() -> None:
