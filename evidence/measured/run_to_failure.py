@@ -115,8 +115,8 @@ def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
         "(Nectoux and others "
         "2012, IEEE PHM Denver): ball bearings under overload, run until the vibration passed 20 g; a record "
         "of a tenth of a second every ten seconds, two axes at 25.6 kHz. The data are public and not in this "
-        "repository. The settings of `beardyn monitor --trend` are round numbers that were not changed after "
-        "the runs had been seen; no parameter belongs to a run.",
+        "repository. The settings of `beardyn monitor --trend` are round numbers; two others were tried, "
+        "too, on all runs, and the first were kept, so neither set is unseen. No parameter belongs to a run.",
         "",
         f"The trend compares the levels of {len(settings.edges) - 1} bands of each axis, medians of "
         f"{settings.smooth} records, with a baseline of {settings.baseline} records that may fall "

@@ -60,7 +60,7 @@ def test_deflection_and_largest_load_are_those_of_the_full_tier(name: str, tier:
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("name", STATIC_SCENES)
 def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(name: str, tier: str) -> None:
-    """With smooth pockets they know no other loss: friction times static rib loads times sliding over shaft speed.
+    """With smooth pockets nothing else is lost: friction times static rib loads times sliding over speed.
 
     A part of the torque of the full tier, with rough pockets as well.
     """
