@@ -10,14 +10,13 @@ hard        docs/hard.md: situations in which codes of this kind break
 step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
 light       docs/light.md: cages under light loads
 structure   docs/structure.md: modes of an axlebox beside its finite elements
-measured    docs/monitor_measured.md: the monitor over public measured records, beside plain methods
+measured    docs/monitor_measured.md, run_to_failure.md, spall_width.md: the monitor on measured data
 impact      docs/impact.md: what a sensor hears of a spall, beside published observations
 damping     docs/damping.md: what the damping of the contacts changes
 service     docs/sensors.md: what a sensor in service hears, and what the monitor says of it
 heat        docs/heat.md: torque and steady temperatures beside published ones
 ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
-measured    docs/run_to_failure.md, docs/spall_width.md: what is said of measured data
 trial       docs/trial.md: the monitor on trial
 population  docs/sweep.md: what a learner makes of a set, how fast sets are made
 performance docs/performance.md: speeds measured by `benchmarks`

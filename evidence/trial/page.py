@@ -39,7 +39,7 @@ which the wheel strikes in three of four revolutions: flats and polygons. A scor
 BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line. Evidence is how seldom
 noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
 order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
-whitening takes away; where nothing else is found and lines make {depth:g} of the power, it is sought as
+whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
 measured. [monitor_measured.md](monitor_measured.md) has what the chain says of measured bearings. The
 scores in the tables above are of the chain before whitening.
 
@@ -62,7 +62,8 @@ of them of `quick`; `default` has other speeds and seeds, but no other twin.
 Sure is not enough: a sound bearing has lines of its own, of rollers that enter the load zone and of waves
 that they pass again and again, and under a quiet sensor they are no chance. A pattern is called only when
 it is loud, {burst:g} m/s² of vibration that comes and goes, or deep, {depth:g} of the power in its band
-beside the strikes of the wheel. Both numbers are assumed, after runs of the twin had been seen.
+beside the strikes of the wheel. Both are round numbers between faults and false alarms of measured records
+([monitor_measured.md](monitor_measured.md)).
 `beardyn trial healthy` runs 30 sound bearings with a sensor noise of 3e-4 m/s²/√Hz in two tiers and tells
 every alarm with part, frequency and band.
 
@@ -118,6 +119,7 @@ def page(found: dict[str, Any]) -> str:
         rate=settings.false_alarm_rate,
         burst=settings.least_burst,
         depth=settings.least_depth,
+        clockwork=settings.clockwork_depth,
         hot=settings.hot - 273.15,
         heating=60.0 * settings.heating,
         floor=settings.heating_floor - 273.15,

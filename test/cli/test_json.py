@@ -134,7 +134,16 @@ def test_simulate() -> None:
 
 def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write_recording(tmp_path / "run.mcap", 60)
-    check("monitor", printed(capsys, "monitor", str(path), "--bearing", "HS130x230"))
+    short = tmp_path / "record.csv"
+    noise = np.random.default_rng(1).normal(size=2560)
+    short.write_text(
+        "time_s,az_g\n" + "".join(f"{k / 25600:.8f},{each:.5f}\n" for k, each in enumerate(noise))
+    )
+    check(
+        "monitor",
+        printed(capsys, "monitor", str(path), "--bearing", "HS130x230"),
+        printed(capsys, "monitor", str(short), "--trend"),
+    )
 
 
 def test_import(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -53,8 +53,11 @@ def test_run_and_blocks_feed_a_monitor_with_the_same_signals() -> None:
     desk_run.run(scene, [memory])
     live = list(listen(monitor_of(scene), map(MonitorInput.of_block, blocks(scene))))
     later = list(listen(monitor_of(scene), memory.to_run().monitor_inputs()))
-    assert [each.verdict for each in later] == [each.verdict for each in live]
-    # the blocks of a run end where its filters let them, the parts of a recording every 512 samples
+    # the blocks of a run end where its filters let them, the parts of a recording every 512 samples: what is
+    # hardly heard in one may be heard in the other, and then the verdicts are the same
+    verdicts = [[each.verdict for each in heard] for heard in (live, later)]
+    assert verdicts[0][-1] == verdicts[1][-1] == "cup"
+    assert sum(one != other for one, other in zip(*verdicts, strict=True)) <= 1
     ends = np.array([[each.end_ns, other.end_ns] for each, other in zip(live, later, strict=True)])
     assert (np.abs(np.diff(ends)) < 20_000_000).all()
     np.testing.assert_allclose([each.load for each in later], [each.load for each in live], rtol=0.02)

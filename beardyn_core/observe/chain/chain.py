@@ -115,12 +115,13 @@ class Chain:
         measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
         found = with_loudness(found, measured, stretch, band, settings)
         verdict = self.decide(found, stretch, settings)
-        if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.least_depth:
+        if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is heard as measured
             clockwork = self.score(measured, orders, roller_count, speed, settings)
             clockwork = with_loudness(clockwork, measured, stretch, band, settings)
-            heard = self.decide(clockwork, stretch, replace(settings, least_burst=np.inf))
+            deep = replace(settings, least_burst=np.inf, least_depth=settings.clockwork_depth)
+            heard = self.decide(clockwork, stretch, deep)
             if heard.name not in (HEALTHY, HOT_BOX):
                 found, verdict = clockwork, heard
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)

@@ -40,7 +40,7 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     if heard and best.score >= best.threshold and not contradicted:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
     else:
-        name, reason = HEALTHY, _healthy_sentence(best, contradicted)
+        name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.power)
     if state == HOT:
         name = HOT_BOX if name == HEALTHY else name
         reason = f"{_hot_sentence(stretch)}; {reason}"
@@ -80,12 +80,13 @@ def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
     )
 
 
-def _healthy_sentence(best: Candidate, contradicted: bool) -> str:
+def _healthy_sentence(best: Candidate, contradicted: bool, power: float) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if best.score >= best.threshold:
         if contradicted:
             return f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer"
-        return f"no fault: {scores}, but with {best.burst:.2g} m/s² it is too faint"
+        share = best.burst**2 / power
+        return f"no fault: {scores}, but with {share:.1%} of the power in its band it is too faint"
     return f"no fault: {scores}"
 
 
