@@ -62,8 +62,8 @@ of them of `quick`; `default` has other speeds and seeds, but no other twin.
 Sure is not enough: a sound bearing has lines of its own, of rollers that enter the load zone and of waves
 that they pass again and again, and under a quiet sensor they are no chance. A pattern is called only when
 it is loud, {burst:g} m/s² of vibration that comes and goes, or deep, {depth:g} of the power in its band
-beside the strikes of the wheel. Both are round numbers between faults and false alarms of measured records
-([monitor_measured.md](monitor_measured.md)).
+beside the strikes of the wheel: bounds set on measured records ([monitor_measured.md](monitor_measured.md))
+and on runs of the twin.
 `beardyn trial healthy` runs 30 sound bearings with a sensor noise of 3e-4 m/s²/√Hz in two tiers and tells
 every alarm with part, frequency and band.
 

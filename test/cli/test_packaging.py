@@ -27,8 +27,10 @@ FROM_PIP = {
     "pyuff",
     "rerun-sdk",
     "scikit-fem",
+    "scikit-learn",
     "soundfile",
     "xarray",
+    "zarr",
     "zstandard",
 }
 LEFT_OUT = (".git", ".venv", "build", "__pycache__", "*.egg-info", "*.mcap", "*.rrd")
