@@ -60,7 +60,8 @@ of it; the floor of the logarithm also on MFPT, where one of 14 had been missed.
 the records of 48 kHz were not looked at before the chain stood. What sets the rate of false alarms is not
 fitted: the threshold is that of noise, and a rival is compared with the fault. How deep or loud a fault must
 be to be called (a tenth of the power in the band, or 0.7 m/s²) was set last, on the first seconds of all
-these records and on runs of this simulation, which must show its spalls. The columns beside have no such bound.
+these records and on runs of this simulation, which must show its spalls. The columns beside have no such
+bound.
 Tried on the same part and
 left, because less was found or more alarmed beside a faulty bearing: a band by kurtosis, halves and
 quarters of the band among which the fault lines choose, whitening by a smoothed spectrum with and without
