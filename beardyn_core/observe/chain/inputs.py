@@ -89,8 +89,8 @@ class MonitorSettings:
     surfaces pass again and again, so that the power of a random pattern comes back. With a quiet sensor they
     are no chance, and no fault. They are shallow, for they come from many rollers and pass all the time: what
     is called must be deep, as strikes are, or so loud that it matters whatever else there is.
-    Of measured faults that are named right 99 % are deeper than `least_depth`; of what alarmed in sound
-    bearings without it most was below it and `least_burst` (docs/monitor_measured.md). `least_burst` is
+    Of measured analyses that name a fault right 95 % are deeper than 0.12; of what alarmed in sound
+    bearings most was below `least_depth` and `least_burst` (docs/monitor_measured.md). `least_burst` is
     assumed, after runs of the twin had been seen, too: a cone spall under the vibration of wheel and rail has
     0.9 m/s² and makes 0.5 % of the power, the passing of rollers in sound bearings 0.3 to 1.1 m/s².
 
