@@ -58,6 +58,13 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
     structure = effects.structure
     if not isinstance(structure, ModalStructure):
         return None
+    found = _modes_of(structure)
+    if structure.stiffness_factor == 1.0 and structure.damping_factor == 1.0:
+        return found
+    return found.scaled(structure.stiffness_factor, structure.damping_factor)
+
+
+def _modes_of(structure: ModalStructure) -> Modes:
     if structure.content:
         return _unpacked(structure.content, structure.table, structure.highest)
     path = table_path(structure.table)

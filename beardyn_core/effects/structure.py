@@ -66,6 +66,8 @@ class ModalStructure:
         At("Hz", gt=0.0),
         "what lies above becomes residual modes with the same static bending; all modes when left out",
     ] = None
+    stiffness_factor: A[float, At(gt=0.0), "on every mode, for a box measured or unlike its drawing"] = 1.0
+    damping_factor: A[float, At(ge=0.0), "on the damping ratio of every mode, for the same"] = 1.0
     content: A[
         str, At(absent=True), "the table itself, packed, as a recording has it; goes before the file"
     ] = ""

@@ -13,6 +13,7 @@ from beardyn_core.structure.cup import Cup
 WAVES = 8  # most waves around a raceway
 RESIDUAL_WAVES = 3  # around a row, of the loads that residual modes answer
 FIELDS = ("radial", "tangential", "axial")
+_MOST_DAMPED = 0.95  # over the critical one: a mode that rings no more
 _DEPENDENT = 1e-8  # of the largest: directions that other loads have given already
 
 
@@ -79,6 +80,14 @@ class Modes:
         mix[~kept] = turn
         count = int(np.count_nonzero(kept))
         return replace(self._of(np.concatenate([np.eye(len(kept))[:, kept], mix], axis=1)), free_count=count)
+
+    def scaled(self, stiffness: float, damping: float) -> Modes:
+        """Make every mode stiffer and more damped by a factor each; shapes and masses stay."""
+        return replace(
+            self,
+            frequency=self.frequency * np.sqrt(stiffness),
+            damping_ratio=np.minimum(self.damping_ratio * damping, _MOST_DAMPED),
+        )
 
     def _of(self, mix: Float) -> Modes:
         """Mix modes to others with unit modal mass, shape [mode, new]."""

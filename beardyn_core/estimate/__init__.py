@@ -1,0 +1,14 @@
+"""Estimates of what no sensor measures: load, end play, width of a spall, each with an interval.
+
+============ ==================================================================
+module       responsibility, in the order of the data
+============ ==================================================================
+descriptors  what is worked out of a stretch of signal
+quantities   what is estimated, on which scale, and by which label of a run it is learnt
+regression   numbers from descriptors with intervals that hold their promise
+estimator    the numbers that make an estimator, its card, and the file that keeps them
+training     an estimator of a set of runs, judged on bearings that it has not seen
+============ ==================================================================
+
+scikit-learn is imported by `training` alone and when it is needed; an estimate needs NumPy.
+"""

@@ -1,0 +1,124 @@
+"""Descriptors: what an estimator hears of a stretch of vibration; all can be had of a measured axlebox."""
+
+from __future__ import annotations
+
+from math import isfinite, log10, nan
+
+import numpy as np
+from scipy.fft import rfft
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
+from beardyn_core.observe.severity import severity_of
+
+AXES = ("x", "y", "z")
+_THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
+_FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
+_PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
+_TURNS = (1, 2)  # multiples of the shaft
+_BESIDE = 0.35  # of an order: how far the lines lie that a line is compared with
+
+
+def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
+    """Name the descriptors of a sensor with these axes, in their order."""
+    lines = [f"passing_{k}" for k in _PASSINGS] + [f"turn_{k}" for k in _TURNS]
+    return (
+        "shaft",
+        *(f"score_{part}" for part in FAULTS),
+        *("score", "kurtosis", "crest", "strongest_level"),
+        *(f"way_{part}" for part in ("cup", "cone")),
+        *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in _THIRDS),
+        *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
+    )
+
+
+def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes: tuple[str, ...]) -> Float:
+    """Work out the descriptors of a stretch.
+
+    Parameters
+    ----------
+    stretch : Stretch
+        In which the shaft turns one way; an axis of vibration for each of `axes`.
+    orders : FaultFrequencies
+        Of one row, per shaft revolution.
+    plate : NamePlate
+    axes : tuple of str
+        Of ``x``, ``y`` and ``z``.
+
+    Returns
+    -------
+    float64 array, shape [descriptor]
+        In the order of `names_of`; levels in dB, NaN where there is nothing to be worked out.
+    """
+    found = {
+        "shaft": log10(max(stretch.shaft_frequency, _FLOOR)),
+        **_of_monitor(stretch, orders, plate),
+        **_ways(stretch, orders, plate),
+    }
+    for k, axis in enumerate(axes):
+        heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
+        found |= {f"band_{axis}_{m:.0f}": level for m, level in _thirds(heard, stretch.rate).items()}
+        found |= {f"{name}_{axis}": value for name, value in _lines(heard, stretch, orders).items()}
+    return np.array([found[name] for name in names_of(axes)])
+
+
+def _of_monitor(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) -> dict[str, float]:
+    """Ask the reference monitor how strong the lines of each part are."""
+    result = REFERENCE(stretch, orders, plate.roller_count, MonitorSettings())
+    known = result.verdict != "waiting"
+    scores = result.scores if known else (nan,) * len(FAULTS)
+    return {
+        **{f"score_{part}": float(score) for part, score in zip(FAULTS, scores, strict=True)},
+        **{
+            name: float(getattr(result, name)) if known else nan
+            for name in ("score", "kurtosis", "crest", "strongest_level")
+        },
+    }
+
+
+def _ways(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) -> dict[str, float]:
+    """Measure how far entry and exit are apart on cup and cone, [mm]; 0 where no second event stands out."""
+    found = {}
+    for part, order in (("cup", orders.bpfo), ("cone", orders.bpfi)):
+        measured = severity_of(stretch.acceleration, stretch.rate, stretch.shaft_angle, part, order, plate)
+        found[f"way_{part}"] = 1e3 * measured.width if isfinite(measured.width) else 0.0
+    return found
+
+
+def _thirds(signal: Float, rate: float) -> dict[float, float]:
+    """Measure third octaves against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
+    power = np.abs(rfft(signal * np.hanning(len(signal)))) ** 2 / len(signal) ** 2 * (2.0 * 8.0 / 3.0)
+    frequency = np.arange(len(power)) * rate / len(signal)
+    edges = np.searchsorted(frequency, [middle * 2.0 ** (side / 6.0) for middle in _THIRDS for side in (-1, 1)])
+    sums = np.concatenate([[0.0], np.cumsum(power)])
+    levels = {}
+    for k, middle in enumerate(_THIRDS):
+        first, last = edges[2 * k], edges[2 * k + 1]
+        inside = middle * 2.0 ** (1.0 / 6.0) < 0.5 * rate and last > first
+        levels[middle] = _level(float(sums[last] - sums[first])) if inside else nan
+    return levels
+
+
+def _lines(signal: Float, stretch: Stretch, orders: FaultFrequencies) -> dict[str, float]:
+    """Measure lines of the rollers' passing and of the shaft: level, and lead over what lies beside, [dB]."""
+    wanted = {f"passing_{k}": k * orders.bpfo for k in _PASSINGS} | {f"turn_{k}": float(k) for k in _TURNS}
+    weighted = signal * np.hanning(len(signal)) * 2.0
+    found = {}
+    for name, order in wanted.items():
+        power = [_line(weighted, stretch.shaft_angle, order + shift * _BESIDE) for shift in (-1.0, 0.0, 1.0)]
+        found[f"{name}_level"] = _level(power[1])
+        found[f"{name}_lead"] = _level(power[1]) - _level(0.5 * (power[0] + power[2]))
+    return found
+
+
+def _line(weighted: Float, angle: Float, order: float) -> float:
+    """Compute the power of a line that follows the angle of the shaft, [m^2/s^4]."""
+    turned = order * angle
+    along, across = float(weighted @ np.cos(turned)), float(weighted @ np.sin(turned))
+    return 2.0 * (along**2 + across**2) / len(weighted) ** 2
+
+
+def _level(power: float) -> float:
+    return 10.0 * log10(max(power, _FLOOR**2))

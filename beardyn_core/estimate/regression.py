@@ -1,0 +1,84 @@
+"""A number from descriptors by kernel ridge regression, with intervals that keep their promise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, inf
+from typing import Annotated as A
+from typing import NamedTuple
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+
+LEVELS = (0.5, 0.9)  # of intervals
+_LEAST_DOUBT = 0.2  # of the usual one: no run is told more surely
+
+
+class Guess(NamedTuple):
+    """A number of each run, on the scale on which it is learnt."""
+
+    value: Float  # shape [run]
+    low: Float  # shape [level, run]
+    high: Float  # shape [level, run]
+
+
+@dataclass(frozen=True, eq=False)
+class Regression:
+    """Kernel ridge regression on directions of descriptor space, and the same of how far it errs.
+
+    Descriptors are standardised, projected on the directions that vary with the number (partial least
+    squares), and compared with those of every run learnt from by a Gaussian kernel. A second set of weights
+    gives the logarithm of the error to be expected there. The widths of the intervals are quantiles of errors
+    over expected errors of runs that were not learnt from: whatever the law of the errors, an interval of
+    90 % holds the truth in 90 % of runs that come from where those came from.
+
+    References
+    ----------
+    Wold, Sjostrom, Eriksson (2001), Chemometr. Intell. Lab. Syst. 58, 109: partial least squares.
+    Lei, G'Sell, Rinaldo, Tibshirani, Wasserman (2018), J. Am. Stat. Assoc. 113, 1094, section 5.2: intervals
+    from errors over expected errors (locally weighted conformal inference).
+    """
+
+    directions: A[Float, "shape [descriptor, direction], of standardised descriptors"]
+    support: A[Float, "shape [run, direction], runs learnt from"]
+    weights: A[Float, "shape [run], of the number"]
+    doubt_weights: A[Float, "shape [run], of the logarithm of its error"]
+    width: A[float, "of the Gaussian kernel: 1 / (2 width^2) of the squared distance"]
+    mean: A[float, "of the number, as learnt"]
+    doubt: A[float, "mean of the logarithm of its error"]
+    reach: A[Float, "shape [level], half of an interval over the expected error"]
+
+    def value(self, standardised: Float) -> Float:
+        """Give the number, shape [run], of standardised descriptors, shape [run, descriptor]."""
+        return self.mean + self._kernel(standardised) @ self.weights
+
+    def expected_error(self, standardised: Float) -> Float:
+        """Give the error to be expected, shape [run]."""
+        learnt = self._kernel(standardised) @ self.doubt_weights
+        return np.exp(self.doubt + np.maximum(learnt, np.log(_LEAST_DOUBT)))
+
+    def guess(self, standardised: Float) -> Guess:
+        """Give number and intervals."""
+        value, error = self.value(standardised), self.expected_error(standardised)
+        half = self.reach[:, None] * error
+        return Guess(value, value - half, value + half)
+
+    def _kernel(self, standardised: Float) -> Float:
+        place = standardised @ self.directions
+        square = ((place[:, None, :] - self.support[None, :, :]) ** 2).sum(axis=2)
+        return np.asarray(np.exp(-0.5 * square / self.width**2), np.float64)
+
+
+def reach_of(errors: Float, expected: Float) -> Float:
+    """Find how wide intervals must be, shape [level], over the expected error, of runs not learnt from.
+
+    The quantile is that of one run more than there are, so that the promise holds for the next one; where
+    there are too few runs for it, the interval is without end.
+    """
+    ratio = np.sort(np.abs(errors) / expected)
+    found = []
+    for level in LEVELS:
+        place = ceil(level * (len(ratio) + 1))
+        found.append(float(ratio[place - 1]) if place <= len(ratio) else inf)
+    return np.array(found)
