@@ -1,4 +1,4 @@
-"""Explicit steps of the quasistatic tier: rings on suspension and journal, every roller in balance."""
+"""Steps of the quasistatic tier: rings on suspension and journal, every roller in its meridian plane."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry, inline
-from beardyn_core.kernels.balanced_roller import balance, cone_view, turned_axis
+from beardyn_core.kernels.balanced_roller import balance, cone_view, free_flight, turned_axis
+from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.kinematic_bending import (
     PLACE,
@@ -59,14 +60,15 @@ def pressed_tangent(load, tangent):
 
 
 @inline
-def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due, shown, p):
-    """Move all rollers one Newton step towards balance and sum their loads by row.
+def balance_rollers(lanes, rollers, sums, motion, shake, direction, turns, speeds, due, shown, p):
+    """Move all rollers over a step and sum their loads by row.
 
-    ``rollers`` [block, ROLLER_FIELDS, lane]: places and axes changed in place; everything else written when
-    `shown`; ``sums`` [1, SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work
+    ``rollers`` [block, ROLLER_FIELDS, lane]: places, axes, radial and axial velocity and tangential angular
+    momentum changed in place; everything else written when `shown`; ``shake`` (3 numbers): acceleration of
+    the cup as its ring sees it: up, forward, outward [m/s^2]; ``sums`` [1, SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work
     out the torque of the contacts; ``shown``: whether to write what a block of channels shows.
     """
-    k = p.kinematic
+    k, rate, turning = p.kinematic, p.motion.rate, p.base.roller.transverse_inertia
     orbit_squared = speeds[1] * speeds[1]
     inertia = (k.centrifugal * orbit_squared, k.gyroscopic * orbit_squared)
     side = lanes.load(p.sides, 0, 0)
@@ -92,15 +94,28 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
             less_opening(lanes, block, PLACE, zero, p.bending),
             less_opening(lanes, block, SPEED, zero, p.bending),
         )
-        move, cup, cone, rib, lever, deepest = balance(
-            lanes, block, place, axis, view, azimuths, inertia, opening, p
+        moved = (
+            lanes.load(rollers, block, layout.VELOCITY),
+            lanes.load(rollers, block, layout.VELOCITY + 2),
+            lanes.load(rollers, block, layout.MOMENTUM + 1) * (1.0 / turning),
         )
+        shaken = (shake[0] * cosine + shake[1] * sine, side * shake[2])
+        flight = free_flight(moved, shaken, inertia, p)
+        place = (place[0] + p.step * flight[0], place[1] + p.step * flight[1])
+        axis = turned_axis(axis, p.step * flight[2])
+        move, cup, cone, rib, lever, deepest = balance(
+            lanes, block, place, axis, flight, view, azimuths, opening, p
+        )
+        moved = (flight[0] + move[0] * rate, flight[1] + move[1] * rate, flight[2] + move[2] * rate)
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])
         lanes.store(rollers, block, layout.RADIUS, place[0])
         lanes.store(rollers, block, layout.AXIAL, place[1])
         lanes.store(rollers, block, layout.AXIS, axis[0])
         lanes.store(rollers, block, layout.AXIS + 2, axis[1])
+        lanes.store(rollers, block, layout.VELOCITY, moved[0])
+        lanes.store(rollers, block, layout.VELOCITY + 2, moved[1])
+        lanes.store(rollers, block, layout.MOMENTUM + 1, turning * moved[2])
         deepest = at_least(lanes.load(rollers, block, layout.PENETRATION), deepest)
         lanes.store(rollers, block, layout.PENETRATION, deepest)
         waves = load_vector(lanes, p.pockets, block, layout.COUNTED)
@@ -119,7 +134,7 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
             keep_tangent(lanes, block, tangent, p.bending)
         if shown:
             centres = (cup[1] / at_least(cup[0], _SMALLEST_LOAD), cone[1] / at_least(cone[0], _SMALLEST_LOAD))
-            show_roller(lanes, rollers, block, place, axis, (turns[0], speeds[1]), angle, p)
+            show_roller(lanes, rollers, block, place, axis, moved, (turns[0], speeds[1]), angle, p)
             show_contacts(lanes, rollers, block, axis, forces, centres, speeds, p)
     store_vector(lanes, sums, 0, LOAD_COSINE, (loads[1], loads[2], side * loads[0]))
     store_vector(lanes, sums, 0, MOMENT_COSINE, (side * moments[1], side * moments[2], rib_sum))
@@ -127,6 +142,28 @@ def balance_rollers(lanes, rollers, sums, motion, direction, turns, speeds, due,
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
         store_stiffness(lanes, sums, stiff)
+
+
+@inline
+def cup_velocity(bodies):
+    """Take the velocity of the cup, 3 floats."""
+    return body_vector(bodies, layout.CUP_BODY, layout.LINEAR)
+
+
+@inline
+def keep_change(bodies, before):
+    """Keep what the cup's velocity has changed by since `before`."""
+    for i in range(3):
+        bodies[layout.CUP_BODY, layout.CHANGE + i] = (
+            bodies[layout.CUP_BODY, layout.LINEAR + i] - before[i]
+        )
+
+
+@inline
+def cup_acceleration(bodies, rate):
+    """Work out the acceleration of the cup over the step before: up, forward, along the axle, [m/s^2]."""
+    x, y, z = body_vector(bodies, layout.CUP_BODY, layout.CHANGE)
+    return rate * z, rate * x, rate * y
 
 
 @entry
@@ -151,8 +188,9 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         direction, turns, speeds = begin_step(bodies, direction, p)
         show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
+        shake = cup_acceleration(bodies, p.motion.rate)
         balance_rollers(
-            lanes, rollers, sums[0], relative_cone(bodies), direction, turns, speeds, due, shown, p
+            lanes, rollers, sums[0], relative_cone(bodies), shake, direction, turns, speeds, due, shown, p
         )
         turn_reaction(sums, direction, bending)
         totals = (
@@ -167,10 +205,12 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         if due:
             losses = held_losses(sums, speeds, rib, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
+        before = cup_velocity(bodies)
         finish_step(
             lanes, bodies, flex, axle, Drive(wrench, rib, losses), wrenches, box, loads[step],
             loads[step + 1], signals[step], energy, response, p,
         )  # fmt: skip
+        keep_change(bodies, before)
         if shown:
             for block in range(rollers.shape[0]):
                 copy_table(rollers[block], roller_trend[(step + 1) // stride - 1, block])

@@ -290,5 +290,5 @@ def show_springs(lanes, rollers, trend, p):
         loads = cup_cone_rib(lanes.load(trend, block, 0), speeds, p)
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
         place = (k.radius + zero, k.axial + zero)
-        show_roller(lanes, rollers, block, place, axis, (turn, speeds[1]), angle, p)
+        show_roller(lanes, rollers, block, place, axis, (zero, zero, zero), (turn, speeds[1]), angle, p)
         show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)
