@@ -82,9 +82,7 @@ def run(args: argparse.Namespace) -> int:
     if args.memory:
         raise InputError("--memory is that of --trend; give both")
     algorithm = algorithm_named(args.monitor)
-    problems = _picture_problems(args)
-    problems += [f"{each}: there is no such file" for each in args.files if not Path(each).exists()]
-    if problems:
+    if problems := _picture_problems(args):
         raise InputError(problems)
     recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])
     results = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
