@@ -111,4 +111,7 @@ def zarr_library() -> Any:
     InputError
         It is not installed.
     """
-    return library("zarr", "a set of runs", "sweep")
+    library("zarr", "a set of runs", "sweep")  # says what to install
+    import zarr
+
+    return zarr

@@ -43,7 +43,7 @@ def trained_set(folder: Path, runs: int | None, workers: int | None) -> Labelled
     folder.mkdir(exist_ok=True)
     if (folder / TRAINED / SUMS).is_file():
         return LabelledSet(folder / TRAINED)
-    changes = {} if runs is None else {"runs": runs}
+    changes: dict[str, Any] = {} if runs is None else {"runs": runs}
     return bd.sweep(TRAINED, folder / TRAINED, workers=workers, progress=True, **changes)
 
 
