@@ -10,7 +10,6 @@ from time import monotonic
 from typing import Any
 
 import numpy as np
-import yaml
 from mcap.well_known import MessageEncoding, SchemaEncoding
 from numpy.typing import NDArray
 
@@ -18,7 +17,7 @@ from beardyn_core.arrays import Int
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
 from beardyn_core.record.background_file import BackgroundFile
-from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, yaml_text
+from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, type_hash, yaml_text
 from beardyn_core.record.chunk_writing import MESSAGE_BYTES, ChunkWriter
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
@@ -231,8 +230,8 @@ class McapWriter:
             MessageEncoding.CDR,
             schema,
             {
-                "offered_qos_profiles": yaml.safe_dump([qos_profile(entry)], sort_keys=False),
-                "topic_type_hash": typestore().hash_rihs01(entry.type),
+                "offered_qos_profiles": yaml_text([qos_profile(entry)]),
+                "topic_type_hash": type_hash(entry.type),
             },
         )
         self._channels[entry.name], self._counts[entry.name] = channel, 0
