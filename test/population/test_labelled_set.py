@@ -201,9 +201,9 @@ except MemoryError:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of memory are those of Linux")
 def test_a_set_bigger_than_the_memory_streams_where_it_cannot_be_loaded(tmp_path: Path) -> None:
-    """250 MB of signals in a process that may take 100 MB more than it has."""
+    """250 MB of signals in a process that may take 200 MB more than it has, stacks of threads included."""
     wide_set(tmp_path / "set", 400)
-    words = [sys.executable, "-c", STREAMS, str(tmp_path / "set"), "100000000"]
+    words = [sys.executable, "-c", STREAMS, str(tmp_path / "set"), "200000000"]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run(words, env=environment, capture_output=True, text=True)
     assert done.stdout == "400 does not fit\n", done.stderr
