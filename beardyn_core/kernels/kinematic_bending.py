@@ -97,18 +97,30 @@ def _see(lanes, flex, step, bending):
 
 
 @inline
-def less_opening(lanes, block, kind, value, bending):
-    """Take the opening, or its speed, at a block of pockets off the approach, or its rate."""
+def less_opening(lanes, block, kind, value, bending, ahead):
+    """Take the opening, or its speed, at a block of pockets off the approach, or its rate.
+
+    ``ahead``: small angle by which rollers are ahead of the places of the series, to first order [rad], or ``None``.
+    """
     if bending is None:
         return value
     series = bending.basis.shape[1]
     waves, first = series // 2, kind * series
     even, odd = value - lanes.load(bending.shown, 0, first), lanes.constant(0.0)
     for n in range(1, waves + 1):
-        even = even - lanes.load(bending.shown, 0, first + n) * lanes.load(bending.basis, block, n)
-        with_sine = lanes.load(bending.basis, block, waves + n)
-        odd = odd - lanes.load(bending.shown, 0, first + waves + n) * with_sine
+        cosine, sine = _wave_at(lanes, block, n, waves, bending.basis, ahead)
+        even = even - lanes.load(bending.shown, 0, first + n) * cosine
+        odd = odd - lanes.load(bending.shown, 0, first + waves + n) * sine
     return even + odd
+
+
+@inline
+def _wave_at(lanes, block, n, waves, basis, ahead):
+    cosine, sine = lanes.load(basis, block, n), lanes.load(basis, block, waves + n)
+    if ahead is None:
+        return cosine, sine
+    angle = n * ahead
+    return cosine - angle * sine, sine + angle * cosine
 
 
 @inline
@@ -121,13 +133,31 @@ def clear_reaction(lanes, sums, bending):
 
 
 @inline
-def add_reaction(lanes, sums, block, load, bending):
-    """Add the loads of a block of rollers, 0 where there are none, to the forces on the openings."""
+def add_reaction(lanes, sums, block, load, bending, ahead):
+    """Add the loads of a block of rollers, 0 where there are none, to the forces on the openings.
+
+    ``ahead``: as of `less_opening`.
+    """
     if bending is None:
         return
-    for k in range(bending.basis.shape[1]):
-        before = lanes.load(sums, 0, SUM_FIELDS + k)
-        lanes.store(sums, 0, SUM_FIELDS + k, before + load * lanes.load(bending.basis, block, k))
+    _react(lanes, sums, block, load, bending.basis, ahead)
+
+
+@inline
+def _react(lanes, sums, block, load, basis, ahead):
+    if ahead is None:
+        for k in range(basis.shape[1]):
+            before = lanes.load(sums, 0, SUM_FIELDS + k)
+            lanes.store(sums, 0, SUM_FIELDS + k, before + load * lanes.load(basis, block, k))
+        return
+    waves = basis.shape[1] // 2
+    lanes.store(sums, 0, SUM_FIELDS, lanes.load(sums, 0, SUM_FIELDS) + load)
+    for n in range(1, waves + 1):
+        cosine, sine = _wave_at(lanes, block, n, waves, basis, ahead)
+        before = lanes.load(sums, 0, SUM_FIELDS + n)
+        lanes.store(sums, 0, SUM_FIELDS + n, before + load * cosine)
+        before = lanes.load(sums, 0, SUM_FIELDS + waves + n)
+        lanes.store(sums, 0, SUM_FIELDS + waves + n, before + load * sine)
 
 
 @inline

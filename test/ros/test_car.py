@@ -207,15 +207,9 @@ def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
 @pytest.mark.parametrize(
     ("first", "number"),
     [
-        ("car/axle_4_right/twin", signal.SIGKILL),
-        *(
-            pytest.param(name, signal.SIGKILL, marks=pytest.mark.slow)
-            for name in ("car/load", "car/recorder")
-        ),
-        *(
-            pytest.param(name, signal.SIGINT, marks=pytest.mark.slow)
-            for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
-        ),
+        pytest.param(name, number, marks=pytest.mark.slow)
+        for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
+        for number in (signal.SIGKILL, signal.SIGINT)
     ],
 )
 def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
