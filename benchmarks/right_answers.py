@@ -85,8 +85,8 @@ def right_answers(turns: int) -> Table:
         ("run", "laminae", "steps a sample", "floor", "goal", "now", "reached"),
         rows,
         f"Medians of {turns} turns. Each scene with the effects, laminae and step that `auto` takes for "
-        "force, deflection, roller load and torque within 5 % and the vibration that is named; the preset with all "
-        "of its effects.",
+        "force, deflection, roller load and torque within 5 % and the vibration that is named; the preset "
+        "with all of its effects.",
     )
 
 
