@@ -18,7 +18,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
 from beardyn_core.record.background_file import BackgroundFile
 from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, type_hash, yaml_text
-from beardyn_core.record.chunk_writing import MESSAGE_BYTES, ChunkWriter
+from beardyn_core.record.chunk_writing import LEVEL, MESSAGE_BYTES, ChunkWriter
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
@@ -54,6 +54,8 @@ class McapWriter:
         Whether an existing file is replaced; otherwise it is an `InputError`.
     background : bool
         Whether a thread writes, so that a slow disk does not hold up the caller.
+    level : int
+        Of zstd.
     """
 
     def __init__(
@@ -63,6 +65,7 @@ class McapWriter:
         *,
         replace: bool = False,
         background: bool = False,
+        level: int = LEVEL,
     ) -> None:
         self.path = Path(path)
         self._namespace = namespace
@@ -76,7 +79,7 @@ class McapWriter:
         self._file: Any = file
         if background:
             self._file = BackgroundFile(file)
-        self._writer = ChunkWriter(self._file)  # chunks end where `add_rows` and `flush_if_due` say
+        self._writer = ChunkWriter(self._file, level)  # chunks end where `add_rows` and `flush_if_due` say
         self._chunk_bytes = 0
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
