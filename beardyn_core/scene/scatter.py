@@ -20,8 +20,8 @@ _ROWS = 2
 # A deviation is normal with a quarter of the lot's variation, cut at half of it: sorting takes the rest out.
 CUT = 2.0
 _TRIES = 24  # draws for each number; 0.0455^24 is no chance
-# Orders whose rms is given, and the last one where `shortest_wave` does not say which: contacts, 0.3 mm wide,
-# pass on less of what is shorter than that, under 1 mm, and at 300 km/h it is beyond the band of the waveforms.
+# Orders whose rms is given, and the last one unless `shortest_wave` says which: contacts, 0.3 mm wide, pass
+# on less of what is shorter than that, under 1 mm, and at 300 km/h it is beyond the band of the waveforms.
 RACEWAY_ORDERS, ROLLER_ORDERS = (2, 300, 600), (2, 60, 120)
 HALF_CONTACT = 1.5e-4  # [m]
 _SHAPES = {"cup": RACEWAY_ORDERS, "cone": RACEWAY_ORDERS, "roller": ROLLER_ORDERS}

@@ -104,9 +104,7 @@ LEFT_OUT: dict[str, Case] = {
     "no cages, damping of 25 us": replace(healthy(90.0), caged=False, damping=25e-6),
     "no cages, 0.2 mm of preload": replace(healthy(90.0), caged=False, end_play=-2e-4),
     "no cages, no waves": replace(healthy(90.0), caged=False, waves=False),
-    "no cages, no waves, 0.2 mm of preload": replace(
-        healthy(90.0), caged=False, waves=False, end_play=-2e-4
-    ),
+    "no cages, no waves, 0.2 mm of preload": replace(healthy(90.0), caged=False, waves=False, end_play=-2e-4),
     "no cages, waves to 0.2 mm": replace(healthy(90.0), caged=False, shortest_wave=2e-4),
     "200 km/h": healthy(200.0),
     "200 km/h, waves to 0.2 mm": replace(healthy(200.0), shortest_wave=2e-4),

@@ -75,9 +75,7 @@ def run(case: Case) -> Run:
     heard = np.concatenate(signal)
     angle = np.asarray(speed * np.arange(len(heard)) / RATE, np.float64)
     moved = np.concatenate(motion)
-    azimuths = _azimuths(
-        np.concatenate(orbit), np.concatenate(times), len(moved), case.steps * int(RATES[0])
-    )
+    azimuths = _azimuths(np.concatenate(orbit), np.concatenate(times), len(moved), case.steps * int(RATES[0]))
     return Run(
         case, heard - heard.mean(), angle, moved,
         np.concatenate(force), azimuths, describe(status),
