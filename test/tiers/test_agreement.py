@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -165,14 +166,18 @@ def test_play_and_side_load_share_the_rows_as_the_static_solution_does(tier: str
     np.testing.assert_allclose(rib, static.rib_load, atol=tolerance * static.rib_load.max())
 
 
+@cache
+def _spalled(tier: str) -> np.ndarray:
+    blocks = blocks_of(scene_of("cup_spall", tier), 2.1)
+    heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
+    return third_octave_levels(heard[:, None])
+
+
 @pytest.mark.parametrize("tier", FAST)
 def test_a_spall_shakes_the_box_as_in_the_full_tier(tier: str) -> None:
-    """Third octaves from 400 Hz to 5 kHz, within 2 dB."""
-    levels = []
-    for each in ("full", tier):
-        blocks = blocks_of(scene_of("cup_spall", each), 0.6)
-        heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
-        levels.append(third_octave_levels(heard[:, None]))
+    """Third octaves from 400 Hz to 5 kHz, within 2 dB; over 2 s, for cages that slip by themselves excite the
+    resonance at 1 kHz by 2.5 dB more or less within half a second."""
+    levels = [_spalled(each) for each in ("full", tier)]
     bands = (BAND_CENTRES > 380.0) & (BAND_CENTRES < 5200.0)
     apart = np.abs(levels[1] - levels[0])[bands]
     assert apart.max() < 2.0

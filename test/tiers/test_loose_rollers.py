@@ -21,10 +21,11 @@ def healthy(tier: str) -> Scene:
 
 
 def test_rollers_stay_in_their_pockets_and_the_cage_slips_by_the_play() -> None:
-    """Where a roller is ahead of its pocket, the cage's own place included, is the play and what its bar
-    yields; cages that are slower than rolling by play and sag over the length of the load zone."""
+    """A leaning bar yields to a roller by a few micrometres, wherever the cage is; cages are slower than
+    rolling by no more than play and sag over a load zone of a quarter."""
     scene = healthy("quasistatic")
     bearing = scene.bearing
+    assert isinstance(scene.effects.cage, Cage)
     radius, play = 0.5 * bearing.pitch_diameter, 0.5 * bearing.cage.circumferential_clearance
     done = list(blocks(scene, 0.6))
     trend, shown = (
@@ -42,15 +43,20 @@ def test_rollers_stay_in_their_pockets_and_the_cage_slips_by_the_play() -> None:
     pockets = turned[:, :, None] + 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
     ahead = radius * ((rollers - pockets + np.pi) % (2.0 * np.pi) - np.pi)
     ahead -= np.cos(rollers) * across[:, :, :1] - np.sin(rollers) * across[:, :, 2:]
-    assert np.abs(ahead).max() < play + 30e-6
-    assert np.abs(ahead).max() > play
+    centres = poses[:, 4:, :3].reshape(steps, 2, -1, 3) - poses[:, None, :1, :3]
+    outward = np.hypot(centres[..., 0], centres[..., 2]) - radius
+    outward -= np.cos(rollers) * across[:, :, 2:] + np.sin(rollers) * across[:, :, :1]
+    lean = scene.effects.cage.bar_inclination
+    depth = np.cos(lean) * (np.abs(ahead) - play) + np.sin(lean) * outward
+    assert 0.0 < depth.max() < 10e-6
     assert ahead.std() > 0.2 * play
     half = steps // 2
     ratio = (turned[-1] - turned[half]) / (shaft[-1] - shaft[half]) / cage_speed_ratio(bearing)
-    sag = -across[half:, :, 2].mean()
-    zone = np.pi * radius
-    assert play < sag < 4.0 * play
-    assert 1.0 - ratio == pytest.approx((2.0 * play + 2.0 * sag) / zone, rel=0.4)
+    # a roller gets ahead of its pocket by the play, and by twice what the cage is beside its centre
+    longest = 2.0 * play + 2.0 * np.hypot(across[..., 0], across[..., 2]).max()
+    assert longest < 20.0 * play
+    assert (ratio < 1.0).all()
+    assert ((1.0 - ratio) < longest / (0.5 * np.pi * radius)).all()
 
 
 def test_without_a_cage_rollers_keep_their_places() -> None:
