@@ -8,6 +8,7 @@ grades         how well the faults can be diagnosed at all, as published
 run            monitors over the records, and what is right, wrong or missed
 page           docs/monitor_measured.md
 run_to_failure docs/run_to_failure.md: when the trend alarms
+levels         docs/levels.md: how loud faults of known size are, beside the twin's
 spall_width    docs/spall_width.md: widths found, of known ones
 ============== ===================================================================
 """
