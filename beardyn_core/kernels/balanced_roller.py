@@ -1,8 +1,16 @@
-"""Rollers of the quasistatic tier: massless between cup, cone and rib, one Newton step per time step.
+"""Rollers of the quasistatic tier: between cup, cone and rib, one implicit step of Euler per time step.
 
 A roller moves in its own meridian plane: radially, axially and in tilt, which is positive when the large
-end moves outwards. Where it stands is state and starts the next step, so one Newton step follows the
-slow change of the load. Forces are those of the balanced, linearised contacts.
+end moves outwards. Where it stands and how it moves is state. Its contacts are far stiffer than a step can
+follow, 15 kHz under load: one Newton step of the implicit method damps that and gives the balance, while a
+roller that nothing presses flies, and strikes with its own mass. The contacts are linearised where it would
+fly to by itself: from there, pressed too much, the step comes back to balance, while from a gap it would not
+see the contact at all. Forces are those at the end of the step.
+
+References
+----------
+Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3, for stiff components; a single
+Newton step is their linearly implicit method, IV.7.
 """
 
 from __future__ import annotations
@@ -17,10 +25,7 @@ from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, sub
 from beardyn_core.kernels.waviness import crown_bend, wave_gap
 from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
-# A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
-# contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
-# jumping far into it. It moves at most this far in a step [m].
-_HOLD = 2.0e7
+# A roller moves at most this far in a step [m]: forces are linearised, and surfaces are not known beyond.
 _LONGEST_MOVE = 2.0e-5
 _PI = 3.141592653589793
 
@@ -195,14 +200,15 @@ def settled(force, stiffness, normal, by_tilt, factor, move, reach):
 
 
 @inline
-def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
-    """Take one Newton step of a block of rollers towards balance.
+def balance(lanes, block, place, axis, flight, views, azimuths, opening, p):
+    """Take one implicit step of a block of rollers.
 
+    ``place`` (2 vectors), ``axis`` (2 vectors): radial and axial, after a flight of a step; ``flight`` (3
+    numbers): its velocities, of `free_flight`;
     ``views`` (4 vectors): origin and axis of the cone, velocity of its origin and angular velocity, in the
     orbit frame and against it; ``azimuths`` (3 numbers): on cup and cone, and of the roller in its pocket
-    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]; ``opening`` (2 numbers):
-    how far and how fast the bent cup closes in along its normal [m], [m/s]. Returns ``move`` (3
-    numbers): radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
+    [rad]; ``opening`` (2 numbers): how far and how fast the bent cup closes in along its normal [m], [m/s]. Returns ``move`` (3
+    numbers): beyond the flight, radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
     moment along the roller [N], [N m]; ``rib``: [N]; ``lever`` (2 numbers): arm of the cup's load about the
     bearing centre, affine in the abscissa [m]; ``deepest``: approach on the cup at the centre of mass [m].
     """
@@ -230,19 +236,23 @@ def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
-    cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)
     cone_normal = (line[2][0], line[2][2])
     cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))
     cup_normal = (base.cup.cosine, -base.cup.sine)
+    flown = approach_rate(flight, cone_normal, cone_tilt)
+    rate = cone_rate(line, centre, motion)
+    cone_force = damped(cone, (rate[0] + flown[0], rate[1] + flown[1]), effects.damping)
     rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(centre, full_axis, views[1], motion, effects.rib)
+    rib_rate = rib_rate + rib_way[0] * flight[0] + rib_way[1] * flight[1] + rib_way[2] * flight[2]
     rib_force = rib_force + damper_force(rib_stiffness, rib_rate, effects.damping)
 
-    hold = _HOLD + zero
+    heavy = roller.mass / (p.step * p.step) + zero
     system = (
-        (hold, zero, zero, hold, zero, hold * (roller.half_length * roller.half_length)),
-        (loads[0] + zero, zero, loads[1] + zero),
+        (heavy, zero, zero, heavy, zero, roller.transverse_inertia / (p.step * p.step) + zero),
+        (zero, zero, zero),
     )
-    cup_force = _pushed(cup, opening[1], effects.damping, p.bending)
+    flown = approach_rate(flight, cup_normal, cup_tilt)
+    cup_force = damped(cup, (_closed(flown[0], opening[1], p.bending), flown[1]), effects.damping)
     system = add_raceway(system, cup_force, cup[1], cup_normal, cup_tilt, factor)
     system = add_raceway(system, cone_force, cone[1], cone_normal, cone_tilt, factor)
     rib_only = (rib_stiffness, zero, zero)
@@ -263,6 +273,22 @@ def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
 
 
 @inline
+def free_flight(motion, cup, steady, p):
+    """Work out the velocities over a step of rollers that nothing touches: radial, axial, in tilt.
+
+    ``motion`` (3 numbers): radial and axial velocity against the cup and tilt rate before the step [m/s],
+    [rad/s]; ``cup`` (2 numbers): radial and axial acceleration of the cup [m/s^2]; ``steady`` (2 numbers):
+    centrifugal force and gyroscopic moment [N], [N m].
+    """
+    roller, step = p.base.roller, p.step
+    return (
+        motion[0] + step * (steady[0] / roller.mass - cup[0]),
+        motion[1] - step * cup[1],
+        motion[2] + step * (steady[1] / roller.transverse_inertia),
+    )
+
+
+@inline
 def _closed(approach, closing, bending):
     if bending is None:
         return approach
@@ -270,10 +296,12 @@ def _closed(approach, closing, bending):
 
 
 @inline
-def _pushed(springs, rate, damping, bending):
-    if bending is None:
-        return springs[0]
-    return damped(springs, (rate, 0.0 * rate), damping)
+def approach_rate(motion, normal, by_tilt):
+    """Take the affine approach rate on a raceway of a roller that moves."""
+    return (
+        normal[0] * motion[0] + normal[1] * motion[1] + by_tilt[0] * motion[2],
+        by_tilt[1] * motion[2],
+    )
 
 
 @inline

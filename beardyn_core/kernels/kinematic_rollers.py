@@ -66,6 +66,10 @@ def lane_total(sums, field):
 def row_totals(sums, field):
     """Sum of a field over the lanes of each row."""
     half = sums.shape[3] // 2
+    if half == 4:  # without a loop
+        low = sums[0, 0, field, 0] + sums[0, 0, field, 1] + (sums[0, 0, field, 2] + sums[0, 0, field, 3])
+        high = sums[0, 0, field, 4] + sums[0, 0, field, 5] + (sums[0, 0, field, 6] + sums[0, 0, field, 7])
+        return low, high
     inner, outer = 0.0, 0.0
     for lane in range(half):
         inner += sums[0, 0, field, lane]
@@ -93,10 +97,11 @@ def cup_wrench(totals, direction, cosine, sine):
 
 
 @inline
-def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
+def show_roller(lanes, rollers, block, place, axis, motion, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
-    ``turn`` (2 numbers): angle and speed of the cages [rad], [rad/s].
+    ``motion`` (3 numbers): radial and axial velocity and tilt rate [m/s], [rad/s]; ``turn`` (2 numbers): angle
+    and speed of the cages [rad], [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller
@@ -107,11 +112,11 @@ def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     lanes.store(rollers, block, layout.RADIUS, place[0] + zero)
     lanes.store(rollers, block, layout.ANGLE, angle + turn[0])
     lanes.store(rollers, block, layout.AXIAL, place[1] + zero)
-    store_vector(lanes, rollers, block, layout.VELOCITY, (zero, rate * place[0] + zero, zero))
+    store_vector(lanes, rollers, block, layout.VELOCITY, (motion[0], rate * place[0] + zero, motion[1]))
     store_vector(lanes, rollers, block, layout.AXIS, (axis[0] + zero, zero, axis[1] + zero))
     momentum = (
         about * axis[0] - across * axis[1] * axis[0] + zero,
-        zero,
+        roller.transverse_inertia * motion[2],
         about * axis[1] + across * axis[0] * axis[0] + zero,
     )
     store_vector(lanes, rollers, block, layout.MOMENTUM, momentum)

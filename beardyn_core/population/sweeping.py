@@ -122,6 +122,7 @@ def conduct(
             with held_back(), Engine(cluster, say) as engine:
                 _check(engine, plan, rows)
                 here.run(engine, store, missing)
+        about["wall_s"] = round(about.get("wall_s", 0.0) + time.monotonic() - begun, 1)
         with whole():
             close_set(folder, plan, about, done, cluster)
     finally:

@@ -25,6 +25,10 @@ class TierLimits:
     long_steps: A[
         tuple[float, ...], "steps per sample that it may take where a step is longer than a sample"
     ] = ()
+    long_ring_steps: A[
+        tuple[float, ...],
+        "the same where the cup bends as two rings: longer ones end in no number, modes of a box get lost",
+    ] = ()
 
 
 _FAST = frozenset(
@@ -48,6 +52,7 @@ TIERS = {
             absent=(*_FAST_ABSENT, "roller displacement and tilt"),
             blocks_at_once=16,
             long_steps=(0.25, 0.5),
+            long_ring_steps=(0.5,),
         ),
         TierLimits(
             "quasistatic",
@@ -75,10 +80,16 @@ def missing_effects(tier: str, effects: tuple[str, ...]) -> tuple[str, ...]:
     return () if represented is None else tuple(name for name in effects if name not in represented)
 
 
+def long_steps(tier: str, bends: str) -> tuple[float, ...]:
+    """List the steps longer than a sample that a tier may take with a kind of structure, or none."""
+    limits = TIERS[tier]
+    return {"": limits.long_steps, "rings": limits.long_ring_steps}.get(bends, ())
+
+
 def contradictions(
-    tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1, bends: bool = False
+    tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1, bends: str = ""
 ) -> list[str]:
-    """List the reasons why a tier cannot run a scene, with what is allowed."""
+    """List the reasons why a tier cannot run a scene, with what is allowed; ``bends``: kind of structure."""
     limits, found = TIERS[tier], []
     if limits.needs_rib and not has_rib:
         found.append(
@@ -97,10 +108,11 @@ def contradictions(
             f"numerics.steps_per_sample {steps_per_sample} does not go with tier {tier!r}: "
             f"allowed is {allowed}"
         )
-    elif steps_per_sample < 1 and bends:
+    elif steps_per_sample < 1 and bends and steps_per_sample not in long_steps(tier, bends):
+        rings = "".join(f"{steps:g} with kind rings, " for steps in limits.long_ring_steps)
         found.append(
             f"numerics.steps_per_sample {steps_per_sample} does not go with effects.structure: rollers that "
-            "come into contact push modes of the box over in steps longer than a sample; take 1 or more"
+            f"come into contact push modes of the box over in steps that long; take {rings}1 or more"
         )
     return found
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -60,10 +59,9 @@ class FakeRuns:
         self._scatter, self._invalid, self._interrupted = scatter, invalid, interrupted
         self.scenes: list[Scene] = []
 
-    def __call__(self, scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
+    def __call__(self, scene: Scene, plan: Plan) -> Run:
         steps = round(scene.numerics.steps_per_sample)
         self.scenes.append(scene)
-        on_block()
         if steps == self._interrupted:
             raise KeyboardInterrupt
         if steps == self._invalid:

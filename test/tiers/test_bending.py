@@ -383,7 +383,19 @@ def test_a_box_that_bends_takes_no_step_longer_than_a_sample() -> None:
     rigid = scene_of("static_80kN", "lumped")
     assert fast_steps(rigid).steps_per_sample < 1.0
     assert fast_steps(bent_scene("lumped", "rings")).steps_per_sample == 1.0
-    problems = contradictions("lumped", True, 6, 0.5, bends=True)
-    assert len(problems) == 1
-    assert "effects.structure" in problems[0]
+    for kind, steps in (("modes", 0.5), ("rings", 0.25)):
+        problems = contradictions("lumped", True, 6, steps, kind)
+        assert len(problems) == 1
+        assert "effects.structure" in problems[0]
     assert not contradictions("lumped", True, 6, 0.5)
+    assert not contradictions("lumped", True, 6, 0.5, "rings")
+    assert contradictions("quasistatic", True, 6, 0.5, "rings")
+
+
+def test_rings_take_steps_of_two_samples_where_only_low_bands_are_asked_for() -> None:
+    """Not so modes of a box, nor the quasistatic tier."""
+    rings = bent_scene("lumped", "rings", "cup_spall")
+    assert fast_steps(rings, band=1000.0).steps_per_sample == 0.5
+    assert fast_steps(rings, band=4000.0).steps_per_sample == 1.0
+    assert fast_steps(bent_scene("lumped", "modes", "cup_spall"), band=1000.0).steps_per_sample >= 1.0
+    assert fast_steps(bent_scene("quasistatic", "rings", "cup_spall"), band=1000.0).steps_per_sample == 1.0
