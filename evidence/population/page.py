@@ -188,11 +188,9 @@ def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
         "## How fast, how big",
         "",
         f"The set above: {made['runs']} runs of 2 s, {made['failed']} failed, of {made['processes']} "
-        f"processes on {made['cores']} cores, in {made['wall_s'] / 60.0:.0f} min of a machine that may have "
-        f"had other work; {made['processor_total_s'] / 60.0:.0f} min of processor time, compiling included. "
-        f"No process held more than {made['most_memory'] / 1e6:.0f} MB, and a run takes "
-        f"{made['bytes_a_run'] / 1e6:.2f} "
-        "MB of the disk.",
+        f"processes on {made['cores']} cores, busy with them for "
+        f"{made['worker_s'] / made['processes'] / 60.0:.0f} min each, of a machine that may have had other "
+        f"work; {made['bytes_a_run'] / 1e6:.2f} MB of the disk a run.",
         "",
         "Real runs on one and on two processes. *Busy* is the share of a worker's time that it is in a run, "
         "*besides* what scheduler, network and the writing of the set take for each run: both are measured "
@@ -200,7 +198,15 @@ def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
         "",
         Table(
             "",
-            ("processes", "runs", "processor time a run", "besides", "busy", "runs an hour of a core"),
+            (
+                "processes",
+                "runs",
+                "processor time a run",
+                "besides",
+                "busy",
+                "runs an hour of a core",
+                "most memory",
+            ),
             tuple(
                 (
                     f"{row['workers']}",
@@ -209,6 +215,7 @@ def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
                     f"{row['besides_s']:.3f} s",
                     f"{100 * row['busy']:.0f} %",
                     f"{_an_hour(row):.0f}",
+                    f"{row['bytes'] / 1e6:.0f} MB",
                 )
                 for row in found["cores"]
             ),
