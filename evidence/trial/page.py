@@ -60,10 +60,12 @@ how sidebands count, the limits of the band and when a part is not called were s
 of them of `quick`; `default` has other speeds and seeds, but no other twin.
 
 Sure is not enough: a sound bearing has lines of its own, of rollers that enter the load zone and of waves
-that they pass again and again, and under a quiet sensor they are no chance. A pattern is called only when
-it is loud, {burst:g} m/s² of vibration that comes and goes, or deep, {depth:g} of the power in its band
-beside the strikes of the wheel: bounds set on measured records ([monitor_measured.md](monitor_measured.md))
-and on runs of the twin.
+that they pass again and again, and under a quiet sensor they are no chance. They are smooth, so that one
+harmonic holds most of them; a spall gives short strikes, which have many. A pattern is called only when its
+harmonics but the loudest, of {harmonics}, make {whole:g} of the mean power in the signal as measured, beside
+the strikes of the wheel, or in one octave (1.6, 3.2 or 6.4 kHz and up) {cup:g} on
+the cup, with which sound rollers pass, too, and {others:g} on cone and rollers. The bounds were set on
+measured records ([monitor_measured.md](monitor_measured.md)) and on sound runs of the twin.
 `beardyn trial healthy` runs 30 sound bearings with a sensor noise of 3e-4 m/s²/√Hz in two tiers and tells
 every alarm with part, frequency and band.
 
@@ -117,8 +119,10 @@ def page(found: dict[str, Any]) -> str:
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,
-        burst=settings.least_burst,
-        depth=settings.least_depth,
+        harmonics=settings.strike_harmonics,
+        whole=settings.least_strikes,
+        cup=settings.least_sharpest[0],
+        others=settings.least_sharpest[1],
         clockwork=settings.clockwork_depth,
         hot=settings.hot - 273.15,
         heating=60.0 * settings.heating,
