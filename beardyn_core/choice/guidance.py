@@ -140,7 +140,7 @@ def cage(evidence: Evidence) -> Rule:
         # slip and rattle are states in `quasistatic`; in `lumped` pockets only rub
         moves, rubs = frozenset({"quasistatic"}), frozenset({"lumped"})
         found.append(alternative("in its plane", effect, costs.of_loose_rollers, {}, moves))
-        found.append(alternative("as friction", effect, 0.001, {"vibration": knock, **speed}, rubs))
+        found.append(alternative("as friction", effect, 0.002, {"vibration": knock, **speed}, rubs))
     found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, FAST))
     return Rule("cage", tuple(found))
 

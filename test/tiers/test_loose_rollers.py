@@ -27,11 +27,17 @@ def test_rollers_stay_in_their_pockets_and_the_cage_slips_by_the_play() -> None:
     bearing = scene.bearing
     radius, play = 0.5 * bearing.pitch_diameter, 0.5 * bearing.cage.circumferential_clearance
     done = list(blocks(scene, 0.6))
-    rollers = np.concatenate([each.roller_angle[1::2] for each in done])
-    turned = np.concatenate([each.cage_angle[1::2] for each in done])
-    poses = np.concatenate([each.body_pose for each in done])
-    steps = min(len(rollers), len(poses))
-    rollers, turned, poses = rollers[:steps], turned[:steps], poses[:steps]
+    trend, shown = (
+        np.concatenate([getattr(each, name) for each in done])
+        for name in ("trend_time_ns", "snapshot_time_ns")
+    )
+    _, at_trend, at_shown = np.intersect1d(trend, shown, return_indices=True)
+    rollers = np.concatenate([each.roller_angle for each in done])[at_trend]
+    turned = np.concatenate([each.cage_angle for each in done])[at_trend]
+    shaft = np.concatenate([each.shaft_angle for each in done])[at_trend]
+    poses = np.concatenate([each.body_pose for each in done])[at_shown]
+    steps = len(rollers)
+    assert steps > 50
     across = poses[:, 2:4, :3] - poses[:, :1, :3]
     pockets = turned[:, :, None] + 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
     ahead = radius * ((rollers - pockets + np.pi) % (2.0 * np.pi) - np.pi)
@@ -40,7 +46,6 @@ def test_rollers_stay_in_their_pockets_and_the_cage_slips_by_the_play() -> None:
     assert np.abs(ahead).max() > play
     assert ahead.std() > 0.2 * play
     half = steps // 2
-    shaft = np.concatenate([each.shaft_angle[1::2] for each in done])[:steps]
     ratio = (turned[-1] - turned[half]) / (shaft[-1] - shaft[half]) / cage_speed_ratio(bearing)
     sag = -across[half:, :, 2].mean()
     zone = np.pi * radius
