@@ -77,7 +77,7 @@ def test_the_page_says_what_was_measured() -> None:
     assert "| 2 | 48 | 0.350 s | 0.020 s | 90 % | 8757 | 400 MB |" in text
     # 1e4 runs of 0.36 s at 90 % are 1.1 h, 1e6 are 111 h and 400 GB
     assert "| 10 000 | 1.1 h |" in text
-    assert "| 1 000 000 | 111 h | 14 h | 26.0 min | 400 GB |" in text
+    assert "| 1 000 000 | 111 h | 14 h | 5.6 h | 400 GB | 20 MB/s |" in text  # the scheduler's 0.02 s a run
     assert "| 2 | 24 | 6.50 s | 92 % | 150 MB |" in text
 
 
