@@ -136,6 +136,11 @@ def cage(evidence: Evidence) -> Rule:
         taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
         loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
         found.append(alternative("kinematic", KinematicCage(), prescribed, loss, FULL))
+    if not isinstance(effect, KinematicCage):
+        # slip and rattle are states in `quasistatic`; in `lumped` pockets only rub
+        moves, rubs = frozenset({"quasistatic"}), frozenset({"lumped"})
+        found.append(alternative("in its plane", effect, costs.of_loose_rollers, {}, moves))
+        found.append(alternative("as friction", effect, 0.002, {"vibration": knock, **speed}, rubs))
     found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, FAST))
     return Rule("cage", tuple(found))
 

@@ -191,7 +191,7 @@ def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
     bounce = roller_bounce(evidence)
     # response of a mass on springs over that of the springs alone, at the end of the band
     ratio = 1.0 / abs(1.0 - min((evidence.band / bounce) ** 2, 0.999))
-    reason = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
+    reason = f"its rollers do not bounce, which they do at {bounce / 1e3:.3g} kHz"
     influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE}
     if evidence.patches:
         overshoot = fault_overshoot(evidence, bounce)

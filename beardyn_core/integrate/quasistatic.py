@@ -27,6 +27,9 @@ from beardyn_core.kernels.kinematic_bending import (
 )
 from beardyn_core.kernels.kinematic_rings import add_stiffness, hold_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
+    KEPT_ABOUT_COSINE,
+    KEPT_ABOUT_SINE,
+    KEPT_COSINE,
     LOAD_AXIAL,
     LOAD_COSINE,
     LOAD_SINE,
@@ -37,6 +40,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     TORQUE_ROLLING,
     cup_wrench,
     held_losses,
+    kept_wrench,
     lane_total,
     pocket_torque,
     relative_cone,
@@ -45,6 +49,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     show_roller,
     sliding_torque,
 )
+from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.loose_rollers import (
     ahead_of,
     begin_block,
@@ -58,8 +63,8 @@ from beardyn_core.kernels.loose_rollers import (
     push_loose,
     rubbing_torque,
     see_cages,
+    with_cages,
 )
-from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.vectors import add_scaled
 from beardyn_core.model import layout
 
@@ -105,8 +110,9 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
 
     ``rollers`` [block, ROLLER_FIELDS, lane]: places, axes, radial and axial velocity and tangential angular
     momentum changed in place; everything else written when `shown`; ``shake`` (3 numbers): acceleration of
-    the cup as its ring sees it: up, forward, outward [m/s^2]; ``cages``: of `see_cages`; ``sums`` [1, SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work
-    out the torque of the contacts; ``shown``: whether to write what a block of channels shows.
+    the cup as its ring sees it: up, forward, outward [m/s^2]; ``cages``: of `see_cages`; ``sums`` [1,
+    SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work out the torque of the
+    contacts; ``shown``: whether to write what a block of channels shows.
     """
     k, rate, turning = p.kinematic, p.motion.rate, p.base.roller.transverse_inertia
     orbit_squared = speeds[1] * speeds[1]
@@ -115,6 +121,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     zero = lanes.constant(0.0)
     # sums over the rollers: plain, times cosine, times sine
     loads, moments = (zero, zero, zero), (zero, zero, zero)
+    kept, bent = (zero, zero, zero), (zero, zero)
     rib_sum, rolling, sliding = zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
     clear_reaction(lanes, sums, p.bending)
@@ -145,11 +152,12 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             lanes.load(rollers, block, layout.MOMENTUM + 1) * (1.0 / turning),
         )
         shaken = (shake[0] * cosine + shake[1] * sine, side * shake[2])
-        flight = free_flight(moved, shaken, inertia, p)
+        before = moved
+        flight, beside = free_flight(moved, shaken, inertia, p)
         place = (place[0] + p.step * flight[0], place[1] + p.step * flight[1])
         axis = turned_axis(axis, p.step * flight[2])
         move, cup, cone, rib, lever, deepest = balance(
-            lanes, block, place, axis, flight, view, azimuths, opening, p
+            lanes, block, place, axis, flight, beside, view, azimuths, opening, p
         )
         moved = (flight[0] + move[0] * rate, flight[1] + move[1] * rate, flight[2] + move[2] * rate)
         place = (place[0] + move[0], place[1] + move[1])
@@ -166,10 +174,20 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         waves = counted_waves(lanes, block, p.pockets, (pocket_cosine, pocket_sine), p.loose)
         counted = waves[0]
         loads = add_scaled(loads, cup[0], waves)
-        drive = push_loose(
+        drive, onward = push_loose(
             lanes, rollers, sums, block, (cosine, sine), cages, motion, shake, speeds, cone[0], counted, p,
             p.loose,
         )  # fmt: skip
+        mass = counted * p.base.roller.mass
+        outward = mass * ((moved[0] - before[0]) * rate + shaken[0])
+        along = mass * ((moved[1] - before[1]) * rate + shaken[1])
+        about = k.axial * outward - k.radius * along
+        kept = (
+            kept[0] + (outward * pocket_cosine - onward * pocket_sine),
+            kept[1] + (outward * pocket_sine + onward * pocket_cosine),
+            kept[2] + along,
+        )
+        bent = (bent[0] + about * pocket_cosine, bent[1] + about * pocket_sine)
         loads = pass_traction(loads, (pocket_cosine, pocket_sine), drive, p.base.cup.cosine, p.loose)
         moments = add_scaled(moments, lever[0] * cup[0] + lever[1] * cup[1], waves)
         rib_sum = rib_sum + counted * rib
@@ -191,6 +209,9 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             show_contacts(lanes, rollers, block, axis, forces, centres, speeds, p)
     store_vector(lanes, sums, 0, LOAD_COSINE, (loads[1], loads[2], side * loads[0]))
     store_vector(lanes, sums, 0, MOMENT_COSINE, (side * moments[1], side * moments[2], rib_sum))
+    store_vector(lanes, sums, 0, KEPT_COSINE, (kept[0], kept[1], side * kept[2]))
+    lanes.store(sums, 0, KEPT_ABOUT_COSINE, side * bent[0])
+    lanes.store(sums, 0, KEPT_ABOUT_SINE, side * bent[1])
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
@@ -215,9 +236,7 @@ def cup_velocity(bodies):
 def keep_change(bodies, before):
     """Keep what the cup's velocity has changed by since `before`."""
     for i in range(3):
-        bodies[layout.CUP_BODY, layout.CHANGE + i] = (
-            bodies[layout.CUP_BODY, layout.LINEAR + i] - before[i]
-        )
+        bodies[layout.CUP_BODY, layout.CHANGE + i] = bodies[layout.CUP_BODY, layout.LINEAR + i] - before[i]
 
 
 @inline
@@ -266,6 +285,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             lane_total(sums, MOMENT_SINE),
         )
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
+        kept = with_cages(kept_wrench(sums, direction), sums, bodies, loose)
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
@@ -274,7 +294,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             hold_stiffness(lanes, sums, direction, response, p, bending)
         before, rates = cup_velocity(bodies), cage_rates(bodies, loose)
         finish_step(
-            lanes, bodies, flex, axle, Drive(wrench, rib, losses), wrenches, box, loads[step],
+            lanes, bodies, flex, axle, Drive(wrench, rib, losses, kept), wrenches, box, loads[step],
             loads[step + 1], signals[step], energy, response, p,
         )  # fmt: skip
         keep_change(bodies, before)

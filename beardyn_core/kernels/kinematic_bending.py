@@ -100,7 +100,8 @@ def _see(lanes, flex, step, bending):
 def less_opening(lanes, block, kind, value, bending, ahead):
     """Take the opening, or its speed, at a block of pockets off the approach, or its rate.
 
-    ``ahead``: small angle by which rollers are ahead of the places of the series, to first order [rad], or ``None``.
+    ``ahead``: small angle by which rollers are ahead of the places of the series, to first order, or ``None``
+    [rad].
     """
     if bending is None:
         return value

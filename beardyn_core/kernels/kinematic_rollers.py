@@ -22,6 +22,10 @@ LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(
     layout.REACTION, layout.REACTION + 6
 )
 TORQUE_ROLLING, TORQUE_RIB = layout.REACTION + 6, layout.REACTION + 7
+# Sums of what accelerates rollers: radially times cosine and sine of the pocket angle, axially, and moments.
+KEPT_COSINE, KEPT_SINE, KEPT_AXIAL, KEPT_ABOUT_COSINE, KEPT_ABOUT_SINE = range(
+    layout.REACTION + 18, layout.REACTION + 23
+)
 _SMALLEST_LOAD = 1e-3
 
 
@@ -97,11 +101,24 @@ def cup_wrench(totals, direction, cosine, sine):
 
 
 @inline
+def kept_wrench(sums, direction):
+    """Work out world force and moment that accelerate the rollers, from the sums at ``KEPT_COSINE``."""
+    totals = (
+        lane_total(sums, KEPT_COSINE),
+        lane_total(sums, KEPT_SINE),
+        lane_total(sums, KEPT_AXIAL),
+        lane_total(sums, KEPT_ABOUT_COSINE),
+        lane_total(sums, KEPT_ABOUT_SINE),
+    )
+    return cup_wrench(totals, direction, 1.0, -1.0)
+
+
+@inline
 def show_roller(lanes, rollers, block, place, axis, motion, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
-    ``motion`` (3 numbers): radial and axial velocity and tilt rate [m/s], [rad/s]; ``turn`` (2 numbers): angle
-    and speed of the cages [rad], [rad/s].
+    ``motion`` (3 numbers): radial and axial velocity and tilt rate [m/s], [rad/s]; ``turn`` (2 numbers):
+    angle and speed of the cages [rad], [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller

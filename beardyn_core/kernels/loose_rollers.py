@@ -94,9 +94,7 @@ def drift(lanes, rollers, block, turn, loose):
     """Take how far the rollers are ahead of their tables, [rad]; ``None`` where they never are."""
     if loose is None:
         return None
-    return (
-        lanes.load(rollers, block, layout.ANGLE) - lanes.load(rollers, block, TABLE) - lanes.constant(turn)
-    )
+    return lanes.load(rollers, block, layout.ANGLE) - lanes.load(rollers, block, TABLE) - lanes.constant(turn)
 
 
 @inline
@@ -146,11 +144,11 @@ def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, spe
 
     ``direction`` (2 vectors): cosine and sine of their azimuths; ``cages``: of `see_cages`; ``motion``: of
     the cone against the cup, `kinematic_rollers.relative_cone`; ``shake``: acceleration of the cup up and
-    forward [m/s^2]; ``load``: on the cone [N]. Returns what traction drives them with, [N]: cup and cone
-    get half of its opposite each.
+    forward [m/s^2]; ``load``: on the cone [N]. Returns what traction drives them with, [N], half of it from
+    the cup, and what accelerates them, [N].
     """
     if loose is None:
-        return 0.0 * load
+        return 0.0 * load, 0.0 * load
     k, step, mass = p.kinematic, p.step, p.base.roller.mass
     cosine, sine = direction
     up, forward, rise, advance, turn, rate = cages
@@ -181,7 +179,8 @@ def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, spe
     most = loose.traction * load
     drive = grip * (rolling - coasting) / (1.0 + (step / mass) * grip)
     drive = at_most(at_least(drive, -most), most)
-    lanes.store(rollers, block, layout.VELOCITY + 1, coasting + (step / mass) * drive)
+    after = coasting + (step / mass) * drive
+    lanes.store(rollers, block, layout.VELOCITY + 1, after)
 
     spin = k.spin_ratio * speeds[1] * p.base.roller.radius
     outward = -loose.friction * spin / math.sqrt(spin * spin + loose.regularisation * loose.regularisation)
@@ -190,7 +189,7 @@ def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, spe
     _add(lanes, sums, CAGE_FORWARD, lift * sine + onward * cosine)
     _add(lanes, sums, CAGE_ABOUT, k.radius * onward)
     _add(lanes, sums, CAGE_PRESSED, counted * pressed)
-    return counted * drive
+    return counted * drive, (counted * mass) * ((after - speed) * p.motion.rate + aside)
 
 
 @inline
@@ -208,6 +207,23 @@ def pass_traction(loads, direction, drive, cosine, loose):
         return loads
     half = drive * (0.5 / cosine)
     return loads[0], loads[1] + half * direction[1], loads[2] - half * direction[0]
+
+
+@inline
+def with_cages(kept, sums, bodies, loose):
+    """Add what accelerates the cages to the wrench that accelerates the rollers."""
+    if loose is None:
+        return kept
+    up, forward = row_totals(sums, CAGE_UP), row_totals(sums, CAGE_FORWARD)
+    weight = loose.fall * loose.mass * (bodies.shape[0] - layout.CAGE_BODY)
+    return (
+        kept[0] + (forward[0] + forward[1]),
+        kept[1],
+        kept[2] + (up[0] + up[1] - weight),
+        kept[3],
+        kept[4],
+        kept[5],
+    )
 
 
 @inline
@@ -264,7 +280,8 @@ def rubbing_torque(bodies, speeds, steps, k, loose):
 @inline
 def keep_loose(lanes, rollers, block, place, loose):
     """Write the azimuth and speed that `show_roller` has taken from the cages; ``place``: both, from
-    before."""
+    before.
+    """
     if loose is None:
         return
     lanes.store(rollers, block, layout.ANGLE, place[0])

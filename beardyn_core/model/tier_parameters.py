@@ -22,6 +22,7 @@ from beardyn_core.scene.scene import Scene
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
+_LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 
 
 class PocketParams(NamedTuple):
@@ -191,8 +192,11 @@ def kinematic_params(scene: Scene) -> KinematicParams:
     )
 
 
-def loose_params(scene: Scene) -> LooseParams | None:
+def loose_params(scene: Scene, step: float) -> LooseParams | None:
     """Work out the pockets in which rollers move; none without a cage, or with a prescribed one.
+
+    Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
+    ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
 
     References
     ----------
@@ -201,6 +205,8 @@ def loose_params(scene: Scene) -> LooseParams | None:
     """
     cage, bearing, pocket = scene.effects.cage, scene.bearing, _pocket_params(scene)
     if cage is None or isinstance(cage, KinematicCage) or pocket is None:
+        return None
+    if step > _LONGEST_LOOSE_STEP:
         return None
     lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
     return LooseParams(

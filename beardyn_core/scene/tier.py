@@ -34,7 +34,7 @@ class TierLimits:
 _FAST = frozenset(
     {
         *("contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
-        *("faults", "waviness", "scatter", "structure"),
+        *("faults", "waviness", "scatter", "structure", "cage"),
     }
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")
@@ -49,14 +49,14 @@ TIERS = {
             1,
             needs_rib=True,
             smallest_laminae=1,
-            absent=(*_FAST_ABSENT, "roller displacement and tilt"),
+            absent=(*_FAST_ABSENT, "slip of cages", "roller displacement and tilt"),
             blocks_at_once=16,
             long_steps=(0.25, 0.5),
             long_ring_steps=(0.5,),
         ),
         TierLimits(
             "quasistatic",
-            "axlebox with cup, journal with cones; every roller in balance with its laminae",
+            "axlebox with cup, journal with cones, every roller but its skew and spin, cages in their plane",
             _FAST,
             1,  # third-octave bands to 8 kHz within 0.9 dB of 8 steps, fault lines and loads within 2 %
             needs_rib=True,

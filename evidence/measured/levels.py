@@ -242,18 +242,18 @@ def write(cwru: Path, mfpt: Path, pronostia: Path) -> str:
     )  # fmt: skip
     middles = []
     for size in (7, 14, 21):
-        found = [
+        each = [
             (level(one.acceleration, one.rate).rms / sound[one.end].rms, kurtosis(one.acceleration))
             for record, one in heard.items()
             if record.group in (CWRU_12_DRIVE, CWRU_12_FAN)
             and record.part == "cup"
             and record.diameter == size
         ]
-        ratios, tails = np.array(found).T
+        ratios, tails = np.array(each).T
         middles.append(float(np.median(ratios)))
         case, mine = alike(size), ratio(size)
         text += (
-            f"| {1e3 * size * INCH:.2f} | {len(found)} | {_three(ratios)} | {_three(tails)} | "
+            f"| {1e3 * size * INCH:.2f} | {len(each)} | {_three(ratios)} | {_three(tails)} | "
             f"{1e3 * case.width:.2f} x {1e3 * case.length:.0f} | {mine:.1f} | {ours(case).kurtosis:.1f} | "
             f"{'yes' if ratios.min() <= mine <= ratios.max() else 'no'} | {ratio(size, waves=False):.1f} |\n"
         )

@@ -135,9 +135,10 @@ def core_scaling() -> list[dict[str, float]]:
         with Engine(Cluster(workers=workers)) as engine:
             list(engine.run(run_batch, tasks[:half], plan))
             before, own, began = _processor(engine), time.process_time(), time.perf_counter()
-            runs = [made for ended in engine.run(run_batch, tasks[half:], plan) for made in ended.value.made]
+            batches = [ended.value for ended in engine.run(run_batch, tasks[half:], plan)]
             wall = time.perf_counter() - began
             spent = _processor(engine) - before + time.process_time() - own
+        runs = [made for batch in batches for made in batch.made]
         inside = sum(made.processor for made in runs)
         rows.append(
             {
@@ -146,6 +147,7 @@ def core_scaling() -> list[dict[str, float]]:
                 "wall_s": wall,
                 "processor_s": inside / len(runs),
                 "besides_s": (spent - inside) / len(runs),
+                "bytes": max(batch.memory for batch in batches),
                 "busy": sum(made.seconds for made in runs) / (workers * wall),
             }
         )
@@ -169,9 +171,7 @@ def made(runs: LabelledSet) -> dict[str, Any]:
         "failed": runs.about["failed"],
         "processes": len({each["worker"] for each in done.values()}),
         "cores": core_count(),
-        "processor_total_s": float(sum(each["processor"] for each in done.values())),
-        "wall_s": runs.about["wall_s"],
-        "most_memory": runs.about["most_memory"],
+        "worker_s": sum(float(each["seconds"]) for each in done.values()),
         "bytes_a_run": size_of(runs.folder) / len(done),
     }
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.fast_step import fast_steps, fastest_mode
-from beardyn_core.effects import ContactDamping, Gravity
+from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps, fastest_mode
+from beardyn_core.effects import ContactDamping, Gravity, RingStructure
 from beardyn_core.integrate.static import solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -100,6 +100,25 @@ def test_force_deflection_and_roller_loads_are_those_of_fine_steps(
         for each in force
     }
     assert peak[steps] == pytest.approx(peak[FINE], rel=1e-3)
+
+
+def test_a_spall_under_rings_is_right_to_1250_hz_in_steps_of_two_samples() -> None:
+    """Levels within 0.5 dB, the largest roller load within 0.5 %: what `SLOW_BAND` stands on."""
+    scene = scene_of("cup_spall", "lumped")
+    sensors = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
+    scene = replace(scene, sensors=sensors, effects=replace(scene.effects, structure=RingStructure()))
+    levels, loads = [], []
+    for steps in (0.5, 2):
+        given = replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps))
+        found = [each for each in blocks(given, DURATION) if each.start_ns >= SETTLED * 1e9]
+        times = np.concatenate([each.waveform_time_ns for each in found]) * 1e-9
+        kept = (times >= SETTLED) & (times < DURATION - 0.02)
+        centre, level = bands(np.concatenate([each.acceleration[0][:, 2:] for each in found])[kept])
+        levels.append(level[(centre >= 200.0) & (centre <= SLOW_BAND * 1.01), 0])
+        force = np.linalg.norm(np.concatenate([each.contacts for each in found])[..., 0, 3:6], axis=-1)
+        loads.append(float(force.max(axis=(1, 2)).mean()))
+    assert np.abs(20.0 * np.log10(levels[0] / levels[1])).max() < 0.5
+    assert loads[0] == pytest.approx(loads[1], rel=5e-3)
 
 
 @pytest.mark.parametrize(("tier", "name", "steps"), LONG)
