@@ -40,8 +40,8 @@ BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line
 noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
 order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
 whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
-measured. [monitor_measured.md](monitor_measured.md) has what the chain says of measured bearings. The
-scores in the tables above are of the chain before whitening.
+measured, and must strike with {deep:g} of it. [monitor_measured.md](monitor_measured.md) has what the chain
+says of measured bearings. The scores in the tables above are of the chain before whitening.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the
@@ -124,6 +124,7 @@ def page(found: dict[str, Any]) -> str:
         cup=settings.least_sharpest[0],
         others=settings.least_sharpest[1],
         clockwork=settings.clockwork_depth,
+        deep=settings.clockwork_strikes,
         hot=settings.hot - 273.15,
         heating=60.0 * settings.heating,
         floor=settings.heating_floor - 273.15,

@@ -100,7 +100,9 @@ class Chain:
             measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
             clockwork = self.score(measured, orders, roller_count, speed, settings)
             clockwork = with_strikes(clockwork, stretch, band, settings)
-            heard = self.decide(clockwork, stretch, settings)
+            never = (np.inf, np.inf, np.inf)
+            deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
+            heard = self.decide(clockwork, stretch, deep)
             if heard.name not in (HEALTHY, HOT_BOX):
                 found, verdict = clockwork, heard
         if verdict.name == HEALTHY and (why := doubt(stretch)):

@@ -140,6 +140,7 @@ class MonitorSettings:
     clockwork_depth: A[
         float, "line over the mean power from which the signal is heard as measured, too, [-]"
     ] = 0.25
+    clockwork_strikes: A[float, "in place of `least_strikes` there, [-]"] = 1.0
     warm: A[float, "temperature of the axlebox from which it is warm, [K]"] = 363.15
     hot: A[float, "and from which it is hot, [K]"] = 393.15
     heating: A[float, "rise of the temperature from which the box counts as hot, [K/s]"] = 5.0 / 60.0
