@@ -87,12 +87,10 @@ def fast_steps(scene: Scene, long: bool = True, band: float = math.inf) -> StepC
         steps = next(enough, _MOST_STEPS)
         fastest = _fastest(scene, steps)
         return StepChoice(steps, _rings(fastest, steps))
-    if not long:
+    if not long or not limits.long_steps:
         return StepChoice(limits.steps_per_sample, f"the usual step of the tier {scene.tier}")
     slow = band <= SLOW_BAND and scene.tier == "lumped"
     sudden = _sudden(scene, slow)
-    if not sudden and scene.tier == "quasistatic" and scene.mounting.cup == "suspended":
-        sudden = "vibrations of the box, which follow the rollers to 8 kHz,"
     if sudden:
         return StepChoice(limits.steps_per_sample, f"{sudden} fill the band of the waveforms")
     allowed = long_steps(scene.tier, "" if scene.effects.structure is None else scene.effects.structure.kind)

@@ -12,7 +12,7 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry, inline
-from beardyn_core.kernels.balanced_roller import balance, cone_view, free_flight, turned_axis
+from beardyn_core.kernels.balanced_roller import balance, cone_view, free_flight, less_turned, turned_axis
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.kinematic_bending import (
@@ -159,7 +159,11 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         move, cup, cone, rib, lever, deepest = balance(
             lanes, block, place, axis, flight, beside, view, azimuths, opening, p
         )
-        moved = (flight[0] + move[0] * rate, flight[1] + move[1] * rate, flight[2] + move[2] * rate)
+        moved = (
+            less_turned(before[0], flight[0] + move[0] * rate),
+            less_turned(before[1], flight[1] + move[1] * rate),
+            less_turned(before[2], flight[2] + move[2] * rate),
+        )
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])
         lanes.store(rollers, block, layout.RADIUS, place[0])

@@ -18,7 +18,7 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import damper_time
 from beardyn_core.kernels.lamina_springs import cup_springs, lamina_springs
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import crown_bend, wave_gap
 
@@ -290,6 +290,17 @@ def free_flight(motion, cup, steady, p):
         steady[1] + 0.0 * motion[2],
     )
     return (motion[0] + towards, motion[1], motion[2]), beside
+
+
+@inline
+def less_turned(before, after):
+    """Take half of a velocity that has turned round within a step; ``before``: that before the step.
+
+    A roller that meets a contact in every other step alone, on a rib that it just leaves, would go to and fro
+    for ever: one Newton step a time step never sees both sides of it. Slow motion turns round when it is
+    hardly there.
+    """
+    return where_greater(0.0 * after, before * after, 0.5 * after, after)
 
 
 @inline

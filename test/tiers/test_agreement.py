@@ -33,9 +33,12 @@ CAGES = {"static_80kN": 0.0, "static_5kN": 0.025}
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("name", STATIC_SCENES)
 def test_mean_force_on_the_cup_is_the_load_less_the_weight_of_what_rolls(name: str, tier: str) -> None:
-    """Balance of the journal; the journal of 900 kg still swings by a little."""
+    """Balance of the journal, which still swings by a little; a cage of 4 N may lie or hang."""
+    cage = 5.0 if tier == "quasistatic" else 0.0
     np.testing.assert_allclose(
-        means(name, tier).force[:3], means(name, "full").force[:3], atol=2e-4 * means(name, tier).force[2]
+        means(name, tier).force[:3],
+        means(name, "full").force[:3],
+        atol=cage + 2e-4 * means(name, tier).force[2],
     )
 
 
@@ -44,8 +47,9 @@ def test_mean_force_on_the_cup_is_the_load_less_the_weight_of_what_rolls(name: s
 def test_deflection_and_largest_load_are_those_of_the_static_solution(name: str, tier: str) -> None:
     displacement, largest, _ = static_mean(name)
     found = means(name, tier)
-    assert found.deflection[2] == pytest.approx(displacement[2], rel=TOLERANCE[tier])
-    assert found.largest == pytest.approx(largest, rel=TOLERANCE[tier])
+    tolerance = TOLERANCE[tier] + (CAGES[name] if tier == "quasistatic" else 0.0)
+    assert found.deflection[2] == pytest.approx(displacement[2], rel=tolerance)
+    assert found.largest == pytest.approx(largest, rel=tolerance)
     assert found.status == 0
 
 
@@ -63,7 +67,7 @@ def test_deflection_and_largest_load_are_those_of_the_full_tier(name: str, tier:
 def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(name: str, tier: str) -> None:
     """With smooth pockets nothing else is lost: friction times static rib loads times sliding over speed.
 
-    A part of the torque of the full tier, with rough pockets as well.
+    With rough ones it is that of the full tier within 7 % where cages move, and a part of it elsewhere.
     """
     scene = scene_of(name, tier)
     assert scene.effects.rib is not None
@@ -73,7 +77,11 @@ def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(nam
     smooth = replace(scene.effects, cage=replace(scene.effects.cage, friction=0.0))
     assert _torque(replace(scene, effects=smooth)) == pytest.approx(expected, rel=0.01)
     found = means(name, tier).torque
-    assert means(name, "full").torque < found < expected
+    assert found < expected
+    if tier == "quasistatic":
+        assert found == pytest.approx(means(name, "full").torque, rel=0.07)
+    else:
+        assert means(name, "full").torque < found
 
 
 @pytest.mark.slow
