@@ -132,7 +132,7 @@ COMMANDS = [
 ]
 # one command at once, one later in its own process and one with others; the rest stop in the same place
 # of the compiler
-FAST = {("warmup", 0.0), ("simulate", 4.0), ("trial", 4.0)}
+FAST = {("warmup", 0.0), ("simulate", 4.0)}
 
 
 @pytest.mark.parametrize(
