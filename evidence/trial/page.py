@@ -97,7 +97,8 @@ LIMITS = """
 - **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
   pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
   sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
-- **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
+- **Fast tiers** had no cage slip and no skid when these runs were made (`quasistatic` has them now), so
+  their lines are sharper than those of the full tier; the
   check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
 - **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings
   are left out, and with them the cone's part of the load zone.
