@@ -187,7 +187,7 @@ class _Go:
                 self._done[made["labels"]["run"]] = made
                 self._failed += made["labels"]["status"] == FAILED
                 self.count += 1
-        self._tell(engine)
+            self._tell(engine)  # before Ctrl-C is answered: it says how many are done
 
     def _same_code(self, batch: Batch) -> None:
         """Refuse a worker whose bits would be others."""
