@@ -19,6 +19,8 @@ REPOSITORY = Path(__file__).resolve().parent
 STANDARD_CONFIGURATION = REPOSITORY / ".pytest_cache" / "standard_config"
 # Tests of nodes, browsers and signals leave their core idle for two thirds of their time.
 WAITING = ("test/ros/", "test/browser/", "test/cli/test_interrupts.py")
+# Files of these folders share what takes long to make.
+TOGETHER = ("test/population/",)
 # Files that take longer than about twenty seconds, once compiled or before, the longest first.
 LONG_FILES = (
     "test/ros/test_load_stream.py",
@@ -107,6 +109,10 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     from xdist.scheduler import LoadFileScheduling
 
     class ByFile(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.partition("::")[0]
+            return next((folder for folder in TOGETHER if file.startswith(folder)), file)
+
         def _assign_work_unit(self, node: Any) -> None:
             """Give a process the next file of the kind that is wanted now."""
             elsewhere = [work for other, work in self.assigned_work.items() if other is not node]

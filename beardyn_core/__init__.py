@@ -18,6 +18,7 @@ outputs    files that a command writes: nothing is replaced unasked
 interrupts Ctrl-C, also while something is compiled
 versions   versions of what computed a run
 arrays     names of array types in signatures
+optional   libraries of an extra, imported when they are needed
 packed     a small file as one word of text, in a recorded scene
 effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants

@@ -5,7 +5,8 @@ A car has two bogies of two axles. Axle 1 leads; a box is called ``axle_<n>_<sid
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from re import fullmatch
 from typing import Any
 
@@ -15,6 +16,7 @@ from rclpy.parameter import Parameter
 from beardyn_core.errors import InputError
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.run_state import Rig, scene_rig
 from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE
 
 EIGHT_BOXES = tuple(box.name for box in Axleboxes(axles=4).boxes)
@@ -51,6 +53,22 @@ def boxes_named(text: str) -> tuple[Box, ...]:
     if problems:
         raise InputError(problems)
     return tuple(boxes)
+
+
+def box_rig(car: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
+    """Make the loader of the rig of one box, see `TwinNode`."""
+    from beardyn_core.config.boxes import scene_of_box
+
+    def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
+        return scene_rig(scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=car), box))
+
+    return load
+
+
+def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
+    """Make the loader of the rig of a box whose twin has a process of its own: with the scene's defects."""
+    (box,) = boxes_named(name)
+    return box_rig(Axleboxes(axles=4, faulty=(name,)), box)
 
 
 class NodeGroup(Node):

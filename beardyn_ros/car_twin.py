@@ -7,22 +7,21 @@ the right ones mirrored, the scene's defects in the faulty ones alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from beardyn_core.errors import InputError
-from beardyn_core.scene.axleboxes import Axleboxes, Box
-from beardyn_ros.car import BOXES, NodeGroup, boxes_named
+from beardyn_core.scene.axleboxes import Axleboxes
+from beardyn_ros.car import BOXES, NodeGroup, box_rig, boxes_named
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import Rig, scene_rig
 from beardyn_ros.runtime import run_node
 from beardyn_ros.twin_node import TwinNode
+from beardyn_ros.twin_parameters import BOX
 from beardyn_ros.twin_parameters import PARAMETERS as TWIN_PARAMETERS
 
 CLOCK = "publish_clock"
 # every box has the frame of its own namespace; the first one publishes the clock for all
-BOX_PARAMETERS = tuple(each for each in TWIN_PARAMETERS if each.name not in (FRAME_ID.name, CLOCK))
+BOX_PARAMETERS = tuple(each for each in TWIN_PARAMETERS if each.name not in (FRAME_ID.name, BOX.name, CLOCK))
 PARAMETERS = (
     BOXES,
     NodeParameter(
@@ -51,16 +50,6 @@ class CarTwinNode(NodeGroup):
             TwinNode(box_rig(car, box), **self.of_member(box, {**given, CLOCK: box is boxes[0]}))
             for box in boxes
         ]
-
-
-def box_rig(car: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of one box, see `TwinNode`."""
-    from beardyn_core.config.boxes import scene_of_box
-
-    def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        return scene_rig(scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=car), box))
-
-    return load
 
 
 def main(argv: Sequence[str]) -> int:

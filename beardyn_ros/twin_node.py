@@ -17,6 +17,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic
 from beardyn_ros.answers import StepService
+from beardyn_ros.car import lone_box_rig
 from beardyn_ros.description_publisher import DescriptionPublisher
 from beardyn_ros.diagnostics import TWIN, diagnostic_name, needs_attention
 from beardyn_ros.frames import frame_of
@@ -79,8 +80,9 @@ class TwinNode(LifecycleNode):
         super().__init__("twin", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
-        self._load_rig = load_rig or scene_rig
         self._values = ParameterValues(self, PARAMETERS)
+        box = self._values.box
+        self._load_rig = load_rig or (lone_box_rig(box) if box else scene_rig)
         self._frame = frame_of(self.get_namespace(), self._values.frame_id)
         self._description = DescriptionPublisher(self, self._frame, self._values)
         self._name = diagnostic_name(self.get_namespace(), TWIN)

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from beardyn_core.scene.tier import TIER_NAMES
+from beardyn_ros.car import EIGHT_BOXES
 from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter
 from beardyn_ros.run_state import SCENE_OWN
 
+BOX = NodeParameter(
+    "box",
+    "",
+    "which axlebox of a car this is: a right one is mirrored, each has another bearing of the lot and other "
+    "noise; '': that of the scene, a left one",
+    choices=("", *EIGHT_BOXES),
+)
 PARAMETERS = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    BOX,
     NodeParameter(
         "tier",
         SCENE_OWN,

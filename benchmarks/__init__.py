@@ -3,6 +3,7 @@
 | module | measures |
 |---|---|
 | `runs` | twins that take turns, block by block; tables |
+| `right_answers` | right runs of every tier, and a train, against floors and goals |
 | `real_time_factor` | simulated over wall time: tiers, sets of effects, scenes |
 | `step_costs` | stages of a step, cost of a lamina, scaling in rollers and laminae |
 | `starting` | compile time with an empty cache, cold start with a warm one |

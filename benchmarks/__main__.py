@@ -14,6 +14,7 @@ from benchmarks import (
     paced_twin,
     parallel_twins,
     real_time_factor,
+    right_answers,
     sink_throughput,
     starting,
     step_costs,
@@ -21,7 +22,7 @@ from benchmarks import (
 from benchmarks.runs import Table, machine
 
 PARTS = (
-    *("rtf", "fast", "scenes", "stages", "levers", "laminae", "rollers"),
+    *("right", "train", "rtf", "fast", "scenes", "stages", "levers", "laminae", "rollers"),
     *("start", "compile", "sinks", "parallel", "paced", "yardstick"),
 )
 
@@ -30,6 +31,8 @@ def measure(part: str, quick: bool, done: dict[str, Table]) -> Table:
     """Run one part; ``quick`` is a fifth of the turns."""
     turns = 8 if quick else 40
     parts: dict[str, Callable[[], Table]] = {
+        "right": lambda: right_answers.right_answers(turns),
+        "train": lambda: right_answers.train(4 if quick else 32),
         "rtf": lambda: real_time_factor.tiers_and_effects(turns),
         "fast": lambda: real_time_factor.fast_tiers(turns),
         "scenes": lambda: real_time_factor.scenes(turns),

@@ -133,7 +133,7 @@ CAR = """
 `ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with
 one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of
 tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
-them a spall. The first twin publishes `/clock`.
+them a spall. Each is told its `box`: right ones are mirrored. The first twin publishes `/clock`.
 
 `car_twin` has the twins of all boxes in one process instead, each as `beardyn simulate` makes it of a scene
 with `axleboxes`: the right ones mirrored, every box another bearing of the lot, the defects of the scene in

@@ -1,6 +1,7 @@
 """Eight axleboxes of a car, one load, one recorder: ``ros2 launch beardyn car.launch.py scene:=smooth_run``.
 
-Each box is a twin in a namespace of its own, ``/car/axle_1_left`` to ``/car/axle_4_right``. Whatever ends
+Each box is a twin in a namespace and a process of its own, ``/car/axle_1_left`` to ``/car/axle_4_right``, the
+right ones mirrored, each with another bearing of the lot; `car_twin` has them in one process. Whatever ends
 first ends the others in order: after the load the twins finish what they have, after the twins the recorder
 closes its files. A node that fails, or goes before it is done, is told, load and twins are stopped, and the
 recorder closes its files after them; the launch then ends with 1.
@@ -75,6 +76,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
             parameters=[
                 {
                     "scene": given["faulty_scene" if faulty else "scene"],
+                    "box": box,
                     "tier": given["tier"],
                     "effects": given["effects"],
                     "speed_factor": float(given["speed_factor"]),

@@ -85,6 +85,7 @@ def test_a_file_has_one_process_the_longest_begin_and_one_process_has_those_that
     assert computing[:2] == [str(files[0]), str(files[1])]
 
 
+@pytest.mark.slow
 def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
     repository: Path, tmp_path: Path
 ) -> None:
@@ -100,6 +101,7 @@ def test_a_test_that_hangs_in_c_ends_its_process_and_every_other_test_is_run(
     assert "in test_hangs" in done.stderr + done.stdout  # the traceback says where
 
 
+@pytest.mark.slow
 def test_when_all_processes_die_at_once_every_other_test_is_run(repository: Path, tmp_path: Path) -> None:
     """As when memory is short: the new processes collect their tests one after the other."""
     shutil.copy(repository / "conftest.py", tmp_path)

@@ -28,6 +28,8 @@ _MODES, _MODES_SHARE = (0.0, 16.0, 50.0, 99.0), (0.0, 0.39, 0.76, 1.0)
 # of what bending adds to a step of the full tier, in a fast one; the rest a tier with few states has for
 # nothing: table in docs/model.md
 _FAST_BENDING, _FAST_REST = 0.25, 0.001
+# what rollers that move in their pockets add to a step of tier quasistatic: docs/model.md
+_LOOSE_SHARE = 0.15
 # effects computed for every lamina: their cost grows with the count
 _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
@@ -68,6 +70,11 @@ class Costs:
         if measured is None:
             return 0.5 * self.saved(effect)
         return max(measured - 1.0 + self.saved(effect), _LEAST_SHARE)
+
+    @property
+    def of_loose_rollers(self) -> float:
+        """Work out the cost that rollers which move in their pockets add in the quasistatic tier."""
+        return _LOOSE_SHARE * self.ratios["tier quasistatic"]
 
     def of_modes(self, count: int) -> float:
         """Work out the cost that so many modes of a box add to the standard step."""

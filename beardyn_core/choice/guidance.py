@@ -136,7 +136,15 @@ def cage(evidence: Evidence) -> Rule:
         taken = evidence.torque_share(0.25 * drive.needed * scene.bearing.pitch_diameter)
         loss = {**left, "torque": left["torque"] + taken, "vibration": knock, **speed}
         found.append(alternative("kinematic", KinematicCage(), prescribed, loss, FULL))
+    if not isinstance(effect, KinematicCage):
+        # slip and rattle are states in `quasistatic`
+        moves = frozenset({"quasistatic"})
+        found.append(alternative("in its plane", effect, costs.of_loose_rollers, {}, moves))
     found.append(alternative("off", None, 0.001, {**left, "vibration": knock, **speed}, FAST))
+    if not isinstance(effect, KinematicCage):
+        # in `lumped` pockets only rub, which costs nothing
+        rubs = frozenset({"lumped"})
+        found.append(alternative("as friction", effect, 0.001, {"vibration": knock, **speed}, rubs))
     return Rule("cage", tuple(found))
 
 

@@ -127,7 +127,8 @@ class Losses:
         seal = self.scene.effects.seal
         if seal is None or self.speed == 0.0:
             return 0.0
-        return SEALS * (seal.torque + seal.speed_coefficient * self.speed)
+        both = SEALS * seal.stiffening(self.scene.lubricant.kinematic_viscosity(self.scene.temperature))
+        return both * (seal.torque + seal.speed_coefficient * self.speed)
 
     def rib(self, rib: Rib | None) -> float:
         """Compute the torque of the sliding ribs with some options, [N m]."""

@@ -13,7 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.fast_step import fast_steps
+from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
@@ -137,7 +137,8 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
     band = evidence.band if vibration else 0.0
     if tier != "full":
         there = replace(scene, tier=tier, effects=effects)
-        found = fast_steps(there, long=False)
+        slow = vibration and scene.vibration_to is not None and band <= SLOW_BAND
+        found = fast_steps(there, long=slow, band=band)
         return served(with_modes(found, there, band), scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
@@ -190,7 +191,7 @@ def _without_roller_inertia(evidence: Evidence) -> tuple[dict[str, float], str]:
     bounce = roller_bounce(evidence)
     # response of a mass on springs over that of the springs alone, at the end of the band
     ratio = 1.0 / abs(1.0 - min((evidence.band / bounce) ** 2, 0.999))
-    reason = f"its rollers have no inertia, a roller bounces at {bounce / 1e3:.3g} kHz"
+    reason = f"its rollers do not bounce, which they do at {bounce / 1e3:.3g} kHz"
     influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE}
     if evidence.patches:
         overshoot = fault_overshoot(evidence, bounce)

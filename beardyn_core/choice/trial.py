@@ -178,8 +178,16 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
             effects if isinstance(effects, dict) else {"preset": effects or automatic.UNNAMED}, trial.effects
         )
     elif trial.effects is not None:
-        data["effects"] = trial.effects
+        data["effects"] = _in_the_same_box(trial.effects, data.get("effects"))
     return read_scene_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
+
+
+def _in_the_same_box(effects: str | dict[str, Any], given: Any) -> str | dict[str, Any]:
+    """Give a preset the structure of the scene's effects, which belongs to the box and not to the preset."""
+    structure = given.get("structure") if isinstance(given, dict) else None
+    if structure is None or (isinstance(effects, dict) and "structure" in effects):
+        return effects
+    return {**({"preset": effects} if isinstance(effects, str) else effects), "structure": structure}
 
 
 def _defects(spall: Spall, cell: Cell, seed: int) -> list[dict[str, Any]]:

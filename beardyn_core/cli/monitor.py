@@ -148,16 +148,17 @@ def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> Non
 
 
 def _ending(findings: list[Finding]) -> str:
-    """Sum up the findings of one bearing."""
-    from beardyn_core.study.monitored_recording import WAITING, conclude
+    """Sum up the findings of one bearing: a file that ends without an analysis is not diagnosable."""
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude
 
     conclusion = conclude(findings)
-    if conclusion.verdict != WAITING:
-        return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses"
+    if conclusion.finding is not None and conclusion.verdict != WAITING:
+        why = f"; {conclusion.finding.reason}" if conclusion.verdict == NOT_DIAGNOSABLE else ""
+        return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason
     many = "; --trend watches the levels of many short records" if short else ""
-    return f"{WAITING}: no analysis; {reason}{many}"
+    return f"{NOT_DIAGNOSABLE}: no analysis; {reason}{many}"
 
 
 def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
@@ -254,7 +255,7 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
     """Gather what ``--json`` prints: the first bearing, and all of them."""
     from dataclasses import asdict
 
-    from beardyn_core.study.monitored_recording import conclude
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude
 
     every = []
     for mounted, findings in heard.items():
@@ -264,7 +265,7 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "label": mounted.label,
                 "bearing": mounted.plate.name,
                 "sensor": mounted.sensor or None,
-                "verdict": conclusion.verdict,
+                "verdict": NOT_DIAGNOSABLE if conclusion.verdict == WAITING else conclusion.verdict,
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
                 "findings": renamed([asdict(finding) for finding in findings], _KEYS),

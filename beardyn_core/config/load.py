@@ -292,8 +292,8 @@ class _Reading:
         numerics = valid(Numerics, self.data.get("numerics", {}))
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.rib is not None
-            steps, bends = numerics.steps_per_sample, effects.structure is not None
-            found = contradictions(tier, has_rib, numerics.laminae, steps, bends)
+            bends = "" if effects.structure is None else effects.structure.kind
+            found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample, bends)
             if "structure" in free.effects:
                 hint = "; effects that nobody names are chosen: name some without structure, such as dry"
                 found = [f"{each}{hint}" if "structure" in each else each for each in found]

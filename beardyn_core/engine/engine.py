@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import queue
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from types import TracebackType
@@ -242,6 +242,29 @@ class Engine:
 
         for name in ("distributed", "distributed.client", "distributed.core", "distributed.comm", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
+
+
+def all_of(
+    function: Callable[..., Any], tasks: Sequence[Task], *arguments: Any, workers: int = 1
+) -> list[Any]:
+    """Call ``function(task, *arguments)`` for every task on processes of this machine; give values in order.
+
+    Raises
+    ------
+    EngineError
+        A task has killed its processes.
+    """
+    found: dict[int, Any] = {}
+    with Engine(Cluster(workers=workers)) as engine:
+        for ended in engine.run(_numbered, list(enumerate(tasks)), function, *arguments):
+            if ended.killed:
+                raise EngineError(f"{ended.task[1]}: {ended.killed} processes died while they computed it")
+            found[ended.task[0]] = ended.value
+    return [found[number] for number in range(len(tasks))]
+
+
+def _numbered(task: tuple[int, Any], function: Callable[..., Any], *arguments: Any) -> Any:
+    return function(task[1], *arguments)
 
 
 class _LostError(Exception):

@@ -25,6 +25,16 @@ def main(settings: dict[str, Any]) -> None:
             "distributed.admin.tick.interval": "100ms",
             "distributed.comm.timeouts.connect": "60s",
             "distributed.scheduler.allowed-failures": 3,
+            # above its memory a worker is started anew; one that only paused would wait for ever, for what it
+            # holds are kernels, and no results that could go to the disk
+            "distributed.worker.memory.target": False,
+            "distributed.worker.memory.spill": False,
+            "distributed.worker.memory.pause": False,
+            # Dask looks at what its workers do a hundred times a second, and lets them give every array back
+            # to the system at once: that is half of the processor time of a short run
+            "distributed.worker.profile.enabled": False,
+            "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 26,
+            "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 25,
         }
     )
     memory = settings["memory"]

@@ -19,13 +19,14 @@ TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
 class Drive(NamedTuple):
     """What the rollers do to the rings over a step.
 
-    Massless rollers pass on what they get: the cone feels the opposite of their wrench on the cup, and the
-    weight of what rolls.
+    Rollers pass on what they get: the cone feels the opposite of their wrench on the cup, the weight of what
+    rolls, and what rollers and cages with a mass take to be accelerated.
     """
 
     wrench: Any  # 6, of the rollers on the cup [N, N m]
     rib_load: float  # sum over all rollers [N]
     losses: Any  # 2, from `held_losses`
+    kept: Any  # 6, accelerates rollers and cages [N, N m]; ``None``: massless ones
 
 
 @inline
@@ -79,19 +80,35 @@ def finish_step(
     Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
     base, k, wrench = p.base, p.kinematic, drive.wrench
+    passed = passed_on(wrench, drive.kept)
     before = journal_velocity(bodies)
     signal[layout.SIGNAL_TORQUE] = -(drive.losses[0] + drive.losses[1] * drive.rib_load)
     for i in range(6):
         signal[layout.SIGNAL_FORCE + i] = wrench[i]
     _kick_box(bodies, wrenches, box, load_before, load, signal, energy, base.mounting.coupling, p)
-    _kick_journal(bodies, wrench, load, k.rolling_weight, p.step, p.motion)
+    _kick_journal(bodies, passed, load, k.rolling_weight, p.step, p.motion)
     _prop_journal(bodies, p.step, p.motion, base.mounting)
-    on_cone = (-wrench[0], -wrench[1], -wrench[2] - k.rolling_weight, -wrench[3], 0.0, -wrench[5])
+    on_cone = (-passed[0], -passed[1], -passed[2] - k.rolling_weight, -passed[3], 0.0, -passed[5])
     bend_axle(bodies, axle, on_cone, load, energy, p.step, base.mounting.journal)
     bodies[layout.CONE_BODY, layout.RATE] = load[LOAD_SPEED]
     for body in range(layout.CAGE_BODY, bodies.shape[0]):
         bodies[body, layout.RATE] = k.cage_ratio * load[LOAD_SPEED]
     add_response(lanes, bodies, flex, axle, before, signal, box, response, p)
+
+
+@inline
+def passed_on(wrench, kept):
+    """Work out the opposite of what the cone feels but for weight: the wrench on the cup and what is kept."""
+    if kept is None:
+        return wrench
+    return (
+        wrench[0] + kept[0],
+        wrench[1] + kept[1],
+        wrench[2] + kept[2],
+        wrench[3] + kept[3],
+        0.0,
+        wrench[5] + kept[5],
+    )
 
 
 @inline

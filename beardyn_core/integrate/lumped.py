@@ -70,7 +70,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
             losses = held_losses(sums, speeds, rib, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
         finish_step(
-            lanes, bodies, flex, axle, Drive(wrench, rib, losses), wrenches, box, loads[step],
+            lanes, bodies, flex, axle, Drive(wrench, rib, losses, None), wrenches, box, loads[step],
             loads[step + 1], signals[step], energy, response, p,
         )  # fmt: skip
         if shown:

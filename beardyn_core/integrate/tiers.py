@@ -87,6 +87,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         pockets=tier_parameters.pocket_directions(base),
         sides=sides,
         bending=bending_params(scene, base, response.give, response.lever, sides),
+        loose=tier_parameters.loose_params(scene, base.step),
     )
 
 

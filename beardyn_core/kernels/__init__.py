@@ -56,7 +56,9 @@ box               axlebox on its springs
 axle              journal on an axle that bends
 land              land of a cage in cup or cone
 stage_timer       where the time of a step goes
-balanced_roller   a roller in balance, its laminae as springs (quasistatic tier)
+lamina_springs    laminae as springs, summed (quasistatic tier)
+balanced_roller   a roller between cup, cone and rib, implicit (quasistatic tier)
+loose_rollers     rollers in the pockets of cages that turn and hang (quasistatic tier)
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 kinematic_bending bending of the axlebox in the fast tiers

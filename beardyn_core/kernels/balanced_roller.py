@@ -1,27 +1,32 @@
-"""Rollers of the quasistatic tier: massless between cup, cone and rib, one Newton step per time step.
+"""Rollers of the quasistatic tier: between cup, cone and rib, one implicit step of Euler per time step.
 
 A roller moves in its own meridian plane: radially, axially and in tilt, which is positive when the large
-end moves outwards. Where it stands is state and starts the next step, so one Newton step follows the
-slow change of the load. Forces are those of the balanced, linearised contacts.
+end moves outwards. Where it stands and how it moves is state. Its contacts are far stiffer than a step can
+follow, 15 kHz under load: one Newton step of the implicit method damps that and gives the balance, while a
+roller that nothing presses flies, and strikes with its own mass. The contacts are linearised where it flies
+to, and a little nearer to the cup: from there, pressed too much, the step comes back to balance, while from a
+gap it would not see the contact at all. Forces are those at the end of the step.
+
+References
+----------
+Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3, for stiff components; a single
+Newton step is their linearly implicit method, IV.7.
 """
 
 from __future__ import annotations
 
 from beardyn_core.jit import inline
-from beardyn_core.kernels.defect import find_damage, springs_of
 from beardyn_core.kernels.exchange import damper_time
-from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
-from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, quick_ninth_root, sqrt, where_greater
-from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.lamina_springs import cup_springs, lamina_springs
+from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import crown_bend, wave_gap
-from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 
-# A roller that nothing presses is held by this against each step's move [N/m]: a hundredth of a loaded
-# contact, but enough that it drifts towards a raceway or the rib by about a micrometre a step instead of
-# jumping far into it. It moves at most this far in a step [m].
-_HOLD = 2.0e7
+# A roller moves at most this far in a step [m]: forces are linearised, and surfaces are not known beyond.
 _LONGEST_MOVE = 2.0e-5
+# Contacts are linearised this much nearer to the cup than a roller flies by itself [m]: as far as a cup that
+# bends draws back from an idle roller in a step, and little against the depth of a loaded contact.
+_OVERSHOOT = 5.0e-8
 _PI = 3.141592653589793
 
 
@@ -195,16 +200,18 @@ def settled(force, stiffness, normal, by_tilt, factor, move, reach):
 
 
 @inline
-def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
-    """Take one Newton step of a block of rollers towards balance.
+def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening, p):
+    """Take one implicit step of a block of rollers.
 
+    ``place`` (2 vectors), ``axis`` (2 vectors): radial and axial, after a flight of a step; ``flight``,
+    ``beside`` (3 numbers): of `free_flight`;
     ``views`` (4 vectors): origin and axis of the cone, velocity of its origin and angular velocity, in the
     orbit frame and against it; ``azimuths`` (3 numbers): on cup and cone, and of the roller in its pocket
-    [rad]; ``loads`` (2 numbers): centrifugal force and gyroscopic moment [N], [N m]; ``opening`` (2 numbers):
-    how far and how fast the bent cup closes in along its normal [m], [m/s]. Returns ``move`` (3
-    numbers): radially, axially, in tilt [m], [m], [rad]; ``cup``, ``cone`` (2 numbers): load and its first
-    moment along the roller [N], [N m]; ``rib``: [N]; ``lever`` (2 numbers): arm of the cup's load about the
-    bearing centre, affine in the abscissa [m]; ``deepest``: approach on the cup at the centre of mass [m].
+    [rad]; ``opening`` (2 numbers): how far and how fast the bent cup closes in along its normal [m], [m/s].
+    Returns ``move`` (3 numbers): beyond the flight, radially, axially, in tilt [m], [m], [rad]; ``cup``,
+    ``cone`` (2 numbers): load and its first moment along the roller [N], [N m]; ``rib``: [N];
+    ``lever`` (2 numbers): arm of the cup's load about the bearing centre, affine in the abscissa [m];
+    ``deepest``: approach on the cup at the centre of mass [m].
     """
     base, effects = p.base, p.base.effects
     roller, faults, zero = base.roller, effects.faults, lanes.constant(0.0)
@@ -230,19 +237,23 @@ def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
         (faults.cone, faults.roller, faults.cone_damage),
     )  # fmt: skip
-    cone_force = damped(cone, cone_rate(line, centre, motion), effects.damping)
     cone_normal = (line[2][0], line[2][2])
     cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))
     cup_normal = (base.cup.cosine, -base.cup.sine)
+    flown = approach_rate(flight, cone_normal, cone_tilt)
+    rate = cone_rate(line, centre, motion)
+    cone_force = damped(cone, (rate[0] + flown[0], rate[1] + flown[1]), effects.damping)
     rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(centre, full_axis, views[1], motion, effects.rib)
+    rib_rate = rib_rate + rib_way[0] * flight[0] + rib_way[1] * flight[1] + rib_way[2] * flight[2]
     rib_force = rib_force + damper_force(rib_stiffness, rib_rate, effects.damping)
 
-    hold = _HOLD + zero
+    heavy = roller.mass / (p.step * p.step) + zero
     system = (
-        (hold, zero, zero, hold, zero, hold * (roller.half_length * roller.half_length)),
-        (loads[0] + zero, zero, loads[1] + zero),
+        (heavy, zero, zero, heavy, zero, roller.transverse_inertia / (p.step * p.step) + zero),
+        (beside[0] + zero, beside[1] + zero, beside[2] + zero),
     )
-    cup_force = _pushed(cup, opening[1], effects.damping, p.bending)
+    flown = approach_rate(flight, cup_normal, cup_tilt)
+    cup_force = damped(cup, (_closed(flown[0], opening[1], p.bending), flown[1]), effects.damping)
     system = add_raceway(system, cup_force, cup[1], cup_normal, cup_tilt, factor)
     system = add_raceway(system, cone_force, cone[1], cone_normal, cone_tilt, factor)
     rib_only = (rib_stiffness, zero, zero)
@@ -263,6 +274,36 @@ def balance(lanes, block, place, axis, views, azimuths, loads, opening, p):
 
 
 @inline
+def free_flight(motion, cup, steady, p):
+    """Work out where contacts of a step are linearised, as velocities, and what presses besides them.
+
+    ``motion`` (3 numbers): radial and axial velocity against the cup and tilt rate before the step [m/s],
+    [rad/s]; ``cup`` (2 numbers): radial and axial acceleration of the cup [m/s^2]; ``steady`` (2 numbers):
+    centrifugal force and gyroscopic moment [N], [N m]. Returns ``flight`` (3 numbers): velocities over the
+    step, on towards the cup by at most `_OVERSHOOT`; ``beside`` (3 numbers): radially, axially, in tilt.
+    """
+    roller, step, rate = p.base.roller, p.step, p.motion.rate
+    towards = at_most(step * steady[0] / roller.mass + 0.0 * motion[0], _OVERSHOOT * rate)
+    beside = (
+        steady[0] - roller.mass * (cup[0] + rate * towards),
+        -roller.mass * cup[1],
+        steady[1] + 0.0 * motion[2],
+    )
+    return (motion[0] + towards, motion[1], motion[2]), beside
+
+
+@inline
+def less_turned(before, after):
+    """Take half of a velocity that has turned round within a step; ``before``: that before the step.
+
+    A roller that meets a contact in every other step alone, on a rib that it just leaves, would go to and fro
+    for ever: one Newton step a time step never sees both sides of it. Slow motion turns round when it is
+    hardly there.
+    """
+    return where_greater(0.0 * after, before * after, 0.5 * after, after)
+
+
+@inline
 def _closed(approach, closing, bending):
     if bending is None:
         return approach
@@ -270,10 +311,12 @@ def _closed(approach, closing, bending):
 
 
 @inline
-def _pushed(springs, rate, damping, bending):
-    if bending is None:
-        return springs[0]
-    return damped(springs, (rate, 0.0 * rate), damping)
+def approach_rate(motion, normal, by_tilt):
+    """Take the affine approach rate on a raceway of a roller that moves."""
+    return (
+        normal[0] * motion[0] + normal[1] * motion[1] + by_tilt[0] * motion[2],
+        by_tilt[1] * motion[2],
+    )
 
 
 @inline
@@ -312,99 +355,3 @@ def cone_view(lanes, motion, cosine, sine, orbit_rate, side):
     velocity = (velocity[0] + orbit_rate * origin[1], velocity[1] - orbit_rate * origin[0], velocity[2])
     omega = (omega[0] + orbit_rate * tilt[1], omega[1] - orbit_rate * tilt[0], omega[2])
     return origin, axis, velocity, omega
-
-
-# --- laminae as springs: their force and tangent stiffness, summed
-
-
-@inline
-def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
-    """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
-
-    ``approach`` (2 numbers): factors of x^0 and x^1 in the approach [m]; ``bend`` (2 numbers): factors of x^2
-    and x^3; ``reach``: half length of the roller [m].
-
-    References
-    ----------
-    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
-    """
-    surface, roller_surface, damage = patches
-    near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
-
-
-@inline
-def cup_springs(lanes, block, approach, crown, azimuths, laminae, reach, faults):
-    """Sum the springs on the cup, where only the error of a roller's profile bends the line; see above."""
-    patches = (faults.cup, faults.roller, faults.cup_damage)
-    if faults.crowns is None:
-        return lamina_springs(lanes, block, approach, None, azimuths, laminae, reach, patches)
-    bend = (crown, 0.0 * crown)
-    return lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches)
-
-
-@inline
-def _near_or_far(lanes, near, approach, bend, laminae, reach, damage):
-    if damage is None:
-        return _sound_moments(lanes, approach, bend, laminae, reach)
-    if near:
-        return _damaged_moments(lanes, approach, bend, laminae, damage)
-    return _sound_moments(lanes, approach, bend, laminae, reach)
-
-
-@inline
-def _sound_moments(lanes, approach, bend, laminae, reach):
-    zero = lanes.constant(0.0)
-    forces, stiffness = (zero, zero), (zero, zero, zero)
-    # where no roller of the block is in contact this look is all
-    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
-        for k in range(laminae.shape[1]):
-            x = laminae[LAMINA_PLACE, k]
-            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
-            touching = at_least(depth, SMALLEST_APPROACH)
-            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
-            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-            force = tangent * touching
-            forces = (forces[0] + force, forces[1] + x * force)
-            stiffness = add_moments(stiffness, tangent, x)
-    return forces, scale(10.0 / 9.0, stiffness)
-
-
-@inline
-def _bend(bend, x):
-    """Work out the part of the approach that is not affine in the abscissa, [m]."""
-    if bend is None:
-        return 0.0
-    return (x * x) * (bend[0] + x * bend[1])
-
-
-@inline
-def _most_bend(bend, reach):
-    """Bound of `_bend` along the roller, [m]."""
-    if bend is None:
-        return 0.0
-    return (reach * reach) * (magnitude(bend[0]) + reach * magnitude(bend[1]))
-
-
-@inline
-def _all_factors(approach, bend):
-    if bend is None:
-        zero = 0.0 * approach[0]
-        return approach[0], approach[1], zero, zero
-    return approach[0], approach[1], bend[0], bend[1]
-
-
-@inline
-def _damaged_moments(lanes, approach, bend, laminae, damage):
-    zero = lanes.constant(0.0)
-    forces, stiffness = (zero, zero), (zero, zero, zero)
-    factors = _all_factors(approach, bend)
-    laminae, springs = springs_of(laminae, damage, None)
-    for k in range(springs):
-        x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
-        tangent = share * tangent
-        force = 0.9 * tangent * at_least(depth, 0.0)
-        forces = (forces[0] + force, forces[1] + force * x)
-        stiffness = add_moments(stiffness, tangent, x)
-    return forces, stiffness

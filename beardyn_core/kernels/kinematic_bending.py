@@ -54,20 +54,27 @@ def show_openings(lanes, flex, direction, box, step, bending):
     for i in range(bending.forces.shape[0] - openings):
         box[SEAT_PLACE + i] = seen[PLACE, openings + i]
         box[SEAT_SPEED + i] = seen[SPEED, openings + i]
-    series, width = shown.shape[1] // 2, shown.shape[2]
+    series = shown.shape[1] // 2
     waves, rows = series // 2, openings // series
-    for lane in range(width):
-        first = series * row_of(0, lane, width, rows)
-        shown[0, 0, lane], shown[0, series, lane] = seen[PLACE, first], seen[SPEED, first]
+    for kind in range(2):
+        lanes.store(shown, 0, kind * series, _in_rows(lanes, seen[kind], 0, series, rows, bending))
     turn = (1.0, 0.0)
     for n in range(1, waves + 1):
         turn = turned_by(turn, direction)
         for kind in range(2):
-            for lane in range(width):
-                first = series * row_of(0, lane, width, rows) + n
-                a, b = seen[kind, first], seen[kind, first + waves]
-                shown[0, kind * series + n, lane] = a * turn[0] + b * turn[1]
-                shown[0, kind * series + waves + n, lane] = b * turn[0] - a * turn[1]
+            a = _in_rows(lanes, seen[kind], n, series, rows, bending)
+            b = _in_rows(lanes, seen[kind], n + waves, series, rows, bending)
+            lanes.store(shown, 0, kind * series + n, a * turn[0] + b * turn[1])
+            lanes.store(shown, 0, kind * series + waves + n, b * turn[0] - a * turn[1])
+
+
+@inline
+def _in_rows(lanes, series_of_rows, term, series, rows, bending):
+    """Give every lane the term of its row."""
+    value = lanes.load(bending.row_lanes, 0, 0) * series_of_rows[term]
+    if rows > 1:
+        value = value + lanes.load(bending.row_lanes, 0, 1) * series_of_rows[series + term]
+    return value
 
 
 @inline
@@ -90,18 +97,31 @@ def _see(lanes, flex, step, bending):
 
 
 @inline
-def less_opening(lanes, block, kind, value, bending):
-    """Take the opening, or its speed, at a block of pockets off the approach, or its rate."""
+def less_opening(lanes, block, kind, value, bending, ahead):
+    """Take the opening, or its speed, at a block of pockets off the approach, or its rate.
+
+    ``ahead``: small angle by which rollers are ahead of the places of the series, to first order, or ``None``
+    [rad].
+    """
     if bending is None:
         return value
     series = bending.basis.shape[1]
     waves, first = series // 2, kind * series
     even, odd = value - lanes.load(bending.shown, 0, first), lanes.constant(0.0)
     for n in range(1, waves + 1):
-        even = even - lanes.load(bending.shown, 0, first + n) * lanes.load(bending.basis, block, n)
-        with_sine = lanes.load(bending.basis, block, waves + n)
-        odd = odd - lanes.load(bending.shown, 0, first + waves + n) * with_sine
+        cosine, sine = _wave_at(lanes, block, n, waves, bending.basis, ahead)
+        even = even - lanes.load(bending.shown, 0, first + n) * cosine
+        odd = odd - lanes.load(bending.shown, 0, first + waves + n) * sine
     return even + odd
+
+
+@inline
+def _wave_at(lanes, block, n, waves, basis, ahead):
+    cosine, sine = lanes.load(basis, block, n), lanes.load(basis, block, waves + n)
+    if ahead is None:
+        return cosine, sine
+    angle = n * ahead
+    return cosine - angle * sine, sine + angle * cosine
 
 
 @inline
@@ -114,13 +134,31 @@ def clear_reaction(lanes, sums, bending):
 
 
 @inline
-def add_reaction(lanes, sums, block, load, bending):
-    """Add the loads of a block of rollers, 0 where there are none, to the forces on the openings."""
+def add_reaction(lanes, sums, block, load, bending, ahead):
+    """Add the loads of a block of rollers, 0 where there are none, to the forces on the openings.
+
+    ``ahead``: as of `less_opening`.
+    """
     if bending is None:
         return
-    for k in range(bending.basis.shape[1]):
-        before = lanes.load(sums, 0, SUM_FIELDS + k)
-        lanes.store(sums, 0, SUM_FIELDS + k, before + load * lanes.load(bending.basis, block, k))
+    _react(lanes, sums, block, load, bending.basis, ahead)
+
+
+@inline
+def _react(lanes, sums, block, load, basis, ahead):
+    if ahead is None:
+        for k in range(basis.shape[1]):
+            before = lanes.load(sums, 0, SUM_FIELDS + k)
+            lanes.store(sums, 0, SUM_FIELDS + k, before + load * lanes.load(basis, block, k))
+        return
+    waves = basis.shape[1] // 2
+    lanes.store(sums, 0, SUM_FIELDS, lanes.load(sums, 0, SUM_FIELDS) + load)
+    for n in range(1, waves + 1):
+        cosine, sine = _wave_at(lanes, block, n, waves, basis, ahead)
+        before = lanes.load(sums, 0, SUM_FIELDS + n)
+        lanes.store(sums, 0, SUM_FIELDS + n, before + load * cosine)
+        before = lanes.load(sums, 0, SUM_FIELDS + waves + n)
+        lanes.store(sums, 0, SUM_FIELDS + waves + n, before + load * sine)
 
 
 @inline
@@ -152,6 +190,9 @@ def turn_reaction(sums, direction, bending):
 
 @inline
 def _lane_sum(sums, field, start, end):
+    if end - start == 4:  # two rows in eight lanes, without a loop
+        one = sums[0, 0, field, start] + sums[0, 0, field, start + 1]
+        return one + (sums[0, 0, field, start + 2] + sums[0, 0, field, start + 3])
     total = 0.0
     for lane in range(start, end):
         total += sums[0, 0, field, lane]

@@ -22,6 +22,10 @@ LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(
     layout.REACTION, layout.REACTION + 6
 )
 TORQUE_ROLLING, TORQUE_RIB = layout.REACTION + 6, layout.REACTION + 7
+# Sums of what accelerates rollers: radially times cosine and sine of the pocket angle, axially, and moments.
+KEPT_COSINE, KEPT_SINE, KEPT_AXIAL, KEPT_ABOUT_COSINE, KEPT_ABOUT_SINE = range(
+    layout.REACTION + 18, layout.REACTION + 23
+)
 _SMALLEST_LOAD = 1e-3
 
 
@@ -66,6 +70,10 @@ def lane_total(sums, field):
 def row_totals(sums, field):
     """Sum of a field over the lanes of each row."""
     half = sums.shape[3] // 2
+    if half == 4:  # without a loop
+        low = sums[0, 0, field, 0] + sums[0, 0, field, 1] + (sums[0, 0, field, 2] + sums[0, 0, field, 3])
+        high = sums[0, 0, field, 4] + sums[0, 0, field, 5] + (sums[0, 0, field, 6] + sums[0, 0, field, 7])
+        return low, high
     inner, outer = 0.0, 0.0
     for lane in range(half):
         inner += sums[0, 0, field, lane]
@@ -93,10 +101,24 @@ def cup_wrench(totals, direction, cosine, sine):
 
 
 @inline
-def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
+def kept_wrench(sums, direction):
+    """Work out world force and moment that accelerate the rollers, from the sums at ``KEPT_COSINE``."""
+    totals = (
+        lane_total(sums, KEPT_COSINE),
+        lane_total(sums, KEPT_SINE),
+        lane_total(sums, KEPT_AXIAL),
+        lane_total(sums, KEPT_ABOUT_COSINE),
+        lane_total(sums, KEPT_ABOUT_SINE),
+    )
+    return cup_wrench(totals, direction, 1.0, -1.0)
+
+
+@inline
+def show_roller(lanes, rollers, block, place, axis, motion, turn, angle, p):
     """Write a block of rollers as the full tier keeps them.
 
-    ``turn`` (2 numbers): angle and speed of the cages [rad], [rad/s].
+    ``motion`` (3 numbers): radial and axial velocity and tilt rate [m/s], [rad/s]; ``turn`` (2 numbers):
+    angle and speed of the cages [rad], [rad/s].
     """
     zero = lanes.constant(0.0)
     k, roller = p.kinematic, p.base.roller
@@ -107,11 +129,11 @@ def show_roller(lanes, rollers, block, place, axis, turn, angle, p):
     lanes.store(rollers, block, layout.RADIUS, place[0] + zero)
     lanes.store(rollers, block, layout.ANGLE, angle + turn[0])
     lanes.store(rollers, block, layout.AXIAL, place[1] + zero)
-    store_vector(lanes, rollers, block, layout.VELOCITY, (zero, rate * place[0] + zero, zero))
+    store_vector(lanes, rollers, block, layout.VELOCITY, (motion[0], rate * place[0] + zero, motion[1]))
     store_vector(lanes, rollers, block, layout.AXIS, (axis[0] + zero, zero, axis[1] + zero))
     momentum = (
         about * axis[0] - across * axis[1] * axis[0] + zero,
-        zero,
+        roller.transverse_inertia * motion[2],
         about * axis[1] + across * axis[0] * axis[0] + zero,
     )
     store_vector(lanes, rollers, block, layout.MOMENTUM, momentum)

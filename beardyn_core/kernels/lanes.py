@@ -20,9 +20,12 @@ import numpy as np
 from numba import types
 from numba.core import cgutils
 from numba.core.typeconv import Conversion
+from numba.core.typing import signature as typed
+from numba.core.typing.templates import AbstractTemplate, infer_global
 from numba.extending import (
     NativeValue,
     intrinsic,
+    lower_builtin,
     lower_cast,
     models,
     overload,
@@ -271,72 +274,55 @@ def _is_lane_value(candidate: types.Type) -> bool:
     return isinstance(candidate, VectorType | types.Float | types.Integer)
 
 
-def _instruction(emit: Callable[..., Any], arity: int) -> Any:
-    """Make an intrinsic that applies ``emit(builder, *values)`` to vectors and broadcast numbers."""
+def _lower(emit: Callable[..., Any]) -> Callable[..., Any]:
+    """Make the code of a call that applies ``emit(builder, *values)`` to vectors and broadcast numbers."""
 
-    def signature_and_code(*arguments: types.Type) -> Any:
-        vector = next((each for each in arguments if isinstance(each, VectorType)), types.float64)
+    def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        shape = signature.return_type
+        return emit(
+            builder, *(_broadcast(builder, v, t, shape) for v, t in zip(args, signature.args, strict=True))
+        )
 
-        def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            values = [_broadcast(builder, v, t, vector) for v, t in zip(args, signature.args, strict=True)]
-            return emit(builder, *values)
-
-        return vector(*arguments), generate
-
-    if arity == 1:
-
-        @intrinsic
-        def apply(_typing: Any, a: Any) -> Any:
-            return signature_and_code(a)
-    elif arity == 2:
-
-        @intrinsic
-        def apply(_typing: Any, a: Any, b: Any) -> Any:
-            return signature_and_code(a, b)
-    else:
-
-        @intrinsic
-        def apply(_typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
-            return signature_and_code(a, b, c, d)
-
-    return apply
+    return generate
 
 
-_ADD = _instruction(lambda builder, a, b: builder.fadd(a, b, flags=FASTMATH), 2)
-_SUB = _instruction(lambda builder, a, b: builder.fsub(a, b, flags=FASTMATH), 2)
-_MUL = _instruction(lambda builder, a, b: builder.fmul(a, b, flags=FASTMATH), 2)
-_DIV = _instruction(lambda builder, a, b: builder.fdiv(a, b, flags=FASTMATH), 2)
-_NEG = _instruction(lambda builder, a: builder.fneg(a, flags=FASTMATH), 1)
+def _type_calls(function: Any, arity: int, vectors_only: bool) -> None:
+    """Tell numba the type of calls with lane values; ``vectors_only``: of those that have a vector.
+
+    An overload would do, too, but numba compiles one like a function, for each combination of types.
+    """
+
+    class _Calls(AbstractTemplate):
+        key = function
+
+        def generic(self, args: Any, kws: Any) -> Any:
+            if kws or len(args) != arity or not all(map(_is_lane_value, args)):
+                return None
+            vector = next((each for each in args if isinstance(each, VectorType)), None)
+            if vector is None and vectors_only:
+                return None
+            return typed(vector or types.float64, *map(types.unliteral, args))
+
+    infer_global(function, types.Function(_Calls))
 
 
-def _overload_arithmetic(function: Any, instruction: Any) -> None:
-    @overload(function)
-    def _arithmetic(a, b):
-        if (
-            (isinstance(a, VectorType) or isinstance(b, VectorType))
-            and _is_lane_value(a)
-            and _is_lane_value(b)
-        ):
-            return lambda a, b: instruction(a, b)
-        return None
+def _overload_arithmetic(function: Any, emit: Callable[..., Any], arity: int = 2) -> None:
+    _type_calls(function, arity, vectors_only=True)
+    vector: Any = VectorType
+    combinations = [(vector,)] if arity == 1 else [(vector, vector), (vector, types.Any), (types.Any, vector)]
+    for kinds in combinations:
+        lower_builtin(function, *kinds)(_lower(emit))
 
 
-for _function, _emitted in (
-    (operator.add, _ADD),
-    (operator.sub, _SUB),
-    (operator.mul, _MUL),
-    (operator.truediv, _DIV),
-    (operator.iadd, _ADD),
-    (operator.isub, _SUB),
-    (operator.imul, _MUL),
-    (operator.itruediv, _DIV),
+for _functions, _emitted in (
+    ((operator.add, operator.iadd), lambda builder, a, b: builder.fadd(a, b, flags=FASTMATH)),
+    ((operator.sub, operator.isub), lambda builder, a, b: builder.fsub(a, b, flags=FASTMATH)),
+    ((operator.mul, operator.imul), lambda builder, a, b: builder.fmul(a, b, flags=FASTMATH)),
+    ((operator.truediv, operator.itruediv), lambda builder, a, b: builder.fdiv(a, b, flags=FASTMATH)),
 ):
-    _overload_arithmetic(_function, _emitted)
-
-
-@overload(operator.neg)
-def _negate(a):
-    return (lambda a: _NEG(a)) if isinstance(a, VectorType) else None
+    for _function in _functions:
+        _overload_arithmetic(_function, _emitted)
+_overload_arithmetic(operator.neg, lambda builder, a: builder.fneg(a, flags=FASTMATH), 1)
 
 
 def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -344,13 +330,8 @@ def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callab
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         arity = function.__code__.co_argcount
-        apply = _instruction(emit, arity)
-        if arity == 1:
-            overload(function)(lambda a: (lambda a: apply(a)) if _is_lane_value(a) else None)
-        elif arity == 2:
-            overload(function)(lambda a, b: lambda a, b: apply(a, b))
-        else:
-            overload(function)(lambda a, b, c, d: lambda a, b, c, d: apply(a, b, c, d))
+        _type_calls(function, arity, vectors_only=False)
+        lower_builtin(function, *[types.Any] * arity)(_lower(emit))
         return function
 
     return decorate

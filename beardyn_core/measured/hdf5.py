@@ -12,7 +12,8 @@ from beardyn_core.arrays import Float
 from beardyn_core.measured import source
 from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in, stretches
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import Held, broken, in_text, library
+from beardyn_core.measured.source import Held, broken, in_text
+from beardyn_core.optional import library
 
 _UNITS = ("unit", "units", "Unit", "Units", "UNIT")
 
@@ -40,7 +41,7 @@ class _File(Held):
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the datasets of a file, with ``.`` between the groups; attributes give units and rate."""
-    h5py = library("h5py", path, "HDF5 and MATLAB 7.3")
+    h5py = library("h5py", f"{path}: reading HDF5 and MATLAB 7.3", "measured")
     numbers: dict[str, float] = {}
     facts: dict[str, str] = {}
     columns: dict[str, Column] = {}

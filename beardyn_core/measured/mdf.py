@@ -13,8 +13,9 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken, in_text, library
+from beardyn_core.measured.source import BLOCK, Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
+from beardyn_core.optional import library
 
 _TIME = "time"
 
@@ -68,7 +69,7 @@ def _samples(file: Any, group: int, index: int | None, part: dict[str, int]) -> 
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the channels of a file; ``name (group 2)`` where two groups have one of the same name."""
-    asammdf = library("asammdf", path, "MDF")
+    asammdf = library("asammdf", f"{path}: reading MDF", "measured")
     channels: list[Channel] = []
     places: dict[str, tuple[int, int | None]] = {}
     facts: dict[str, str] = {}

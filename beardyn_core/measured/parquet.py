@@ -11,8 +11,9 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.measured.arrays_inside import claimed_rate
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken, library
+from beardyn_core.measured.source import BLOCK, Channel, Held, broken
 from beardyn_core.measured.units import split_unit, usual
+from beardyn_core.optional import library
 
 _READ_BYTES = 1 << 20
 
@@ -46,7 +47,7 @@ def _numbers(batch: Any, key: str, name: str, first: dict[str, int]) -> Float:
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the columns of numbers of a file; its metadata may give the rate."""
-    parquet = library("pyarrow.parquet", path, "Parquet")
+    parquet = library("pyarrow.parquet", f"{path}: reading Parquet", "measured")
     try:
         with parquet.ParquetFile(path) as file:
             count, schema = int(file.metadata.num_rows), file.schema_arrow

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -66,23 +65,6 @@ class Held:
         for begin in range(0, count, BLOCK):
             part = slice(begin, min(begin + BLOCK, count))
             yield np.stack([np.asarray(self.columns[name][part], np.float64) for name in names], axis=1)
-
-
-def library(name: str, path: Path, kind: str) -> Any:
-    """Import the library of a format.
-
-    Raises
-    ------
-    InputError
-        It is not installed, or another one that it needs.
-    """
-    try:
-        return importlib.import_module(name)
-    except (ImportError, OSError) as error:  # OSError: a library of the system is not there
-        raise InputError(
-            f"{path}: to read {kind} takes {name}, which is not installed; install it with: "
-            "pip install 'beardyn[measured]'"
-        ) from error
 
 
 def broken(path: Path, kind: str, error: Exception) -> InputError:

@@ -9,8 +9,9 @@ from typing import Any
 
 from beardyn_core.arrays import Float
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken, in_text, library
+from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
+from beardyn_core.optional import library
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 
@@ -34,7 +35,7 @@ class _Tdms(Held):
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the channels of a file, ``group/channel`` where two groups have one of the same name."""
-    nptdms = library("nptdms", path, "TDMS")
+    nptdms = library("nptdms", f"{path}: reading TDMS", "measured")
     facts: dict[str, str] = {}
     numbers: dict[str, float] = {}
     channels, places, starts = [], {}, set()

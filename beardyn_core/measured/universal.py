@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken, library
+from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken
 from beardyn_core.measured.units import usual
+from beardyn_core.optional import library
 
 _TIME_RESPONSE = 1
 _DIRECTIONS = {1: "x", 2: "y", 3: "z"}
@@ -18,7 +19,7 @@ _DIRECTIONS = {1: "x", 2: "y", 3: "z"}
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the time responses of a file by their first line, or by node and direction without one."""
-    pyuff = library("pyuff", path, "Universal files")
+    pyuff = library("pyuff", f"{path}: reading Universal files", "measured")
     try:
         file = pyuff.UFF(str(path))
         kinds = [int(each) for each in file.get_set_types()]

@@ -11,7 +11,8 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken, library
+from beardyn_core.measured.source import BLOCK, Channel, Held, broken
+from beardyn_core.optional import library
 
 _FLOATS = ("FLOAT", "DOUBLE")
 
@@ -33,7 +34,7 @@ class _Sound(Held):
 
 def open_file(path: Path, _reading: Reading) -> Held:
     """List the channels of a file, ``channel_1``, ``channel_2``, ...; its rate stands in its head."""
-    soundfile = library("soundfile", path, "WAV")
+    soundfile = library("soundfile", f"{path}: reading WAV", "measured")
     try:
         with soundfile.SoundFile(path) as file:
             count, rate, names = file.frames, float(file.samplerate), file.channels

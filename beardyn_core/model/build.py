@@ -162,7 +162,7 @@ def build_parameters(
             mixed=mixed,
             rolling=rolling_params(scene),
             drag=drag_params(scene),
-            seal=seal_params(effects),
+            seal=seal_params(scene),
             cage=cage_params(scene, step),
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),

@@ -52,7 +52,7 @@ LINEAR = 6  # 3, velocity [m/s]
 ANGULAR = 9  # 3, angular velocity without the spin [rad/s]
 TURN = 12  # spin angle about the own axis, +y [rad]
 RATE = 13  # spin speed about the own axis [rad/s]
-CHANGE = 14  # 6, of LINEAR and ANGULAR over the last step, of cup and cone in the full tier
+CHANGE = 14  # 6, of LINEAR and ANGULAR over the last step: full tier, cup and cone; quasistatic, cup
 BODY_STATES = 20
 
 # --- ring data as the rollers see them, lanes [ring, field, lane]; order of rings: cup, cone, cage

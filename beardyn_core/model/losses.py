@@ -14,7 +14,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.oil_layer import CoupleShares
 from beardyn_core.bearing.starvation import couple_shares
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
-from beardyn_core.effects import EffectSet, LineFilm
+from beardyn_core.effects import LineFilm
 from beardyn_core.model.film import layer_params
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.scene.scene import Scene
@@ -218,12 +218,14 @@ def _radius(bearing: Bearing) -> float:
     return 0.5 * bearing.roller_diameter
 
 
-def seal_params(effects: EffectSet) -> SealParams | None:
+def seal_params(scene: Scene) -> SealParams | None:
     """Add up both seals."""
-    if effects.seal is None:
+    seal = scene.effects.seal
+    if seal is None:
         return None
+    both = SEALS * seal.stiffening(scene.lubricant.kinematic_viscosity(scene.temperature))
     return SealParams(
-        torque=SEALS * effects.seal.torque,
-        speed_coefficient=SEALS * effects.seal.speed_coefficient,
-        regularisation=effects.seal.regularisation_speed,
+        torque=both * seal.torque,
+        speed_coefficient=both * seal.speed_coefficient,
+        regularisation=seal.regularisation_speed,
     )

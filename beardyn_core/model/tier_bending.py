@@ -47,6 +47,7 @@ class BendingParams(NamedTuple):
     lag: float  # share of the rollers' springs and dampers in the inertia of the step [s^2]
     damper_share: float  # of the dampers in that
     basis: Any  # [block, series, lane], one, cosines and sines at the pocket angles
+    row_lanes: Any  # [1, row, lane], 1 where a lane holds rollers of the row
     seen: Any  # work space [1, 3 x block of reads, lane]: places, speeds, and how modes draw back
     seen_row: Any  # the same memory [3, read], [m], [m/s], [m/s^2]
     shown: Any  # work space [1, 2 x series, lane]: openings and speeds in the cages' frame
@@ -177,6 +178,7 @@ def bending_params(
         lag=lag,
         damper_share=dampers / lag,
         basis=_basis(base, series),
+        row_lanes=_row_lanes(scene.rows, width),
         seen=seen,
         seen_row=seen.reshape(3, -1),
         shown=aligned_zeros(1, 2 * series, width),
@@ -233,6 +235,14 @@ def _basis(base: Parameters, series: int) -> Float:
     basis = aligned_zeros(base.rollers.shape[0], series, base.rollers.shape[2])
     basis[:] = np.concatenate([np.ones_like(order[:, :1]), np.cos(order), np.sin(order)], axis=1)
     return basis
+
+
+def _row_lanes(rows: int, width: int) -> Float:
+    """Mark the lanes of each row, shape [1, row, lane]."""
+    marks = aligned_zeros(1, rows, width)
+    for row in range(rows):
+        marks[0, row, row * width // rows : (row + 1) * width // rows] = 1.0
+    return marks
 
 
 def openings_at_pockets(bending: BendingParams, base: Parameters, rows: int) -> Float:

@@ -10,7 +10,7 @@ import numpy as np
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
-from beardyn_core.effects import KinematicCage
+from beardyn_core.effects import Cage, KinematicCage
 from beardyn_core.model.arrangement import Arrangement, aligned_copy
 from beardyn_core.model.faults import FaultParams
 from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE
@@ -18,6 +18,11 @@ from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.scatter import mean_crown
 from beardyn_core.model.tier_bending import BendingParams
 from beardyn_core.scene.scene import Scene
+
+_LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
+_SLIDE = 0.01  # slip over rolling speed at which the film reaches it
+_SLOWEST = 0.05  # [m/s]
+_LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 
 
 class PocketParams(NamedTuple):
@@ -84,6 +89,26 @@ class SpringParams(NamedTuple):
     give: float  # least approach over cup load: that of the stiffest spring [m/N]
 
 
+class LooseParams(NamedTuple):
+    """Rollers that move in the pockets of their cages, see `kernels.loose_rollers`."""
+
+    stiffness: float  # of both touches of a bar [N/m]
+    damping: float  # [N s/m]
+    half_clearance: float  # along the pitch circle [m]
+    bar_cosine: float  # of the lean of the bars against the radius
+    bar_sine: float
+    friction: float  # of the bars
+    regularisation: float  # [m/s]
+    traction: float  # limit of both raceways' traction over the load on the cone
+    slide: float  # slip over rolling speed at which it is reached
+    slowest: float  # rolling speed below which the slip at the limit stays the same [m/s]
+    mass: float  # of a cage [kg]
+    polar_inertia: float  # [kg m^2]
+    fall: float  # [m/s^2]
+    rubbing: float  # torque on the shaft over the normal force in the pockets [m]
+    rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
+
+
 class LumpedParameters(NamedTuple):
     """Everything constant during a lumped run; `faults` is ``None`` in a healthy bearing."""
 
@@ -111,6 +136,7 @@ class QuasistaticParameters(NamedTuple):
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
     bending: BendingParams | None
+    loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:
@@ -163,6 +189,42 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
         rolling_count=float(scene.roller_total),
         pocket=_pocket_params(scene),
+    )
+
+
+def loose_params(scene: Scene, step: float) -> LooseParams | None:
+    """Work out the pockets in which rollers move; none without a cage, or with a prescribed one.
+
+    Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
+    ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
+
+    References
+    ----------
+    Bair and Winer (1979): limiting shear stress over pressure, the scene's where it names one; it is reached
+    at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
+    """
+    cage, bearing, pocket = scene.effects.cage, scene.bearing, _pocket_params(scene)
+    if cage is None or isinstance(cage, KinematicCage) or pocket is None:
+        return None
+    if step > _LONGEST_LOOSE_STEP:
+        return None
+    lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
+    return LooseParams(
+        stiffness=2.0 * bearing.cage.stiffness,
+        damping=2.0 * bearing.cage.damping,
+        half_clearance=0.5 * (bearing.cage.circumferential_clearance + cage.pocket_wear),
+        bar_cosine=math.cos(lean),
+        bar_sine=math.sin(lean),
+        friction=cage.friction,
+        regularisation=cage.regularisation_speed,
+        traction=2.0 * _LIMITING_SHEAR,
+        slide=_SLIDE,
+        slowest=_SLOWEST,
+        mass=bearing.cage.mass,
+        polar_inertia=bearing.cage.polar_inertia,
+        fall=scene.effects.gravity.acceleration if scene.effects.gravity else 0.0,
+        rubbing=0.5 * pocket.lever,
+        rubbing_floor=pocket.regularisation,
     )
 
 

@@ -84,17 +84,19 @@ class _Samples:
         self.clear()
 
     def __len__(self) -> int:
-        return sum(len(time) for time, _ in self._blocks)
+        return self._count
 
     def clear(self) -> None:
         """Drop everything."""
         self._blocks: list[tuple[Int, Float]] = [(np.empty(0, np.int64), np.empty((0, *self.axes)))]
+        self._count = 0
 
     def append(self, time_ns: Int, values: Float) -> None:
         """Add a block that is not empty; the oldest go when nobody has wanted them for long."""
         if len(self._blocks) == 1 and not len(self._blocks[0][0]):
             self._blocks = []
         self._blocks.append((np.array(time_ns), np.array(values)))  # the sender may use its arrays again
+        self._count += len(time_ns)
         if self.last_ns - self.first_ns > _WINDOWS_KEPT * self._longest_ns:
             self.forget(self.last_ns - self._longest_ns)
 
@@ -120,6 +122,7 @@ class _Samples:
         time_ns, values = self.joined()
         kept = max(0, int(np.searchsorted(time_ns, before_ns, side="right" if spared else "left")) - spared)
         self._blocks = [(time_ns[kept:], values[kept:])]
+        self._count = len(time_ns) - kept
 
 
 class Monitor:

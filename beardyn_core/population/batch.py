@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import resource
+import sys
 import time
 from dataclasses import dataclass
 from typing import Annotated as A
@@ -49,6 +51,7 @@ class Made:
     features: A[dict[str, float], "by `features.NAMES`"]
     arrays: A[dict[str, NDArray[Any]], "by name; empty where the run did not begin"]
     seconds: A[float, "wall time on its worker, [s]"]
+    processor: A[float, "processor time of its worker meanwhile, [s]"] = 0.0
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,7 @@ class Batch:
     times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]"]
     code: A[str, "digest of the code of the worker"]
     worker: A[str, "process that did it: machine and process"]
+    memory: A[int, "most that process has held so far, [byte]"] = 0
 
 
 def run_batch(rows: tuple[Row, ...], plan: Plan) -> Batch:
@@ -74,7 +78,14 @@ def run_batch(rows: tuple[Row, ...], plan: Plan) -> Batch:
                 for name, each in arrays.items()
             }
             times = when
-    return Batch(tuple(made), shapes, times, code_digest(), f"{os.uname().nodename}:{os.getpid()}")
+    process = f"{os.uname().nodename}:{os.getpid()}"
+    return Batch(tuple(made), shapes, times, code_digest(), process, most_memory())
+
+
+def most_memory() -> int:
+    """Tell the most memory that this process has held at a time, [byte]."""
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most if sys.platform == "darwin" else 1024 * most
 
 
 def checked_batch(rows: tuple[Row, ...], plan: Plan) -> list[str]:
@@ -88,7 +99,7 @@ def code_digest() -> str:
 
 
 def _made(row: Row, plan: Plan) -> tuple[Made, dict[str, Array], dict[str, NDArray[np.int64]]]:
-    began = time.perf_counter()
+    began, spent = time.perf_counter(), time.process_time()
     values = plan.keys(row)[1]
     labels: dict[str, Any] = {"run": row.run, "status": FAILED, "reason": "", "bearing_id": ""}
     arrays: dict[str, Array] = {}
@@ -109,7 +120,8 @@ def _made(row: Row, plan: Plan) -> tuple[Made, dict[str, Array], dict[str, NDArr
         labels |= {"status": FAILED, "reason": f"{type(error).__name__}: {error}"}
     labels = {name: value for name, value in labels.items() if name not in _NOT_LABELS} | values
     plain = {name: each.values for name, each in arrays.items()}
-    return Made(row.run, labels, features, plain, time.perf_counter() - began), arrays, times
+    took, spent = time.perf_counter() - began, time.process_time() - spent
+    return Made(row.run, labels, features, plain, took, spent), arrays, times
 
 
 # of no use to a learner, or the same in all runs and on the data card

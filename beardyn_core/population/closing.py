@@ -39,10 +39,15 @@ def close_set(
     write_table(folder / RUNS, rows, {}, facts)
     features = [{"run": row["run"], **each["features"]} for row, each in zip(rows, made, strict=True)]
     write_table(folder / FEATURES, features, FEATURE_UNITS, facts)
-    seconds = sorted(float(each["seconds"]) for each in made)
+    seconds, processor = (sorted(float(each[name]) for each in made) for name in ("seconds", "processor"))
     about["done"] = len(made)
     about["failed"] = sum(row["status"] != "complete" for row in rows)
     about["seconds_a_run"] = {"median": seconds[len(seconds) // 2], "total": sum(seconds)}
+    about["processor_seconds_a_run"] = {
+        "median": processor[len(processor) // 2],
+        "total": round(sum(processor), 3),
+    }
+    about["most_memory"] = max(int(each["memory"]) for each in made)
     about["processes"] = len({each["worker"] for each in made})
     about["parts"] = dict(Counter(row["split"] for row in rows if row["split"]))
     about["split"] = plan.sweep.split.shares

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.outputs import as_a_whole, file_problems
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.store import RUN, library
+from beardyn_core.population.store import RUN
 
 KINDS = (".h5", ".npz", ".parquet")
 _AT_ONCE = 32  # runs in memory
@@ -82,7 +83,7 @@ def _about(runs: LabelledSet) -> dict[str, str]:
 
 
 def _hdf5(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
-    h5py = library("h5py", extra="data")
+    h5py = library("h5py", "a set in HDF5", "data")
     with h5py.File(path, "w") as file:
         file.attrs.update(_about(runs))
         for name in names:
@@ -120,7 +121,10 @@ def _npz(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
 
 
 def _parquet(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
-    arrow, parquet = library("pyarrow"), library("pyarrow.parquet")
+    arrow, parquet = (
+        library("pyarrow", "a set of runs", "sweep"),
+        library("pyarrow.parquet", "a set of runs", "sweep"),
+    )
     whole = arrow.Table.from_pandas(runs.table, preserve_index=False)
     writer: Any = None
     at = 0

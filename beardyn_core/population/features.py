@@ -6,7 +6,7 @@ All of them can be had of a measured axlebox too: one accelerometer, the shaft, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import nan
+from math import isfinite, nan
 
 import numpy as np
 from scipy.fft import rfft
@@ -66,7 +66,7 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
 
 
 def _of_result(result: MonitorResult) -> dict[str, float]:
-    known = result.verdict != "waiting"
+    known = isfinite(result.threshold)
     scores: Sequence[float] = result.scores if known else (nan,) * len(PARTS)
     ordered = sorted(scores)
     low, high = result.band

@@ -109,7 +109,7 @@ def write_about(folder: Path, about: dict[str, Any]) -> None:
 
 
 def done_rows(folder: Path) -> dict[int, dict[str, Any]]:
-    """Read the runs that are done, by number: labels, features, seconds and worker of each."""
+    """Read the runs that are done, by number: labels, features, times, worker and its memory."""
     found: dict[int, dict[str, Any]] = {}
     path = folder / JOURNAL
     if not path.is_file():
@@ -137,7 +137,9 @@ class Journal:
                 "labels": plain(each.labels),
                 "features": plain(each.features),
                 "seconds": round(each.seconds, 4),
+                "processor": round(each.processor, 4),
                 "worker": batch.worker,
+                "memory": batch.memory,
             }
             for each in batch.made
         ]

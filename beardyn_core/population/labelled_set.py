@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.population.closing import verify
 from beardyn_core.population.folder import read_about
-from beardyn_core.population.store import RUN, SIGNALS, library, zarr_library
+from beardyn_core.population.store import RUN, SIGNALS, zarr_library
 from beardyn_core.population.table import FEATURES, RUNS, units_of
 
 if TYPE_CHECKING:
@@ -66,12 +67,12 @@ class LabelledSet:
     @cached_property
     def table(self) -> Any:
         """``pandas.DataFrame``: a row a run, every drawn key and every label; `units` has the units."""
-        return library("pandas").read_parquet(self.folder / RUNS)
+        return library("pandas", "a set of runs", "sweep").read_parquet(self.folder / RUNS)
 
     @cached_property
     def features(self) -> Any:
         """``pandas.DataFrame``: features of each run, in the order of `table`."""
-        return library("pandas").read_parquet(self.folder / FEATURES)
+        return library("pandas", "a set of runs", "sweep").read_parquet(self.folder / FEATURES)
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -97,7 +98,7 @@ class LabelledSet:
         Part, bearing, condition and status of each run are coordinates: ``signals.vibration.sel(run=3)``,
         ``signals.where(signals.split == "train", drop=True)``. The signals of a failed run end in NaN.
         """
-        xarray = library("xarray")
+        xarray = library("xarray", "a set of runs", "sweep")
         found = xarray.open_zarr(self.folder / SIGNALS, consolidated=False, chunks=None, zarr_format=3)
         count = len(self.table)
         found = found.isel({RUN: slice(0, int(self.table[RUN].max()) + 1)})
@@ -211,7 +212,7 @@ class LabelledSet:
         labels: Sequence[str] = ("condition",),
     ) -> TorchRuns:
         """Give the runs of a part as a ``torch.utils.data.Dataset``: see `torch_data.TorchRuns`."""
-        library("torch", extra="torch")
+        library("torch", "a set as a PyTorch dataset", "torch")
         from beardyn_core.population.torch_data import TorchRuns
 
         return TorchRuns(self, part, tuple(signals), tuple(labels))

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TEST, TRAIN, LabelledSet
-from beardyn_core.population.store import library
 
 WIDTH = "fault_width_m"
 # Levels against 1 m/s^2 and the place of the band depend on where the sensor sits and what machine it is: a
@@ -66,7 +66,7 @@ class Learner:
         InputError
             There are too few of them.
         """
-        library("sklearn.ensemble")
+        library("sklearn.ensemble", "the baseline", "sweep")
         from sklearn.ensemble import RandomForestClassifier, RandomForestRegressor
 
         chosen = runs.runs_of(part)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.population.batch import Array, Batch
 
 SIGNALS = "signals.zarr"
@@ -111,26 +111,7 @@ def zarr_library() -> Any:
     InputError
         It is not installed.
     """
-    try:
-        import zarr
-    except ImportError:
-        return library("zarr")  # says what to install
+    library("zarr", "a set of runs", "sweep")  # says what to install
+    import zarr
+
     return zarr
-
-
-def library(name: str, extra: str = "sweep") -> Any:
-    """Import a library of an extra.
-
-    Raises
-    ------
-    InputError
-        It is not installed.
-    """
-    import importlib
-
-    try:
-        return importlib.import_module(name)
-    except ImportError as error:
-        raise InputError(
-            f"this needs {name.partition('.')[0]} ({error}); install it with `pip install 'beardyn[{extra}]'`"
-        ) from None

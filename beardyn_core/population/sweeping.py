@@ -122,6 +122,7 @@ def conduct(
             with held_back(), Engine(cluster, say) as engine:
                 _check(engine, plan, rows)
                 here.run(engine, store, missing)
+        about["wall_s"] = round(about.get("wall_s", 0.0) + time.monotonic() - begun, 1)
         with whole():
             close_set(folder, plan, about, done, cluster)
     finally:
@@ -186,7 +187,7 @@ class _Go:
                 self._done[made["labels"]["run"]] = made
                 self._failed += made["labels"]["status"] == FAILED
                 self.count += 1
-        self._tell(engine)
+            self._tell(engine)  # before Ctrl-C is answered: it says how many are done
 
     def _same_code(self, batch: Batch) -> None:
         """Refuse a worker whose bits would be others."""

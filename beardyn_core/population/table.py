@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.optional import library
 from beardyn_core.outputs import as_a_whole
-from beardyn_core.population.store import library
 from beardyn_core.scene.sweep import Split
 from beardyn_core.units import UNITS
 
@@ -81,7 +81,10 @@ def write_table(
     about : mapping
         Facts of the set, in the metadata of the file.
     """
-    arrow, parquet = library("pyarrow"), library("pyarrow.parquet")
+    arrow, parquet = (
+        library("pyarrow", "a set of runs", "sweep"),
+        library("pyarrow.parquet", "a set of runs", "sweep"),
+    )
     names = list(dict.fromkeys(name for row in rows for name in row))
     fields, columns = [], []
     for name in names:
@@ -114,11 +117,13 @@ def _alike(values: list[Any]) -> list[Any]:
 
 def read_rows(path: Path) -> list[dict[str, Any]]:
     """Read the rows of a table."""
-    found: list[dict[str, Any]] = library("pyarrow.parquet").read_table(path).to_pylist()
+    found: list[dict[str, Any]] = (
+        library("pyarrow.parquet", "a set of runs", "sweep").read_table(path).to_pylist()
+    )
     return found
 
 
 def units_of(path: Path) -> dict[str, str]:
     """Read the units of the columns of a table; '' without."""
-    schema = library("pyarrow.parquet").read_schema(path)
+    schema = library("pyarrow.parquet", "a set of runs", "sweep").read_schema(path)
     return {field.name: ((field.metadata or {}).get(b"unit", b"")).decode() for field in schema}

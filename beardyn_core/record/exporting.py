@@ -12,6 +12,7 @@ import numpy as np
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.monitoring import measured_axes
+from beardyn_core.optional import library
 from beardyn_core.outputs import as_a_whole, file_problems, write_whole
 from beardyn_core.record import tables
 
@@ -103,8 +104,8 @@ def _usual(run: Run, kind: str) -> tuple[str, ...]:
 
 
 def _write_parquet(run: Run, path: Path, name: str) -> None:
-    pyarrow = tables.library("pyarrow", "Parquet")
-    parquet = tables.library("pyarrow.parquet", "Parquet")
+    pyarrow = library("pyarrow", "Parquet", "data")
+    parquet = library("pyarrow.parquet", "Parquet", "data")
     table = pyarrow.table(tables.columns_of(run, name))
     labels = {key: str(value) for key, value in tables.labels_of(run).items() if key != "truth"}
     found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **labels}
@@ -130,7 +131,7 @@ def _write_npz(run: Run, path: Path, names: Sequence[str]) -> None:
 
 
 def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
-    h5py = tables.library("h5py", "HDF5")
+    h5py = library("h5py", "HDF5", "data")
     memory = BytesIO()  # a disk that is full in between would leave HDF5 with handles it cannot close
     with h5py.File(memory, "w") as file:
         for key, value in tables.labels_of(run).items():

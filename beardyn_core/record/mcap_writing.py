@@ -10,7 +10,6 @@ from time import monotonic
 from typing import Any
 
 import numpy as np
-import yaml
 from mcap.well_known import MessageEncoding, SchemaEncoding
 from numpy.typing import NDArray
 
@@ -18,8 +17,8 @@ from beardyn_core.arrays import Int
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
 from beardyn_core.record.background_file import BackgroundFile
-from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, yaml_text
-from beardyn_core.record.chunk_writing import MESSAGE_BYTES, ChunkWriter
+from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, type_hash, yaml_text
+from beardyn_core.record.chunk_writing import LEVEL, MESSAGE_BYTES, ChunkWriter
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
@@ -55,6 +54,8 @@ class McapWriter:
         Whether an existing file is replaced; otherwise it is an `InputError`.
     background : bool
         Whether a thread writes, so that a slow disk does not hold up the caller.
+    level : int
+        Of zstd.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class McapWriter:
         *,
         replace: bool = False,
         background: bool = False,
+        level: int = LEVEL,
     ) -> None:
         self.path = Path(path)
         self._namespace = namespace
@@ -77,7 +79,7 @@ class McapWriter:
         self._file: Any = file
         if background:
             self._file = BackgroundFile(file)
-        self._writer = ChunkWriter(self._file)  # chunks end where `add_rows` and `flush_if_due` say
+        self._writer = ChunkWriter(self._file, level)  # chunks end where `add_rows` and `flush_if_due` say
         self._chunk_bytes = 0
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
@@ -231,8 +233,8 @@ class McapWriter:
             MessageEncoding.CDR,
             schema,
             {
-                "offered_qos_profiles": yaml.safe_dump([qos_profile(entry)], sort_keys=False),
-                "topic_type_hash": typestore().hash_rihs01(entry.type),
+                "offered_qos_profiles": yaml_text([qos_profile(entry)]),
+                "topic_type_hash": type_hash(entry.type),
             },
         )
         self._channels[entry.name], self._counts[entry.name] = channel, 0

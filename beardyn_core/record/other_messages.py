@@ -30,11 +30,11 @@ _LONGEST_LIST = 3  # components of a vector; a longer list in a message is a str
 def is_recording(path: Path | str) -> bool:
     """Tell whether a path means a recording of an axlebox, not a file of another tool.
 
-    A folder, and a file that cannot be read, count as one: reading it says what is wrong.
+    A folder, and an MCAP file that there is not, count as one: reading it says what is wrong.
     """
     path = Path(path)
     if not path.is_file() or is_folder_of_files(path):
-        return True
+        return path.is_dir() or path.suffix.lower() == ".mcap"
     with path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
             return False

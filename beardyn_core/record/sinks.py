@@ -11,6 +11,7 @@ import numpy as np
 from beardyn_core.model.build import BLOCK_NS
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.summary import RunSummary
+from beardyn_core.record.chunk_writing import QUICK_LEVEL
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
     DIAGNOSTICS_EVERY,
@@ -130,7 +131,8 @@ class TrainSink:
     def open(self, runs: Mapping[str, RunDescription]) -> None:
         """Create the file."""
         self._messages = {box: RunMessages(run, box, self._pictures) for box, run in runs.items()}
-        self._writer = McapWriter(self._path, f"/{next(iter(runs))}", replace=self._replace)
+        namespace = f"/{next(iter(runs))}"
+        self._writer = McapWriter(self._path, namespace, replace=self._replace, level=QUICK_LEVEL)
 
     def encode(self, box: str, block: Block) -> list[Batch]:
         """Make the messages of a block; for different boxes from different threads."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.scene.load import WRENCH_AXES
@@ -161,7 +161,7 @@ def to_pandas(run: Run, signal: str = VIBRATION) -> Any:
     InputError
         pandas is not installed, or there is no such signal.
     """
-    pandas = library("pandas", "to_pandas")
+    pandas = library("pandas", "to_pandas", "data")
     frame = pandas.DataFrame(columns_of(run, signal)).set_index("time")
     frame.attrs = labels_of(run)
     return frame
@@ -180,7 +180,7 @@ def to_xarray(run: Run) -> Any:
     InputError
         xarray is not installed.
     """
-    xarray = library("xarray", "to_xarray")
+    xarray = library("xarray", "to_xarray", "data")
     variables, coordinates = {}, {}
     for name in signal_names(run):
         time = f"time_{name}"
@@ -197,19 +197,3 @@ def labels_of(run: Run) -> dict[str, Any]:
     """Give the labels that have a value, and the whole truth as JSON, for attributes of files and tables."""
     labels = {key: value for key, value in run.labels.items() if value is not None}
     return {**labels, "truth": json.dumps(run.truth)}
-
-
-def library(name: str, purpose: str) -> Any:
-    """Import an optional library.
-
-    Raises
-    ------
-    InputError
-        It is not installed.
-    """
-    try:
-        return importlib.import_module(name)
-    except ImportError as error:
-        raise InputError(
-            f"{purpose} needs {name}, which is not installed; install it with: pip install 'beardyn[data]'"
-        ) from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
@@ -19,9 +20,10 @@ _ROWS = 2
 # A deviation is normal with a quarter of the lot's variation, cut at half of it: sorting takes the rest out.
 CUT = 2.0
 _TRIES = 24  # draws for each number; 0.0455^24 is no chance
-# Orders whose rms is given, and the last one: contacts, 0.3 mm wide, pass on less of what is shorter than
-# that, under 1 mm, and at 300 km/h it is beyond the band of the waveforms.
+# Orders whose rms is given, and the last one unless `shortest_wave` says which: contacts, 0.3 mm wide, pass
+# on less of what is shorter than that, under 1 mm, and at 300 km/h it is beyond the band of the waveforms.
 RACEWAY_ORDERS, ROLLER_ORDERS = (2, 300, 600), (2, 60, 120)
+HALF_CONTACT = 1.5e-4  # [m]
 _SHAPES = {"cup": RACEWAY_ORDERS, "cone": RACEWAY_ORDERS, "roller": ROLLER_ORDERS}
 _MICRON = 1e-6
 
@@ -96,6 +98,12 @@ class Scatter:
         _variation(20.0),
         "rms of every roller, orders 2 to 60; amplitudes fall with 1/order, up to order 120",
     ] = None
+    shortest_wave: A[
+        float | None,
+        At("mm", ge=0.1, le=10.0),
+        "where the waves of all surfaces end, as far as contacts 0.3 mm wide pass them on, "
+        "instead of with orders 600 and 120",
+    ] = None
 
     def variation(self, name: str) -> float:
         """Take the variation of a quantity (rms of a waviness): its own key, or that of the grade, [m]."""
@@ -140,13 +148,16 @@ class Scatter:
         rows = np.concatenate([self._drawn("row_clearance", row, 1) for row in range(_ROWS)])
         return Deviations(**each, row_clearance=rows)
 
-    @property
-    def waves(self) -> tuple[Waviness, ...]:
-        """Waviness of all surfaces, with phases from the seed.
+    def waves(self, bearing: Bearing) -> tuple[Waviness, ...]:
+        """Make the waviness of all surfaces, with phases from the seed.
 
         Grinding leaves waves of every length, by one law from waviness to roughness; it is followed to waves
         about 1 mm long. Without the short ones a bearing would be silent above a few kilohertz, and what
         little it has there, of rollers that enter the load zone, would stand out like a fault.
+
+        With `shortest_wave` they go on, and what a wave moves is weakened as the width of a contact weakens
+        it, see `passed_on`. All waves are taken to be the same along the generator line, which for short ones
+        is an upper bound: grinding leaves scratches that are narrower than a roller is long.
 
         References
         ----------
@@ -158,9 +169,14 @@ class Scatter:
             rms = self.variation("roller_waviness" if on == "roller" else "raceway_waviness")
             if rms:
                 longest = first * band_amplitudes(first, last, rms)[0]
-                orders = tuple(range(first, bridged + 1))
-                amplitudes = tuple(longest / order for order in orders)
-                found += [Waviness(on, row, orders, amplitudes, None, self._wave_seed(on)) for row in (0, 1)]
+                amplitudes = longest / np.arange(first, bridged + 1)
+                if self.shortest_wave is not None:
+                    around = _circumference(on, bearing)
+                    order = np.arange(first, max(first, int(around / self.shortest_wave)) + 1)
+                    amplitudes = longest / order * passed_on(around / order)
+                orders = tuple(range(first, first + len(amplitudes)))
+                heights = tuple(amplitudes.tolist())
+                found += [Waviness(on, row, orders, heights, None, self._wave_seed(on)) for row in (0, 1)]
         return tuple(found)
 
     def _wave_seed(self, on: str) -> int:
@@ -173,3 +189,41 @@ class Scatter:
         own: dict[str, Any] = {name: self.variation(name) for name in _OF_G1}
         full = replace(self, **own)
         return {**written(full), "deviations_m": self.deviations(bearing).by_name()}
+
+
+def passed_on(wavelength: Float, half_contact: float = HALF_CONTACT) -> Float:
+    """Compute which part of a wave's amplitude moves the bodies of a contact of finite width.
+
+    Parameters
+    ----------
+    wavelength : array
+        [m].
+    half_contact : float
+        Half width of the contact, [m].
+
+    Returns
+    -------
+    array
+        1 for long waves; for short ones the envelope of a Bessel function, `sqrt(2 / (pi k b))`.
+
+    Notes
+    -----
+    Of an elastic contact that carries a given load, a small gap moves the bodies by its mean, weighted by the
+    pressure under a flat rigid punch as wide as the contact (by reciprocity): for a wave that is `J0(k b)`.
+    Its zeros are at other wavelengths under every roller, therefore the envelope.
+
+    References
+    ----------
+    Johnson (1985), Contact mechanics, equation 2.64: the pressure under a flat rigid punch.
+    """
+    turns = 2.0 * np.pi * half_contact / wavelength
+    return np.asarray((1.0 + (0.5 * np.pi * turns) ** 2) ** -0.25)
+
+
+def _circumference(on: str, bearing: Bearing) -> float:
+    diameter = {
+        "cup": bearing.pitch_diameter + bearing.roller_diameter,
+        "cone": bearing.pitch_diameter - bearing.roller_diameter,
+        "roller": bearing.roller_diameter,
+    }[on]
+    return math.pi * diameter

@@ -144,7 +144,7 @@ class Scene:
     @property
     def waves(self) -> tuple[Waviness, ...]:
         """All waves of raceways and rollers: those that are given and those of the scatter."""
-        return (*self.waviness, *(self.scattered.waves if self.scattered else ()))
+        return (*self.waviness, *(self.scattered.waves(self.bearing) if self.scattered else ()))
 
     @property
     def fault_sentences(self) -> tuple[str, ...]:

@@ -18,7 +18,9 @@ try:
 except ImportError:  # a system without file locks
     fcntl = None  # type: ignore[assignment]
 
-_KINDS = cache_folder(Path(twin.__file__)) / "kinds"  # of this version of all that is compiled
+# of this version of all that is compiled, and of this place: numba keeps kernels by the path of their source
+_PLACE = hashlib.sha256(str(Path(twin.__file__).resolve().parent).encode()).hexdigest()[:16]
+_KINDS = cache_folder(Path(twin.__file__)) / "kinds" / _PLACE
 _ready: set[Hashable] = set()
 _readying = threading.Lock()
 

@@ -44,7 +44,11 @@ class Progress:
 
     def hear(self, verdict: str) -> None:
         """Keep the latest verdict of the monitor."""
-        self._monitor = {"waiting": "listening", "healthy": "no fault"}.get(verdict, f"{verdict} fault")
+        self._monitor = {
+            "waiting": "listening",
+            "healthy": "no fault",
+            "not_diagnosable": "hears nothing",
+        }.get(verdict, f"{verdict} fault")
 
     def show(self, simulated: float, real_time_factor: float) -> None:
         """Show where the run is, in simulated seconds."""

@@ -1,14 +1,15 @@
 """The ladder: a scene over tiers, effects, laminae and steps against a converged reference of itself.
 
-All levels get the same load history and sensor noise, one after the other in one process. Repeated runs begin
-a hair apart: `varied`.
+All levels get the same load history and sensor noise, one after the other in one process of the engine, for
+they are timed. Repeated runs begin a hair apart: `varied`.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Annotated as A
 from typing import Any
@@ -18,6 +19,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
+from beardyn_core.engine import Cluster, Engine
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history, load_of_run
@@ -62,8 +64,17 @@ class Run:
     status: str
 
 
+@dataclass(frozen=True)
+class Attempt:
+    """One of the runs of a level."""
+
+    place: A[int, "of the level in the ladder; 0 is the reference"]
+    level: Level
+    number: A[int, "0 is the scene itself, see `varied`"]
+
+
 Progress = Callable[[str, float], None]
-Runner = Callable[[Scene, Plan, Callable[[], None]], Run]
+Runner = Callable[[Scene, Plan], Run]
 
 
 def plan_of(scene: Scene, duration: float | None = None, settling: float | None = None) -> Plan:
@@ -135,7 +146,7 @@ def varied(scene: Scene, number: int) -> Scene:
     return replace(scene, end_play=scene.end_play + _VARIED_END_PLAY * number)
 
 
-def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
+def simulate(scene: Scene, plan: Plan) -> Run:
     """Run a scene of a level; compiling and starting are not timed."""
     twin, collector = Twin(scene), SignalCollector()
     walls: list[float] = []
@@ -150,8 +161,6 @@ def simulate(scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
             walls += count * [(time.perf_counter() - began) / (count * 1e-9 * twin.block_ns)]
             warnings |= block.status
             collector.add(block)
-            for _ in range(count):
-                on_block()
     except ValidityError as error:
         return Run(None, np.array(walls), str(error))
     settled = math.ceil(plan.settling / (1e-9 * twin.block_ns))
@@ -181,9 +190,21 @@ def repeats_of(level: Level) -> int:
 
 def expected_wall(levels: LevelList, plan: Plan) -> float:
     """Return the wall time to expect of a ladder, for the time left, [s]."""
-    costs = REFERENCE_RUNS * expected_cost(levels.reference)
-    costs += sum(repeats_of(level) * expected_cost(level) for level in levels.levels)
-    return costs * plan.block_count * Twin.block_ns * 1e-9
+    return sum(_expected(attempt, plan) for attempt in attempts(levels))
+
+
+def attempts(levels: LevelList) -> list[Attempt]:
+    """List all runs of a ladder, the reference first, then the cheapest level first."""
+    repeats = [(levels.reference, REFERENCE_RUNS), *((level, repeats_of(level)) for level in levels.levels)]
+    return [
+        Attempt(place, level, number)
+        for place, (level, count) in enumerate(repeats)
+        for number in range(count)
+    ]
+
+
+def _expected(attempt: Attempt, plan: Plan) -> float:
+    return expected_cost(attempt.level) * plan.block_count * Twin.block_ns * 1e-9
 
 
 def climb(
@@ -205,9 +226,9 @@ def climb(
     asked : tuple of str
         Quantities it is asked of.
     progress : callable, optional
-        Told after every block which level it was of, and the wall time that was expected of it, [s].
+        Told which level is next, and the wall time that was expected of the run before, 0 at first, [s].
     runner : callable, optional
-        Runs one scene; `simulate` when left out.
+        Runs one scene in this process; when left out, `simulate` does in a process of the engine.
 
     Returns
     -------
@@ -221,27 +242,27 @@ def climb(
     ValidityError
         When the reference leaves the model's validity.
     """
-    runner = runner or simulate
-
-    def run(level: Level, number: int) -> Run:
-        expected = expected_cost(level) * Twin.block_ns * 1e-9
-        return runner(varied(level.applied(plan.scene), number), plan, lambda: progress(level.name, expected))
-
-    truth: list[Run] = []
-    rows: list[LevelResult] = []
+    todo = attempts(levels)
+    done: list[list[Run]] = [[] for _ in (levels.reference, *levels.levels)]
     interrupted = False
     try:
-        for number in range(REFERENCE_RUNS):
-            truth.append(run(levels.reference, number))
-            if truth[-1].outcome is None:
-                raise ValidityError(f"the reference cannot be computed: {truth[-1].status}")
-        for level in levels.levels:
-            done = [run(level, number) for number in range(repeats_of(level))]
-            rows.append(_result(level, done, truth))
+        with _runs(plan, todo, runner) as runs:
+            progress(todo[0].level.name, 0.0)
+            for count, (attempt, run) in enumerate(runs, start=1):
+                if attempt.place == 0 and run.outcome is None:
+                    raise ValidityError(f"the reference cannot be computed: {run.status}")
+                done[attempt.place].append(run)
+                progress(todo[min(count, len(todo) - 1)].level.name, _expected(attempt, plan))
     except KeyboardInterrupt:
-        if len(truth) < 2:
+        if len(done[0]) < 2:
             raise
         interrupted = True
+    truth = done[0]
+    rows = [
+        _result(level, runs, truth)
+        for level, runs in zip(levels.levels, done[1:], strict=True)
+        if len(runs) == repeats_of(level)
+    ]
     reference = _result(levels.reference, truth, truth)
     return Ladder(
         scene=plan.scene.name,
@@ -257,6 +278,26 @@ def climb(
         rows=tuple(rows),
         interrupted=interrupted,
     )
+
+
+@contextmanager
+def _runs(
+    plan: Plan, todo: Sequence[Attempt], runner: Runner | None
+) -> Iterator[Iterator[tuple[Attempt, Run]]]:
+    """Give what comes of runs: of one process of the engine, or of a runner in this one."""
+    if runner is not None:
+        yield ((each, runner(varied(each.level.applied(plan.scene), each.number), plan)) for each in todo)
+        return
+    with Engine(Cluster(workers=1)) as engine:
+        yield (
+            (ended.task, ended.value or Run(None, np.empty(0), f"{ended.killed} processes died of it"))
+            for ended in engine.run(_run_of, todo, plan)
+        )
+
+
+def _run_of(attempt: Attempt, plan: Plan) -> Run:
+    """Do a run in a process of the engine."""
+    return simulate(varied(attempt.level.applied(plan.scene), attempt.number), plan)
 
 
 def _result(level: Level, runs: list[Run], truth: list[Run]) -> LevelResult:

@@ -21,7 +21,7 @@ from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME
 
-WAITING, HEALTHY = "waiting", "healthy"
+WAITING, HEALTHY, NOT_DIAGNOSABLE = "waiting", "healthy", "not_diagnosable"
 HOT_BOX = "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 
@@ -30,7 +30,7 @@ FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 class Finding:
     """One result of the monitor, without its spectrum."""
 
-    verdict: A[str, "``waiting``, ``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
+    verdict: A[str, "one of `beardyn_core.observe.chain.VERDICTS`"]
     reason: A[str, "the verdict in a sentence"]
     time: A[float, "simulated time of the last sample analysed, [s]"]
     found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
@@ -81,12 +81,12 @@ class Finding:
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
-        """Write as a status of ``monitor/result``: a fault is a warning, a hot box an error."""
+        """Write as a status of ``monitor/result``: a fault, or deafness, is a warning, a hot box an error."""
         values = [("verdict", self.verdict)]
         for member in fields(self)[2:]:
             number = float(getattr(self, member.name))
             values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
-        level = 2 if self.verdict == HOT_BOX else int(self.is_fault)
+        level = 2 if self.verdict == HOT_BOX else int(self.is_fault or self.verdict == NOT_DIAGNOSABLE)
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
     @classmethod

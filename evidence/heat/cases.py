@@ -40,7 +40,6 @@ class State:
 
 
 HEALTHY = State("healthy")
-FILLED = State("10 % of grease between the rollers", fill=0.1)
 FRESH = State("freshly greased", supply="fresh", fill=0.1)
 OVERGREASED = State("overgreased", supply="fresh", fill=0.3)
 PRELOADED = State("preloaded by 60 um", end_play=-6.0e-5)
@@ -114,10 +113,10 @@ def steady(state: State, speed_kmh: float) -> SteadyHeat:
 
 
 @cache
-def of_car(car: Resistance, state: State = HEALTHY) -> SteadyHeat:
+def of_car(car: Resistance) -> SteadyHeat:
     """Find the steady state of a bearing under the load and at the speed of a car."""
     force = (0.0, 0.0, car.load)
-    return steady_heat(scene_of(state, car.speed_kmh, force=force, wheel_diameter=car.wheel_diameter))
+    return steady_heat(scene_of(HEALTHY, car.speed_kmh, force=force, wheel_diameter=car.wheel_diameter))
 
 
 @cache
@@ -183,6 +182,15 @@ TEMPERATURES_C = (-20.0, 0.0, 20.0, 40.0, 70.0, 100.0)
 SPEEDS_RPM = (300.0, 600.0, 1165.0, 2000.0)
 SUPPLIED = ("channelled", "settled", "fresh", "flooded")
 _CONTACTS = ("rolling_resistance", "rib", "raceway_sliding")
+
+
+def torque_without_stiffening(temperature_c: float, speed_rpm: float) -> float:
+    """Compute the torque of all sources with settled grease and seals that no cold makes stiffer, [N m]."""
+    scene = replace(scene_of(HEALTHY, 200.0), temperature=temperature_c + 273.15)
+    assert scene.effects.seal is not None
+    seal = replace(scene.effects.seal, viscosity_exponent=0.0)
+    case = LoadCase("typical", (0.0, 0.0, LOAD), (0.0, 0.0, 0.0), speed_rpm * math.pi / 30.0)
+    return sum(torque_by_source(replace(scene, effects=replace(scene.effects, seal=seal)), case).values())
 
 
 @cache

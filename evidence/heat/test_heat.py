@@ -9,7 +9,6 @@ import pytest
 from beardyn_core.config import load_lubricant
 from beardyn_core.observe.chain import MonitorSettings
 from evidence.heat.cases import (
-    FILLED,
     HEALTHY,
     NTN_LIGHT,
     NTN_STATE,
@@ -25,6 +24,7 @@ from evidence.heat.cases import (
     steady,
     torque_grid,
     torque_point,
+    torque_without_stiffening,
 )
 from evidence.heat.published import (
     EMPTY,
@@ -95,21 +95,27 @@ def test_settled_grease_is_within_the_band_of_published_torques_at_service_tempe
     assert most < high
 
 
-def test_settled_grease_is_below_the_published_band_in_the_cold_as_the_page_says() -> None:
-    low, _ = published_band()
-    least = {temperature: settled_range(temperature)[0] / low for temperature in (-20.0, 0.0, 20.0)}
-    assert 0.4 < least[-20.0] < least[0.0] < least[20.0] < 1.0
-    assert least[20.0] > 0.8
+def test_stiff_seals_bring_the_torque_in_the_cold_into_the_published_band() -> None:
+    """Without them it is below, the less the colder; the band is of service temperature."""
+    low, high = published_band()
+    for temperature in (0.0, 20.0):
+        least, most = settled_range(temperature)
+        assert low < least
+        assert most < high
+    assert settled_range(-20.0)[0] > low
+    bare = [torque_without_stiffening(each, 300.0) / low for each in (-20.0, 0.0, 20.0)]
+    assert bare == sorted(bare)
+    assert bare[-1] < 1.0
 
 
 @pytest.mark.slow
 def test_healthy_boxes_are_as_warm_as_in_service_at_high_speed_and_cooler_below() -> None:
-    """In service 20 to 50 K above the air: ours at 300 km/h; below it is less, as the page says."""
+    """In service 20 to 50 K above the air: ours from 200 km/h on; below it is less, as the page says."""
     found = {speed: steady(HEALTHY, speed) for speed in SPEEDS_KMH}
     assert all(each.settles for each in found.values())
     rises = {speed: each.rise("axlebox") for speed, each in found.items()}
-    assert 20.0 < rises[300.0] < 50.0
-    assert 10.0 < rises[80.0] < rises[200.0] < 20.0
+    assert 20.0 < rises[200.0] < rises[300.0] < 50.0
+    assert 10.0 < rises[80.0] < 20.0
 
 
 @pytest.mark.slow
@@ -134,9 +140,8 @@ def test_little_grease_and_light_seals_are_what_the_rig_asks_for() -> None:
 @pytest.mark.parametrize(
     "car", [*(pytest.param(car, marks=pytest.mark.slow) for car in RUSSIAN_CARS[:-1]), RUSSIAN_CARS[-1]]
 )
-def test_more_grease_between_the_rollers_is_what_fast_light_cars_ask_for(car: Resistance) -> None:
-    """The cause that the validation page names; most of all for the fastest."""
-    found = of_car(car, FILLED)
+def test_freight_cars_have_the_torque_of_their_resistance(car: Resistance) -> None:
+    found = of_car(car)
     assert found.power / found.speed == pytest.approx(car.torque, rel=RUSSIAN_TOLERANCE)
 
 

@@ -46,6 +46,10 @@ class Case:
     caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
     damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
     depth: A[float, "of the floor of the spall, [m]"] = DEPTH
+    end_play: A[float, "below 0: preload, every roller carries, [m]"] = 1e-4
+    shortest_wave: A[float | None, "where the waves of all surfaces end, [m]"] = None
+    waves: A[bool, "raceways and rollers have the waves of their grade"] = True
+    steps: A[int, "a sample of 25.6 kHz"] = 8
 
     def scene(self) -> Scene:
         """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
@@ -60,8 +64,14 @@ class Case:
         patch = Patch(
             on=self.on, row=0, azimuth=0.0, width=self.width, depth=self.depth, length=self.length
         )  # fmt: skip
+        assert scene.scatter is not None
+        scatter = replace(scene.scatter, shortest_wave=self.shortest_wave)
+        if not self.waves:
+            scatter = replace(scatter, raceway_waviness=0.0, roller_waviness=0.0)
         return replace(
             scene,
+            scatter=scatter,
+            end_play=self.end_play,
             name=f"{self.on} {1e3 * self.width:g} mm",
             effects=effects,
             mounting=mounting_of(modes, scene.mounting, scene.bearing),
@@ -70,7 +80,7 @@ class Case:
             ),
             defects=(patch,) if self.width > 0.0 else (),
             sensors=(Accelerometer(noise_density=NOISE, range=RANGE, rate=RATES[1]),),
-            numerics=replace(scene.numerics, steps_per_sample=8),
+            numerics=replace(scene.numerics, steps_per_sample=self.steps),
         )  # fmt: skip
 
 
@@ -83,6 +93,22 @@ def healthy(speed: float, load: float = 8e4) -> Case:
     """Give the run of a sound bearing beside those at a speed [km/h] and load [N]."""
     return Case(0.0, speed, load)
 
+
+# what makes strikes of a sound bearing, taken away one by one
+LEFT_OUT: dict[str, Case] = {
+    "sound": healthy(90.0),
+    "waves to 0.2 mm": replace(healthy(90.0), shortest_wave=2e-4),
+    "waves to 0.5 mm": replace(healthy(90.0), shortest_wave=5e-4),
+    "no cages": replace(healthy(90.0), caged=False),
+    "no cages, half the step": replace(healthy(90.0), caged=False, steps=16),
+    "no cages, damping of 25 us": replace(healthy(90.0), caged=False, damping=25e-6),
+    "no cages, 0.2 mm of preload": replace(healthy(90.0), caged=False, end_play=-2e-4),
+    "no cages, no waves": replace(healthy(90.0), caged=False, waves=False),
+    "no cages, no waves, 0.2 mm of preload": replace(healthy(90.0), caged=False, waves=False, end_play=-2e-4),
+    "no cages, waves to 0.2 mm": replace(healthy(90.0), caged=False, shortest_wave=2e-4),
+    "200 km/h": healthy(200.0),
+    "200 km/h, waves to 0.2 mm": replace(healthy(200.0), shortest_wave=2e-4),
+}
 
 OVER_SPEED = tuple(Case(speed=speed) for speed in SPEEDS)
 PARTS = ("cup", "cone", "roller")
@@ -145,5 +171,5 @@ def every() -> list[Case]:
         found += [Case(speed=speed, on=part) for part in PARTS]
     found += [Case(10e-3, length=WHOLE, damping=time) for time in TIMES]
     found += [case for speed in BOTH for case in across(speed, TIMES[0])]
-    found.append(replace(healthy(90.0), caged=False))
+    found += LEFT_OUT.values()
     return list(dict.fromkeys(found))

@@ -29,7 +29,7 @@ SETTLED = 0.1  # first part of a run that is not looked at, [s]
 STRIKES = 20  # at least, of a cup spall in a run
 CAGE_TURNS = 8  # at least, with a spall elsewhere
 RATE = RATES[1]
-STEP_RATE = 8 * int(RATES[0])
+STEP_RATE = 8 * int(RATES[0])  # of all cases but one
 VERTICAL = 2
 BESIDE = 0.3  # lines of the background lie within this part of a fault line's frequency
 FAULTS = {"cup": ("bpfo", 1), "cone": ("bpfi", 1), "roller": ("bsf", 2)}
@@ -75,16 +75,16 @@ def run(case: Case) -> Run:
     heard = np.concatenate(signal)
     angle = np.asarray(speed * np.arange(len(heard)) / RATE, np.float64)
     moved = np.concatenate(motion)
-    azimuths = _azimuths(np.concatenate(orbit), np.concatenate(times), len(moved))
+    azimuths = _azimuths(np.concatenate(orbit), np.concatenate(times), len(moved), case.steps * int(RATES[0]))
     return Run(
         case, heard - heard.mean(), angle, moved,
         np.concatenate(force), azimuths, describe(status),
     )  # fmt: skip
 
 
-def _azimuths(angles: Float, times_ns: Int, count: int) -> Float:
+def _azimuths(angles: Float, times_ns: Int, count: int, rate: int) -> Float:
     """Take azimuths of rollers [trend, roller] to steps; after the last known one they stand still."""
-    wanted = 1e9 * (SETTLED + (np.arange(count) + 1.0) / STEP_RATE)
+    wanted = 1e9 * (SETTLED + (np.arange(count) + 1.0) / rate)
     turned = np.unwrap(angles, axis=0)
     return np.stack([np.interp(wanted, times_ns, each) for each in turned.T], axis=1)
 

@@ -7,7 +7,10 @@ cases          the records: faulty part, bearing, speed, and how they are read
 grades         how well the faults can be diagnosed at all, as published
 run            monitors over the records, and what is right, wrong or missed
 page           docs/monitor_measured.md
+speed          how often the interval of the heard speed holds, on records it was not fitted on
+spectra        other spectra than the chain's, on the part for choosing
 run_to_failure docs/run_to_failure.md: when the trend alarms
+levels         docs/levels.md: how loud faults of known size are, beside the twin's
 spall_width    docs/spall_width.md: widths found, of known ones
 ============== ===================================================================
 """

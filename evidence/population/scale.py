@@ -13,18 +13,20 @@ import psutil
 
 from beardyn_core.config import read_sweep
 from beardyn_core.engine import Cluster, Engine, core_count
+from beardyn_core.optional import library
 from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.folder import done_rows, size_of
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.plan import plan_of
-from beardyn_core.population.store import library
 from evidence.population.sets import TRAINED
 
 WORKERS = (1, 2, 4, 8)
+CORES = (1, 2)  # of real runs
+TOGETHER = 8  # runs of a task
 SLOW_S = 0.5  # of a simulated slow run: it waits and takes no core
 TASKS_A_WORKER = 12
-RUNS_TIMED = 16
+RUNS_TIMED = 24  # of each worker, beside as many that only make it warm
 BATCH = 64  # runs of a random batch
 REPEATS = 3
 
@@ -57,7 +59,9 @@ def engine_scaling() -> list[dict[str, float]]:
 
 def formats(runs: LabelledSet) -> list[dict[str, Any]]:
     """Write the vibration of a set in several ways; measure size and time to read a random batch."""
-    zarr, parquet, arrow = library("zarr"), library("pyarrow.parquet"), library("pyarrow")
+    zarr, parquet, arrow = (
+        library(name, "the comparison of formats", "sweep") for name in ("zarr", "pyarrow.parquet", "pyarrow")
+    )
     chosen = runs.runs_of()
     values = np.stack([runs.arrays["vibration"][int(run)] for run in chosen[:256]])
     count, random = len(values), np.random.default_rng(0)
@@ -115,38 +119,66 @@ def _size(path: Path, values: Any, count: int) -> dict[str, float]:
     return {"bytes_a_run": whole / count, "share": whole / values.nbytes}
 
 
-def processor_time() -> float:
-    """Measure the processor time of a run of the sweep, kernels compiled, [s]."""
-    sweep, label = read_sweep(TRAINED, runs=2 * RUNS_TIMED)
-    plan = plan_of(sweep, label)
-    rows = tuple(rows_of(sweep))
-    run_batch(rows[:RUNS_TIMED], plan)
-    began = time.process_time()
-    run_batch(rows[RUNS_TIMED:], plan)
-    return (time.process_time() - began) / RUNS_TIMED
+def core_scaling() -> list[dict[str, float]]:
+    """Measure real runs on one and on two processes: rate, processor time, time of workers without a run.
+
+    Wall times are those of a machine that may have other work; processor times, and the share of a worker's
+    time that it is in a run, are not.
+    """
+    rows = []
+    for workers in CORES:
+        count = RUNS_TIMED * workers
+        sweep, label = read_sweep(TRAINED, runs=2 * count)
+        plan, drawn = plan_of(sweep, label), rows_of(sweep)
+        tasks = [tuple(drawn[first : first + TOGETHER]) for first in range(0, 2 * count, TOGETHER)]
+        half = len(tasks) // 2
+        with Engine(Cluster(workers=workers)) as engine:
+            list(engine.run(run_batch, tasks[:half], plan))
+            before, own, began = _processor(engine), time.process_time(), time.perf_counter()
+            batches = [ended.value for ended in engine.run(run_batch, tasks[half:], plan)]
+            wall = time.perf_counter() - began
+            spent = _processor(engine) - before + time.process_time() - own
+        runs = [made for batch in batches for made in batch.made]
+        inside = sum(made.processor for made in runs)
+        rows.append(
+            {
+                "workers": workers,
+                "runs": len(runs),
+                "wall_s": wall,
+                "processor_s": inside / len(runs),
+                "besides_s": (spent - inside) / len(runs),
+                "bytes": max(batch.memory for batch in batches),
+                "busy": sum(made.seconds for made in runs) / (workers * wall),
+            }
+        )
+    return rows
+
+
+def _processor(engine: Engine) -> float:
+    """Sum the processor time of the scheduler and its workers, [s]."""
+    assert engine.local is not None
+    host = psutil.Process(engine.local.process_id)
+    times = [each.cpu_times() for each in (host, *host.children(recursive=True))]
+    return float(sum(each.user + each.system for each in times))
 
 
 def made(runs: LabelledSet) -> dict[str, Any]:
     """Say what a set has taken: from its journal and its files."""
     done = done_rows(runs.folder)
-    seconds = np.array([each["seconds"] for each in done.values()])
     return {
         "sweep": runs.about["sweep"],
         "runs": len(done),
         "failed": runs.about["failed"],
         "processes": len({each["worker"] for each in done.values()}),
         "cores": core_count(),
-        "median_s": float(np.median(seconds)),
-        "mean_s": float(seconds.mean()),
-        "total_s": float(seconds.sum()),
-        "processor_s": processor_time(),
+        "worker_s": sum(float(each["seconds"]) for each in done.values()),
         "bytes_a_run": size_of(runs.folder) / len(done),
     }
 
 
 def measure(runs: LabelledSet) -> dict[str, Any]:
     """Measure everything."""
-    return {"engine": engine_scaling(), "formats": formats(runs), "made": made(runs)}
+    return {"engine": engine_scaling(), "cores": core_scaling(), "formats": formats(runs), "made": made(runs)}
 
 
 def write(found: dict[str, Any], path: Path) -> None:

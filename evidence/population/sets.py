@@ -8,6 +8,7 @@ from typing import Any
 import beardyn_core as bd
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
+from beardyn_core.population.folder import SUMS
 from beardyn_core.population.labelled_set import LabelledSet
 
 TRAINED = "spalls"
@@ -37,10 +38,19 @@ def other_sweep(name: str, runs: int) -> dict[str, Any]:
     }
 
 
+def trained_set(folder: Path, runs: int | None, workers: int | None) -> LabelledSet:
+    """Open the set that the learner is trained on, or make it, or take it up where it was."""
+    folder.mkdir(exist_ok=True)
+    if (folder / TRAINED / SUMS).is_file():
+        return LabelledSet(folder / TRAINED)
+    changes: dict[str, Any] = {} if runs is None else {"runs": runs}
+    return bd.sweep(TRAINED, folder / TRAINED, workers=workers, progress=True, **changes)
+
+
 def other_set(name: str, folder: Path, runs: int, workers: int | None) -> LabelledSet:
     """Make a set of `OTHERS` in a folder, or take it up where it was; one that is complete is opened."""
     folder.mkdir(exist_ok=True)
     own = folder / name.replace(" ", "_")
-    if (own / "runs.parquet").is_file():
+    if (own / SUMS).is_file():
         return LabelledSet(own)
     return bd.sweep(other_sweep(name, runs), own, workers=workers, progress=True)

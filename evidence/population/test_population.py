@@ -32,15 +32,37 @@ def found() -> dict[str, Any]:
     made = {
         "runs": 2000,
         "failed": 3,
-        "median_s": 0.9,
-        "processor_s": 0.36,
+        "worker_s": 2400.0,
         "processes": 2,
         "cores": 2,
         "bytes_a_run": 4e5,
     }
     engine = [{"workers": 2, "runs": 24, "wall_s": 6.5, "efficiency": 0.92, "bytes": 1.5e8}]
+    cores = [
+        {
+            "workers": 1,
+            "runs": 24,
+            "wall_s": 10.0,
+            "processor_s": 0.34,
+            "besides_s": 0.02,
+            "busy": 0.95,
+            "bytes": 4e8,
+        },
+        {
+            "workers": 2,
+            "runs": 48,
+            "wall_s": 10.0,
+            "processor_s": 0.35,
+            "besides_s": 0.02,
+            "busy": 0.9,
+            "bytes": 4e8,
+        },
+    ]
     formats = [{"format": "Zarr", "bytes_a_run": 4e5, "share": 0.6, "read_s": 0.1}]
-    return {"gap": gap, "trained": 1400, "tier": "lumped", "made": made, "engine": engine, "formats": formats}
+    return {
+        "gap": gap, "trained": 1400, "tier": "lumped", "made": made, "engine": engine, "cores": cores,
+        "formats": formats,
+    }  # fmt: skip
 
 
 def test_the_page_says_what_was_measured() -> None:
@@ -48,10 +70,14 @@ def test_the_page_says_what_was_measured() -> None:
     assert "| unseen bearings | 8 | 88 % (90 %) | 88 % (90 %) | 21 % |" in text
     assert "| measured: CWRU | 8 | 50 % (90 %) | 50 % (90 %) | - |" in text
     assert "| cup | 1 | 3 |" in text
-    assert "2000 runs of 2 s, 3 of them failed" in text
+    assert "| all features | 88 % | **38 points** |" in text
+    assert "2000 runs of 2 s, 3 failed" in text
+    assert "busy with them for 20 min each" in text
+    # 3600 s x 90 % / (0.35 + 0.02) s
+    assert "| 2 | 48 | 0.350 s | 0.020 s | 90 % | 8757 | 400 MB |" in text
     # 1e4 runs of 0.36 s at 90 % are 1.1 h, 1e6 are 111 h and 400 GB
     assert "| 10 000 | 1.1 h |" in text
-    assert "| 1 000 000 | 111 h | 13.9 h | 0.43 h | 400 GB |" in text
+    assert "| 1 000 000 | 111 h | 14 h | 5.6 h | 400 GB | 20 MB/s |" in text  # the scheduler's 0.02 s a run
     assert "| 2 | 24 | 6.50 s | 92 % | 150 MB |" in text
 
 

@@ -8,12 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated as A
+from typing import NamedTuple
 
 import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.config.structure import modes_of_effects, mounting_of, table_path
 from beardyn_core.effects import ModalStructure
+from beardyn_core.engine import all_of, core_count
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.build import load_zone
@@ -21,7 +23,7 @@ from beardyn_core.structure.modes import Modes
 from beardyn_core.structure.table import read_table, table_text
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from beardyn_core.twin import Twin
-from evidence.hard.watch import Watch
+from evidence.hard.watch import Measures, Watch
 from evidence.standard import standard_scene
 from evidence.structure.study import BOX, unit
 
@@ -62,8 +64,15 @@ def scene_of(table: Path | str, highest: float | None = None) -> Scene:
     )
 
 
-def heard(scene: Scene) -> tuple[Float, Watch]:
-    """Run a scene: third octaves of its sensor, [dB], and what a watch has seen of energy and momentum."""
+class Heard(NamedTuple):
+    """What is heard of a run, and what it has kept of energy and momentum."""
+
+    levels: A[Float, "shape [band], third octaves of the sensor, [dB]"]
+    measures: Measures
+
+
+def heard(scene: Scene) -> Heard:
+    """Run a scene, with a watch over energy and momentum."""
     twin, watch, parts = Twin(scene), Watch(scene), []
     twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
     while twin.next_end_ns <= DURATION * 1e9:
@@ -72,7 +81,7 @@ def heard(scene: Scene) -> tuple[Float, Watch]:
         watch.see(twin, block, before)
         if block.start_ns >= SETTLED * 1e9:
             parts.append(block.vibration[0].acceleration)
-    return third_octave_levels(np.concatenate(parts), scene.sensors[0].rate), watch
+    return Heard(third_octave_levels(np.concatenate(parts), scene.sensors[0].rate), watch.measures())
 
 
 def kept() -> list[Kept]:
@@ -81,10 +90,9 @@ def kept() -> list[Kept]:
     zone, top = load_zone(len(modes.reads)), unit(modes, "axlebox_top", 2)
     yields, answer = modes.yielding(zone, zone), np.abs(modes.response(top, zone, FINE))
     found = []
-    for highest in HIGHEST:
+    runs = all_of(heard, [scene_of(BOX, highest) for highest in HIGHEST], workers=core_count())
+    for highest, (levels, measures) in zip(HIGHEST, runs, strict=True):
         fewer = modes.below(highest)
-        levels, watch = heard(scene_of(BOX, highest))
-        measures = watch.measures()
         assert measures.energy_residual is not None
         assert measures.momentum_residual is not None
         ratio = np.abs(fewer.response(top, zone, FINE)) / answer
@@ -106,12 +114,12 @@ def kept() -> list[Kept]:
 def chance() -> Float:
     """Run with all modes and the end play a nanometre wider, third octaves [dB]: what luck alone changes."""
     scene = scene_of(BOX)
-    return heard(replace(scene, end_play=scene.end_play + _NUDGE))[0]
+    return heard(replace(scene, end_play=scene.end_play + _NUDGE)).levels
 
 
 def rigid() -> Float:
     """Run in the same box without modes, third octaves [dB]."""
-    return heard(without(scene_of(BOX)))[0]
+    return heard(without(scene_of(BOX))).levels
 
 
 def without(scene: Scene) -> Scene:

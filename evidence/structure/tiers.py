@@ -1,4 +1,4 @@
-"""Boxes that bend in every tier: ``python -m evidence.structure.tiers``.
+"""Boxes that bend in every tier: ``python -m evidence.structure.tiers``, one process of the engine at a time.
 
 Deflection and largest roller load under 80 kN, processor time of a step, and third octaves and kurtosis of
 `cup_spall` against tier full with the same box.
@@ -15,6 +15,7 @@ from scipy.stats import kurtosis
 
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
+from beardyn_core.engine import all_of
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
@@ -65,17 +66,19 @@ def main() -> int:
     """Run and print both tables."""
     begin = time.monotonic()
     print("| tier | box | deflection um | largest load N | step us |\n|---|---|--:|--:|--:|")
-    for tier in STEPS:
-        for kind in KINDS:
-            deflection, load, step = carried(scene_of("static_80kN", tier, kind))
-            print(f"| {tier} | {kind} | {1e6 * deflection:.2f} | {load:.0f} | {1e6 * step:.2f} |", flush=True)
+    cases = [(tier, kind) for tier in STEPS for kind in KINDS]
+    bearing = all_of(carried, [scene_of("static_80kN", *case) for case in cases])  # its steps are timed
+    for (tier, kind), (deflection, load, step) in zip(cases, bearing, strict=True):
+        print(f"| {tier} | {kind} | {1e6 * deflection:.2f} | {load:.0f} | {1e6 * step:.2f} |", flush=True)
     names = [int(np.argmin(np.abs(BAND_CENTRES - band))) for band in BANDS_HZ]
     print(f"\n| against full, dB at Hz | {' | '.join(map(str, BANDS_HZ))} | kurtosis (full) |")
     print("|---|" + "--:|" * (len(BANDS_HZ) + 1))
+    spalled = [(tier, kind) for kind in ("rigid", "modes") for tier in STEPS]
+    sound = dict(zip(spalled, all_of(heard, [scene_of("cup_spall", *each) for each in spalled]), strict=True))
     for kind in ("rigid", "modes"):
-        whole, pulses = heard(scene_of("cup_spall", "full", kind))
+        whole, pulses = sound["full", kind]
         for tier in ("quasistatic", "lumped"):
-            levels, sharp = heard(scene_of("cup_spall", tier, kind))
+            levels, sharp = sound[tier, kind]
             row = " | ".join(f"{levels[i] - whole[i]:+.1f}" for i in names)
             print(f"| {tier}, {kind} | {row} | {sharp:.1f} ({pulses:.1f}) |", flush=True)
     print(f"\n{time.monotonic() - begin:.0f} s")

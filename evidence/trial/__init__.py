@@ -1,9 +1,10 @@
 """The monitor on trial, on a page. The trial itself is a command, `beardyn trial`.
 
-====== ==============================================================
-module responsibility
-====== ==============================================================
-page   docs/trial.md and its picture from what the command wrote
-tiers  a spall in service in two tiers, and the noise that it stands out of
-====== ==============================================================
+======= ==============================================================
+module  responsibility
+======= ==============================================================
+page    docs/trial.md and its picture from what the command wrote
+tiers   a spall in service in two tiers, and the noise that it stands out of
+pockets  slip, spacing and lines of sound bearings in two tiers
+======= ==============================================================
 """

@@ -40,8 +40,8 @@ BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line
 noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
 order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
 whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
-measured. [monitor_measured.md](monitor_measured.md) has what the chain says of measured bearings. The
-scores in the tables above are of the chain before whitening.
+measured, and must strike with {deep:g} of it. [monitor_measured.md](monitor_measured.md) has what the chain
+says of measured bearings. The scores in the tables above are of the chain before whitening.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the
@@ -60,10 +60,12 @@ how sidebands count, the limits of the band and when a part is not called were s
 of them of `quick`; `default` has other speeds and seeds, but no other twin.
 
 Sure is not enough: a sound bearing has lines of its own, of rollers that enter the load zone and of waves
-that they pass again and again, and under a quiet sensor they are no chance. A pattern is called only when
-it is loud, {burst:g} m/s² of vibration that comes and goes, or deep, {depth:g} of the power in its band
-beside the strikes of the wheel: bounds set on measured records ([monitor_measured.md](monitor_measured.md))
-and on runs of the twin.
+that they pass again and again, and under a quiet sensor they are no chance. They are smooth, so that one
+harmonic holds most of them; a spall gives short strikes, which have many. A pattern is called only when its
+harmonics but the loudest, of {harmonics}, make {whole:g} of the mean power in the signal as measured, beside
+the strikes of the wheel, or in one octave (1.6, 3.2 or 6.4 kHz and up) {cup:g} on
+the cup, with which sound rollers pass, too, and {others:g} on cone and rollers. The bounds were set on
+measured records ([monitor_measured.md](monitor_measured.md)) and on sound runs of the twin.
 `beardyn trial healthy` runs 30 sound bearings with a sensor noise of 3e-4 m/s²/√Hz in two tiers and tells
 every alarm with part, frequency and band.
 
@@ -95,7 +97,8 @@ LIMITS = """
 - **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
   pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
   sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
-- **Fast tiers** have no cage slip and no skid, so their lines are sharper than those of the full tier; the
+- **Fast tiers** had no cage slip and no skid when these runs were made (`quasistatic` has them now), so
+  their lines are sharper than those of the full tier; the
   check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
 - **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings
   are left out, and with them the cone's part of the load zone.
@@ -117,9 +120,12 @@ def page(found: dict[str, Any]) -> str:
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,
-        burst=settings.least_burst,
-        depth=settings.least_depth,
+        harmonics=settings.strike_harmonics,
+        whole=settings.least_strikes,
+        cup=settings.least_sharpest[0],
+        others=settings.least_sharpest[1],
         clockwork=settings.clockwork_depth,
+        deep=settings.clockwork_strikes,
         hot=settings.hot - 273.15,
         heating=60.0 * settings.heating,
         floor=settings.heating_floor - 273.15,

@@ -64,13 +64,9 @@ SERVICE = (
 )
 # One round figure; speed, air and load are not told.
 SERVICE_TOLERANCE: float = 20.0
-CAR_MISSES = {
-    120.0: "churning: with 10 % of grease between the rollers instead of 2 % ours is 3.06 N m, and the three "
-    "others agree as well"
-}
 RIG_MISSES = (
     "churning and rolling couple: with channelled grease, 0.5 % of it between the rollers and seals of "
-    "0.05 N m ours is 21.6 K; the source does not tell how long the bearing had run"
+    "0.05 N m ours is 23.4 K; the source does not tell how long the bearing had run"
 )
 SKF_MISSES = (
     "the couple of settled grease: with fresh grease ours is 0.77 to 1.10 of the model, and measured "
@@ -100,13 +96,13 @@ CLASS_K = (
         STANDARD,
         FCALC,
         "the seals: with 3.9 N m each instead of 1.2, by what the source's two kinds differ, ours is "
-        "17.2 N m",
+        "17.6 N m",
     ),
     (
         EMPTY,
         FCALC,
         "the source gives loaded and empty cars one figure: with seals of 3.9 N m each instead of 0.3 ours "
-        "is 11.5 N m, but 17.2 loaded; no cause was found that serves both",
+        "is 13.4 N m, but 17.6 loaded; no cause was found that serves both",
     ),
     (MANIFEST, ALTRIOS, ""),
 )
@@ -118,7 +114,7 @@ def class_k_torque(axle: AxleResistance) -> float:
 
 
 SERVICE_MISSES = (
-    "the surroundings: in air of 40 °C ours is 96 °C, with 0.4 m2 of box in the air, not 0.6, it is 90 °C; "
+    "the surroundings: in air of 40 °C ours is 95 °C, with 0.4 m2 of box in the air, not 0.6, it is 89 °C; "
     "the source tells neither"
 )
 
@@ -137,14 +133,13 @@ FLEET_SOURCE = (
 )
 # an eighth of the body and a quarter of a bogie of emu_300
 BOTH_SPEEDS = (
-    "; from 200 to 300 km/h the train's boxes lose 4 K above the air, ours gain 10, and no cause was found "
+    "; from 200 to 300 km/h the train's boxes lose 4 K above the air, ours gain 8, and no cause was found "
     "that serves both"
 )
 FLEET_MISSES = {
-    ("first place", 200.0): "air at the box: with 10 % of the train's speed instead of 30 % ours is 51 °C"
+    ("first place", 200.0): "air at the box: with 10 % of the train's speed instead of 30 % ours is 52 °C"
     + BOTH_SPEEDS,
-    ("first place", 300.0): "the seals: with 0.6 N m each instead of 0.3 ours is 54 °C" + BOTH_SPEEDS,
-    ("second place", 200.0): "air and seals: with 10 % of the train's speed and 0.6 N m ours is 57 °C"
+    ("second place", 200.0): "air and seals: with 10 % of the train's speed and 0.6 N m ours is 58 °C"
     + BOTH_SPEEDS,
     ("second place", 300.0): "the seals: with 1.2 N m each instead of 0.3 ours is 62 °C" + BOTH_SPEEDS,
 }
@@ -206,7 +201,6 @@ ANCHORS = (
             RUSSIAN,
             partial(car_torque, car),
             tolerance=RUSSIAN_TOLERANCE,
-            misses=CAR_MISSES.get(car.speed_kmh, ""),
             slow=car is not RUSSIAN_CARS[-1],
             measured=True,
         )

@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from evidence.heat.cases import SUMMER, State, torque_point
+from evidence.heat.cases import HEALTHY, SUMMER, State, torque_point
 from evidence.impact.cases import healthy
 from evidence.impact.study import heard
+from evidence.measured.levels import SHALLOW, ours_over_load, ratio
 from evidence.validation import wheelset
 from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, SKF_TOLERANCE, grease_celsius, in_train
 from evidence.validation.losses import LAYER, loss_under, torque_32216, unpressed
@@ -27,6 +28,7 @@ from evidence.validation.rigs import (
     warmed,
 )
 from evidence.validation.roller_loads import counts
+from evidence.validation.spalls import FAULTS_OF_CWRU, sound_ringing
 from evidence.validation.statics import bounce_frequency
 from test.examples import fast_ones
 
@@ -135,7 +137,7 @@ def test_summer_or_a_smaller_box_warms_the_grease_to_what_is_reported(state: Sta
 SHELTERED = (("air_speed", 0.1),)
 IN_TRAIN = {
     ("first place", 200.0): State("sheltered", thermal=SHELTERED),
-    ("first place", 300.0): State("seals of 0.6 N m", seal_torque=0.6),
+    ("first place", 300.0): HEALTHY,
     ("second place", 200.0): State("sheltered, seals of 0.6 N m", seal_torque=0.6, thermal=SHELTERED),
     ("second place", 300.0): State("seals of 1.2 N m", seal_torque=1.2),
 }
@@ -155,3 +157,21 @@ def test_smooth_rails_bring_the_level_on_a_chinese_line_to_the_measured_one(
     smooth = replace(run.operation.irregularity, short_waves=None)
     monkeypatch.setitem(wheelset.RUNS, 0, replace(run, operation=replace(run.operation, irregularity=smooth)))
     assert wheelset.level_in_china(0) == pytest.approx(8.8, rel=wheelset.CHINA_TOLERANCE)
+
+
+@pytest.mark.slow
+def test_short_waves_cover_the_strikes_of_a_sound_bearing_at_low_speed() -> None:
+    assert sound_ringing(90.0) > 6.0
+    assert sound_ringing(90.0, 2e-4) == pytest.approx(3.1, abs=0.3)
+
+
+@pytest.mark.slow
+def test_a_small_fault_of_smooth_raceways_stands_out_as_on_the_motor() -> None:
+    least, most = FAULTS_OF_CWRU[7]
+    assert ratio(7) < least < ratio(7, waves=False) < most
+
+
+@pytest.mark.slow
+def test_a_spall_on_whose_floor_rollers_rest_is_hardly_louder_under_more_load() -> None:
+    assert ours_over_load() > 0.28
+    assert 0.07 < ours_over_load(SHALLOW) < 0.28

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binomtest
 
+from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
@@ -110,7 +112,7 @@ def test_strikes_of_the_wheel_do_not_make_a_fault_shallow() -> None:
     depths = []
 
     def decide(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-        depths.append(found.candidates[0].burst ** 2 / found.power)
+        depths.append(found.candidates[0].strikes)
         return strongest_pattern(found, stretch, settings)
 
     listening = Chain(select_band=lambda stretch, settings: Band(1600.0, 6400.0), decide=decide)
@@ -206,7 +208,7 @@ def test_lines_that_another_bearing_explains_better_are_no_fault() -> None:
         found = comb_score(noise + 0.1 * own + beside * other, ORDERS, ROLLERS, 19.0, SETTINGS)
         cup = found.candidates[0]
         assert cup.score > cup.threshold
-        verdicts.append(strongest_pattern(replace(found, power=0.0), _stretch(None, 46), SETTINGS))
+        verdicts.append(strongest_pattern(found, _stretch(None, 46), SETTINGS))
     assert [verdict.name for verdict in verdicts] == ["cup", "healthy"]
     assert verdicts[1].reason.endswith("but multiples of order 4.100 are surer")
 
@@ -230,7 +232,40 @@ def test_a_dead_axis_is_told_and_a_dead_accelerometer_is_no_healthy_bearing() ->
     none = REFERENCE(
         replace(stretch, acceleration=np.full((len(stretch.acceleration), 3), 9.8)), ORDERS, ROLLERS, SETTINGS
     )
-    assert (none.verdict, none.reason) == ("waiting", "the accelerometer is dead: its signal does not change")
+    assert (none.verdict, none.reason) == (
+        "not_diagnosable",
+        "the accelerometer is dead: its signal does not change",
+    )
+
+
+@pytest.mark.parametrize(
+    ("fault", "spoiled", "verdict", "told"),
+    [
+        (None, lambda signal: np.round(signal / 20.0) * 20.0, "not_diagnosable", "steps only"),
+        (
+            None,
+            lambda signal: signal.clip(-2.0 * signal.std(), 2.0 * signal.std()),
+            "not_diagnosable",
+            "the signal is clipped: ",
+        ),
+        ("cup", lambda signal: np.clip(signal, -30.0, 30.0), "cup", "cup fault: "),
+        (None, lambda signal: signal, "healthy", "no fault: "),
+    ],
+)
+def test_what_may_hide_a_fault_is_not_called_healthy(
+    fault: str | None, spoiled: Callable[[Float], Float], verdict: str, told: str
+) -> None:
+    stretch = _stretch(fault, 54)
+    found = REFERENCE(replace(stretch, acceleration=spoiled(stretch.acceleration)), ORDERS, ROLLERS, SETTINGS)
+    assert found.verdict == verdict, found.reason
+    assert told in found.reason
+
+
+def test_a_rate_that_is_too_low_is_not_diagnosable_and_says_which_is_needed() -> None:
+    stretch = replace(_stretch("cup", 55), rate=4000.0)
+    found = REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS)
+    assert found.verdict == "not_diagnosable"
+    assert found.reason.startswith("the sampling rate is 4000 Hz; at least 6000 Hz are needed")
 
 
 def test_one_line_alone_is_no_fault() -> None:
@@ -244,7 +279,7 @@ def test_one_line_alone_is_no_fault() -> None:
     assert cup.score < cup.threshold
 
 
-def test_a_pattern_that_is_sure_but_shallow_is_no_fault_unless_it_is_loud() -> None:
+def test_a_pattern_that_is_sure_but_shallow_is_no_fault_however_loud_it_is() -> None:
     loud = _stretch("cup", 42)
     far = replace(loud, acceleration=1e-3 * loud.acceleration)
     found = REFERENCE(loud, ORDERS, ROLLERS, SETTINGS)
@@ -258,7 +293,24 @@ def test_a_pattern_that_is_sure_but_shallow_is_no_fault_unless_it_is_loud() -> N
     assert found.verdict == REFERENCE(far, ORDERS, ROLLERS, SETTINGS).verdict == "cup"
     assert covered.score > covered.threshold
     assert covered.verdict == "healthy"
-    assert covered.reason.endswith("it is too faint")
+    assert "but it does not strike" in covered.reason
+    assert REFERENCE(both, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
+
+
+def test_noise_that_swells_as_the_rollers_pass_is_no_fault_and_short_strikes_are() -> None:
+    """The same lines, the same share of the power: a hum has them in one harmonic, strikes in many."""
+    stretch = _stretch(None, 53)
+    passing = np.mod(ORDERS.bpfo * stretch.shaft_angle / (2.0 * np.pi), 1.0)
+    noise = np.random.default_rng(8).normal(size=stretch.acceleration.shape)
+    hum = np.sqrt(1.0 + 0.7 * np.cos(2.0 * np.pi * passing))
+    strikes = np.where(passing < 0.08, 3.0, 1.0)
+    said = [
+        REFERENCE(replace(stretch, acceleration=noise * loud[:, None]), ORDERS, ROLLERS, SETTINGS)
+        for loud in (hum, strikes)
+    ]
+    assert [each.verdict for each in said] == ["healthy", "cup"]
+    assert said[0].score > said[0].threshold
+    assert "but it does not strike" in said[0].reason
 
 
 def test_a_single_knock_near_the_end_is_on_no_whole_order() -> None:

@@ -171,7 +171,8 @@ def test_a_scene_in_a_mirror_runs_as_its_mirror_image(effects: str, tier: str, m
         if not len(one.force):  # the filters hold the first samples back
             continue
         scale = np.abs(one.force[:, :3]).max()
-        tolerance = 1e-6
+        # stiff pockets in an explicit step make 1e-8 m of rounding in 20 ms; a wrong sign makes more
+        tolerance = 2e-3 if tier == "quasistatic" else 1e-6
         np.testing.assert_allclose(other.force * wrench, one.force, rtol=0.0, atol=tolerance * scale)
         np.testing.assert_allclose(
             turn * other.shaft_torque,

@@ -111,6 +111,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     assert process.wait(timeout=20.0) == 0
 
 
+@pytest.mark.slow
 def test_bearing_and_curves_are_drawn_in_the_browser(page: str, tmp_path: Path) -> None:
     browser = Chromium(tmp_path / "profile", WIDTH, HEIGHT)
     try:
@@ -128,6 +129,7 @@ def test_bearing_and_curves_are_drawn_in_the_browser(page: str, tmp_path: Path) 
     assert all(found.values()), f"not drawn: {[name for name, there in found.items() if not there]}"
 
 
+@pytest.mark.slow
 def test_an_empty_page_is_not_taken_for_a_drawing(tmp_path: Path) -> None:
     browser = Chromium(tmp_path / "profile", WIDTH, HEIGHT)
     try:

@@ -236,7 +236,7 @@ def test_the_recorded_scene_reads_back_as_it_was_chosen() -> None:
 
 
 @pytest.mark.parametrize("name", ["smooth_run", "static_5kN"])
-@pytest.mark.parametrize("quantity", fast_ones(["deflection", "torque", "vibration"], 1, 2))
+@pytest.mark.parametrize("quantity", fast_ones(["deflection", "torque", "vibration"], 2))
 def test_a_tighter_accuracy_never_gives_a_cheaper_choice(name: str, quantity: str) -> None:
     scene = load_scene(name, effects="full", duration=1.0)
     costs = [

@@ -132,7 +132,7 @@ COMMANDS = [
 ]
 # one command at once, one later in its own process and one with others; the rest stop in the same place
 # of the compiler
-FAST = {("warmup", 0.0), ("simulate", 4.0), ("trial", 4.0)}
+FAST = {("warmup", 0.0), ("simulate", 4.0)}
 
 
 @pytest.mark.parametrize(
@@ -221,7 +221,11 @@ def small_trial(tmp_path: Path) -> list[str]:
 # after the first run, and as soon as the processes begin: that a trial stops then too, `trial 4 s later` says
 @pytest.mark.parametrize(
     ("jobs", "moments"),
-    [("1", (1,)), ("2", (1,)), pytest.param("2", (0, 1), marks=pytest.mark.slow)],
+    [
+        pytest.param("1", (1,), marks=pytest.mark.slow),
+        ("2", (1,)),
+        pytest.param("2", (0, 1), marks=pytest.mark.slow),
+    ],
     ids=["1", "2", "2, twice"],
 )
 def test_an_interrupted_trial_keeps_every_run_that_was_done(

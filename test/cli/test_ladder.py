@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +14,14 @@ from beardyn_core.cli import main as command
 from beardyn_core.scene.scene import USUAL_QUANTITIES
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study import ladder
-from beardyn_core.study.ladder import Plan, Run
+from beardyn_core.study.ladder import Plan, Run, climb
 from beardyn_core.study.measures import MEASURES, Outcome
 
 FAST = tuple((name, TIERS[name].steps_per_sample) for name in ("lumped", "quasistatic"))
 
 
-def one_run(scene: Any, plan: Plan, on_block: Any) -> Run:
+def one_run(scene: Any, plan: Plan) -> Run:
     """Stands in for a run: torque and cost by step, nothing scatters but the last digit."""
-    on_block()
     steps = scene.numerics.steps_per_sample
     values = tuple(
         np.full(
@@ -35,14 +35,14 @@ def one_run(scene: Any, plan: Plan, on_block: Any) -> Run:
 
 @pytest.fixture
 def runs(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """Levels that were run, with stand-ins for compiling and running."""
+    """Levels that were run, with stand-ins for compiling and running, in this process."""
     seen: list[Any] = []
 
-    def runner(scene: Any, plan: Plan, on_block: Any) -> Run:
+    def runner(scene: Any, plan: Plan) -> Run:
         seen.append(scene)
-        return one_run(scene, plan, on_block)
+        return one_run(scene, plan)
 
-    monkeypatch.setattr(ladder, "simulate", runner)
+    monkeypatch.setattr(ladder, "climb", partial(climb, runner=runner))
     monkeypatch.setattr(ladder.Twin, "warm", lambda _twin: 0.0)
     return seen
 
@@ -109,12 +109,12 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
 def test_an_interrupt_keeps_the_levels_done_so_far(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, runs: list[Any]
 ) -> None:
-    def impatient(scene: Any, plan: Plan, on_block: Any) -> Run:
+    def impatient(scene: Any, plan: Plan) -> Run:
         if scene.tier == "full" and scene.numerics.steps_per_sample == 4:
             raise KeyboardInterrupt
-        return one_run(scene, plan, on_block)
+        return one_run(scene, plan)
 
-    monkeypatch.setattr(ladder, "simulate", impatient)
+    monkeypatch.setattr(ladder, "climb", partial(climb, runner=impatient))
     words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "-o", str(tmp_path / "out")]
     assert command.main(words) == command.INTERRUPTED
     told = capsys.readouterr()

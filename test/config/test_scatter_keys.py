@@ -15,7 +15,7 @@ from beardyn_core.config.yaml_text import read_mapping
 from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, ROLLER_ORDERS, Deviations, Scatter
+from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, ROLLER_ORDERS, Deviations, Scatter, passed_on
 from beardyn_core.scene.waviness import Waviness
 
 BEARING = load_scene("static_80kN").bearing
@@ -135,7 +135,7 @@ def test_quantities_rows_and_seeds_are_not_alike() -> None:
 
 def test_waves_have_the_rms_of_their_grade_and_phases_of_their_own() -> None:
     scatter, azimuth = Scatter("G3", 9), np.linspace(0.0, 2.0 * np.pi, 4096, endpoint=False)
-    gaps = {(wave.on, wave.row): wave.gap(azimuth, 0) for wave in scatter.waves}
+    gaps = {(wave.on, wave.row): wave.gap(azimuth, 0) for wave in scatter.waves(BEARING)}
     assert set(gaps) == {(on, row) for on in ("cup", "cone", "roller") for row in (0, 1)}
     for (on, _), gap in gaps.items():
         rms = scatter.variation("roller_waviness" if on == "roller" else "raceway_waviness")
@@ -147,12 +147,34 @@ def test_waves_have_the_rms_of_their_grade_and_phases_of_their_own() -> None:
         np.testing.assert_allclose(lines[first : bridged + 1] * order, first * lines[first], rtol=1e-6)
         assert lines[bridged + 1 :].max() < 1e-6 * lines[bridged]
     assert len({gap.tobytes() for gap in gaps.values()}) == len(gaps)
-    other = {wave.gap(azimuth, 0).tobytes() for wave in Scatter("G3", 10).waves}
+    other = {wave.gap(azimuth, 0).tobytes() for wave in Scatter("G3", 10).waves(BEARING)}
     assert not other & {gap.tobytes() for gap in gaps.values()}
+
+
+def test_short_waves_go_on_as_far_as_contacts_pass_them_on() -> None:
+    usual, finer = Scatter("G1", 9), Scatter("G1", 9, shortest_wave=2e-4)
+    for short, long in zip(finer.waves(BEARING), usual.waves(BEARING), strict=True):
+        diameter = {"cup": 1.0, "cone": -1.0}.get(short.on, 0.0) * BEARING.roller_diameter
+        diameter += BEARING.roller_diameter if short.on == "roller" else BEARING.pitch_diameter
+        assert np.pi * diameter / short.orders[-1] == pytest.approx(2e-4, rel=2e-3)
+        passed = np.array(short.amplitudes[: len(long.amplitudes)]) / long.amplitudes
+        assert passed[0] == pytest.approx(1.0, abs=1e-3)
+        assert np.all(np.diff(passed) < 0.0)
+
+
+def test_a_contact_passes_on_the_mean_of_a_wave_under_the_pressure_of_a_flat_punch() -> None:
+    """The envelope lies on the Bessel function where that is largest, and on 1 where waves are long."""
+    half, place = 1.5e-4, np.cos((np.arange(4000) + 0.5) / 4000 * np.pi)  # even under that pressure
+    lengths = 2.0 * np.pi * half / np.linspace(0.05, 40.0, 4000)
+    means = np.abs(np.cos(np.outer(2.0 * np.pi * half / lengths, place)).mean(axis=1))
+    envelope = passed_on(lengths, half)
+    peaks = np.flatnonzero((means[1:-1] > means[:-2]) & (means[1:-1] > means[2:])) + 1
+    np.testing.assert_allclose(envelope[peaks[1:]], means[peaks[1:]], rtol=0.02)
+    assert envelope[0] == pytest.approx(means[0], rel=2e-3)
 
 
 def test_waves_that_are_given_stay_beside_those_of_the_scatter() -> None:
     own = Waviness("cup", 0, (20,), (1e-6,))
     scene = replace(load_scene("static_80kN"), waviness=(own,), scatter=Scatter("G1", 2))
     assert scene.waves[0] == own
-    assert scene.waves[1:] == Scatter("G1", 2).waves
+    assert scene.waves[1:] == Scatter("G1", 2).waves(scene.bearing)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.fast_step import fast_steps, fastest_mode
-from beardyn_core.effects import ContactDamping, Gravity
+from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps, fastest_mode
+from beardyn_core.effects import ContactDamping, Gravity, RingStructure
 from beardyn_core.integrate.static import solve
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
@@ -19,6 +19,7 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 from test.kernels.rig import constant_load, started
+from test.tiers.momentum import momentum_of_rolling_parts
 from test.tiers.runs import Float, scene_of
 
 DURATION, SETTLED = 1.2, 0.4
@@ -27,7 +28,6 @@ LONG = [
     ("lumped", "static_80kN", 0.5),
     ("lumped", "static_80kN", 0.25),
     ("lumped", "smooth_run", 0.5),
-    ("quasistatic", "static_80kN", 0.5),
 ]
 
 
@@ -102,6 +102,25 @@ def test_force_deflection_and_roller_loads_are_those_of_fine_steps(
     assert peak[steps] == pytest.approx(peak[FINE], rel=1e-3)
 
 
+def test_a_spall_under_rings_is_right_to_1250_hz_in_steps_of_two_samples() -> None:
+    """Levels within 0.5 dB, the largest roller load within 0.5 %: what `SLOW_BAND` stands on."""
+    scene = scene_of("cup_spall", "lumped")
+    sensors = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
+    scene = replace(scene, sensors=sensors, effects=replace(scene.effects, structure=RingStructure()))
+    levels, loads = [], []
+    for steps in (0.5, 2):
+        given = replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps))
+        found = [each for each in blocks(given, DURATION) if each.start_ns >= SETTLED * 1e9]
+        times = np.concatenate([each.waveform_time_ns for each in found]) * 1e-9
+        kept = (times >= SETTLED) & (times < DURATION - 0.02)
+        centre, level = bands(np.concatenate([each.acceleration[0][:, 2:] for each in found])[kept])
+        levels.append(level[(centre >= 200.0) & (centre <= SLOW_BAND * 1.01), 0])
+        force = np.linalg.norm(np.concatenate([each.contacts for each in found])[..., 0, 3:6], axis=-1)
+        loads.append(float(force.max(axis=(1, 2)).mean()))
+    assert np.abs(20.0 * np.log10(levels[0] / levels[1])).max() < 0.5
+    assert loads[0] == pytest.approx(loads[1], rel=5e-3)
+
+
 @pytest.mark.parametrize(("tier", "name", "steps"), LONG)
 def test_third_octaves_hold_up_to_a_third_of_the_step_rate(tier: str, name: str, steps: float) -> None:
     """Within 1.5 dB wherever a band has a thousandth of the strongest one."""
@@ -169,10 +188,14 @@ def _strongest(signal: Float) -> float:
 
 @pytest.mark.parametrize(
     ("tier", "steps"),
-    [("lumped", 0.25), ("lumped", 0.5), ("lumped", 1), ("quasistatic", 0.5), ("quasistatic", 1)],
+    [("lumped", 0.25), ("lumped", 0.5), ("lumped", 1), ("quasistatic", 1)],
 )
 def test_momentum_of_axlebox_and_journal_is_that_of_what_acts_from_outside(tier: str, steps: float) -> None:
-    """Free in space, without weight: what the rollers do to one ring they do to the other."""
+    """Free in space, without weight: what the rollers do to one ring they do to the other.
+
+    In the quasistatic tier rollers and cages have momentum too, in frames that turn with the rollers: of what
+    the load of 80 kN gives in this time, 3e-6 are not found again.
+    """
     scene = quiet(tier, "static_80kN", steps)
     free = replace(
         scene.mounting, cup="suspended", journal_tilt="free", stiffness=(0.0,) * 3, damping=(0.0,) * 3,
@@ -186,14 +209,15 @@ def test_momentum_of_axlebox_and_journal_is_that_of_what_acts_from_outside(tier:
     mass = np.array([mounting.box_mass, mounting.journal_mass])
 
     def momentum() -> Float:
-        return np.asarray(mass @ bodies[:2, 6:9])
+        return np.asarray(mass @ bodies[:2, 6:9]) + momentum_of_rolling_parts(twin)
 
     before = momentum()
     for _ in range(5):
         twin.advance()
     # the load on the journal and the preload of the springs that hold it cancel
     swing = mounting.box_mass * 3e-3
-    np.testing.assert_allclose(momentum(), before, atol=1e-6 * swing)
+    allowed = 1e-6 * swing if tier == "lumped" else 3e-6 * 8e4 * 5 * 0.02
+    np.testing.assert_allclose(momentum(), before, atol=allowed)
 
 
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
@@ -236,7 +260,7 @@ def test_the_bound_of_the_fastest_mode_is_above_it() -> None:
 @pytest.mark.parametrize(
     ("name", "lumped", "quasistatic"),
     [
-        ("static_80kN", 0.25, 0.5),
+        ("static_80kN", 0.25, 1),
         ("smooth_run", 0.5, 1),
         ("cup_spall", 1, 1),
         ("wheel_flat", 1, 1),
@@ -251,7 +275,7 @@ def test_step_follows_mode_and_scene(name: str, lumped: float, quasistatic: floa
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
 def test_a_light_axlebox_has_shorter_steps(tier: str) -> None:
     scene = replace(scene_of("static_80kN", tier), mounting=Mounting(cup="held"))
-    assert fast_steps(scene).steps_per_sample < 1
+    assert (fast_steps(scene).steps_per_sample < 1) == (tier == "lumped")
     scene = scene_of("smooth_run", tier)
     light = replace(scene, mounting=replace(scene.mounting, box_mass=10.0))
     assert fast_steps(light).steps_per_sample >= 1 >= fast_steps(scene).steps_per_sample

@@ -81,6 +81,7 @@ def test_small_rib_out_of_reach_is_no_small_rib() -> None:
     same(signals_of(Rib(), SmallRib(), 8e-3), signals_of(Rib()))
 
 
+@pytest.mark.slow
 def test_options_that_are_absent_leave_no_code() -> None:
     """Machine instructions of the rib contact alone grow with every option."""
     counts = []

@@ -6,15 +6,18 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
 
-from beardyn_core.engine import Cluster, Engine, EngineError, Tls
-from test.engine.work import fatal, slow, squared, wrong
+from beardyn_core.engine import Cluster, Engine, EngineError, Tls, all_of
+from test.engine.work import fatal, held_for, hungry, slow, squared, wrong
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -68,6 +71,54 @@ def test_a_task_that_kills_every_worker_is_given_up_and_the_others_come_back() -
     (given_up,) = (each for each in ended if each.killed)
     assert given_up.task == 0
     assert given_up.killed == 4
+
+
+@pytest.mark.slow
+def test_a_task_that_takes_too_much_memory_is_stopped_at_the_limit_and_the_others_come_back() -> None:
+    """It asks for ten times the limit: no process may get more than half as much again as is allowed."""
+    limit, most = 4e8, 0
+    stop = threading.Event()
+    with Engine(Cluster(workers=1, memory=limit)) as engine:
+        assert engine.local is not None
+        host = psutil.Process(engine.local.process_id)
+
+        def watch() -> None:
+            nonlocal most
+            while not stop.wait(0.02):
+                for each in host.children(recursive=True):
+                    with suppress(psutil.Error):
+                        most = max(most, each.memory_info().rss)
+
+        watching = threading.Thread(target=watch, daemon=True)
+        watching.start()
+        ended = list(engine.run(hungry, range(4), 4000))
+        stop.set()
+        watching.join()
+    assert sorted(each.value for each in ended if not each.killed) == [1, 2, 3]
+    (given_up,) = (each for each in ended if each.killed)
+    assert given_up.task == 0
+    assert 0.8 * limit < most < 1.5 * limit
+
+
+@pytest.mark.slow
+def test_a_worker_that_holds_nearly_all_it_may_goes_on_working() -> None:
+    """Dask would let it pause for ever above four fifths of its limit."""
+    with Engine(Cluster(workers=1)) as engine:
+        assert engine.local is not None
+        children = psutil.Process(engine.local.process_id).children(recursive=True)
+        usual = max(each.memory_info().rss for each in children)
+    limit, ended = max(usual / 0.7, 2.5e8), list[Any]()
+    with Engine(Cluster(workers=1, memory=limit)) as engine:
+        run = threading.Thread(
+            target=lambda: ended.extend(engine.run(held_for, range(4), 0.87 * limit)), daemon=True
+        )
+        run.start()
+        run.join(60.0)
+    assert [each.killed for each in ended] == [0] * 4
+
+
+def test_tasks_of_a_study_come_back_in_order() -> None:
+    assert [value for value, _ in all_of(squared, [3, 1, 2])] == [9, 1, 4]
 
 
 def test_a_killed_scheduler_is_replaced_and_nothing_that_came_back_is_asked_for_again() -> None:

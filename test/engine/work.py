@@ -6,6 +6,8 @@ import os
 import time
 from pathlib import Path
 
+import psutil
+
 
 def squared(number: int) -> tuple[int, int]:
     """Square a number; give the process that did it too."""
@@ -27,6 +29,26 @@ def fatal(number: int, once: str) -> int:
             except FileExistsError:
                 return number
         os._exit(9)
+    return number
+
+
+def hungry(number: int, megabytes: int) -> int:
+    """Take memory step by step at number 0, and keep it for a while; the others take none."""
+    held = []
+    if number == 0:
+        for _ in range(megabytes // 20):
+            held.append(b"x" * 20_000_000)
+            time.sleep(0.05)
+    return number
+
+
+_HELD: list[bytes] = []
+
+
+def held_for(number: int, whole: float) -> int:
+    """Fill this process up to so many bytes, for ever; let Dask look at its memory a few times."""
+    _HELD.append(b"x" * max(int(whole - psutil.Process().memory_info().rss), 0))
+    time.sleep(0.6)
     return number
 
 

@@ -21,8 +21,6 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +40,7 @@ from beardyn_core.config import (
 )
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
+from beardyn_core.engine import Cluster, Engine
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder
@@ -221,9 +220,11 @@ def digests_here(only: str, jobs: int) -> dict[str, str]:
     """
     found = {key: value for key, value in digests_of_nouns().items() if only in key}
     runs = [run for run in RUNS if only in run[0]]
-    with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
-        for part in pool.map(digests_of_run, runs):
-            found |= part
+    with Engine(Cluster(workers=jobs)) as engine:
+        for ended in engine.run(digests_of_run, runs):
+            if ended.killed:
+                raise SystemExit(f"{ended.task}: {ended.killed} processes died of it")
+            found |= ended.value
             print(".", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     return found

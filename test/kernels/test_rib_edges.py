@@ -206,7 +206,8 @@ def test_a_sphere_beyond_the_apex_bears_on_both_sides_of_its_rim(lanes: Any) -> 
 
 def test_inside_the_rim_the_rim_changes_nothing() -> None:
     cases = [placed(tilt, 5e-4, 2e-5) for tilt in np.linspace(-1e-3, 1e-3, 9)]
-    np.testing.assert_array_equal(gaps(cases, rib_of(Rib(roller_end=True))), gaps(cases, rib_of(SPHERE)))
+    with_rim, without = (gaps(cases, rib_of(rib)) for rib in (Rib(roller_end=True), SPHERE))
+    np.testing.assert_allclose(with_rim, without, rtol=1e-13)  # two programs round differently
 
 
 def test_depth_is_continuous_where_the_sphere_hands_over_to_the_rim() -> None:

@@ -175,5 +175,5 @@ def test_a_missing_library_is_a_sentence_with_the_command(
     path = kind.make(tmp_path, noise(200))
     name = {"tdms": "nptdms", "universal": "pyuff", "mdf": "asammdf", "wav": "soundfile"}[kind.name]
     monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(bd.InputError, match=rf"takes {name}, .* pip install 'beardyn\[measured\]'"):
+    with pytest.raises(bd.InputError, match=rf"needs {name}, .* pip install 'beardyn\[measured\]'"):
         bd.read_measured(path, **kind.needs)

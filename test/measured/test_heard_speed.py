@@ -31,7 +31,7 @@ def _vibration(speed, seconds=4.0, seed=1, fault=True):
     return time, signal, turned, speed[0] + (speed[1] - speed[0]) * time / seconds
 
 
-@pytest.mark.parametrize("speed", [(29.2, 29.2), (25.0, 29.0)])
+@pytest.mark.parametrize("speed", [pytest.param((29.2, 29.2), marks=pytest.mark.slow), (25.0, 29.0)])
 def test_speed_is_found_within_its_interval(speed):
     time, signal, turned, true = _vibration(speed)
     track = speed_from_vibration(signal, RATE, 22.0, 36.0, (PLATE.frequencies,))

@@ -179,8 +179,8 @@ def test_a_low_rate_is_answered_with_a_sentence_and_not_with_healthy(
     assert main(["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]) == DONE
     ending = capsys.readouterr().out.splitlines()[-1]
     assert ending == (
-        "waiting: no analysis; the sampling rate is 4000 Hz; at least 6000 Hz are needed for a band "
-        "above 1500 Hz"
+        "not_diagnosable: 5 of 5 analyses; the sampling rate is 4000 Hz; at least 6000 Hz are "
+        "needed for a band above 1500 Hz"
     )
 
 
@@ -189,7 +189,7 @@ def test_a_record_shorter_than_an_analysis_says_so(
 ) -> None:
     path = measured(tmp_path, az_g=struck(3.58, 0.3)[:, 0])
     assert main(["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]) == DONE
-    assert "waiting: no analysis; the signal is shorter than the first" in capsys.readouterr().out
+    assert "not_diagnosable: no analysis; the signal is shorter than the first" in capsys.readouterr().out
 
 
 def test_one_axis_of_one_dimension_is_sample_by_sample() -> None:

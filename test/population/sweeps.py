@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
+
+from beardyn_core.config import read_sweep
+from beardyn_core.population.plan import Plan, plan_of
 
 TINY: dict[str, Any] = {
     "sweep": "tiny",
@@ -27,3 +31,16 @@ TINY: dict[str, Any] = {
 def tiny(**changes: Any) -> dict[str, Any]:
     """Give the keys of the tiny sweep, some changed."""
     return {**TINY, **changes}
+
+
+def planned(**changes: Any) -> Plan:
+    """Plan the tiny sweep, some keys changed."""
+    return plan_of(*read_sweep(tiny(**changes)))
+
+
+def content(folder: Path) -> dict[str, bytes]:
+    """Bytes of tables and signals."""
+    files = [folder / name for name in ("runs.parquet", "features.parquet")] + [
+        p for p in (folder / "signals.zarr").rglob("*") if p.is_file()
+    ]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}

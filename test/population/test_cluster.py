@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
+import shutil
 import signal
 import socket
 import subprocess
@@ -18,10 +20,11 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.config import read_sweep
-from beardyn_core.engine import Cluster
+from beardyn_core.engine import Cluster, Engine, EngineError, Tls
 from beardyn_core.population.folder import done_rows
 from beardyn_core.population.plan import plan_of
 from beardyn_core.population.sweeping import conduct
+from test.engine.work import squared
 from test.population.sweeps import tiny
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -33,13 +36,16 @@ pytestmark = pytest.mark.slow
 class Machines:
     """A scheduler and workers on this machine, by the commands of the page."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, scheme: str = "tcp") -> None:
+        self._folder, self._scheme = folder, scheme
         self.processes: list[subprocess.Popen[bytes]] = []
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
-        commands = re.findall(r"^dask .*$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+        text = PAGE.read_text(encoding="utf-8")
+        every = re.findall(r"^dask .*$", text, re.MULTILINE)
+        commands = [line for line in every if ("tls" in line) is (scheme == "tls")]
+        self.certificates = re.findall(r"^openssl .*$", text, re.MULTILINE)
         self._commands = {words.split()[1]: words.partition("#")[0].split() for words in commands}
 
     def start(self, kind: str, **options: str) -> subprocess.Popen[bytes]:
@@ -68,7 +74,14 @@ class Machines:
 
     @property
     def address(self) -> str:
-        return f"tcp://127.0.0.1:{self.port}"
+        return f"{self._scheme}://127.0.0.1:{self.port}"
+
+    def certify(self, folder: Path) -> Tls:
+        """Make certificates in a folder by the commands of the page."""
+        folder.mkdir(exist_ok=True)
+        for line in self.certificates:
+            subprocess.run(shlex.split(line), cwd=folder, check=True, capture_output=True)
+        return Tls(folder / "ca.pem", folder / "me.pem", folder / "me.key")
 
 
 @pytest.fixture
@@ -116,6 +129,31 @@ def test_two_workers_of_a_scheduler_make_the_same_set(
     assert len(runs) == 24
     assert runs.about["processes"] == 2
     assert bits(tmp_path / "set") == whole
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl, which makes certificates, is missing")
+def test_a_cluster_with_tls_works_for_those_with_its_certificates_alone(tmp_path: Path) -> None:
+    machines = Machines(tmp_path, "tls")
+    try:
+        mine = machines.certify(tmp_path)
+        machines.start("scheduler")
+        machines.start("worker", nworkers="1")
+        runs = bd.sweep(tiny(runs=2), tmp_path / "set", scheduler=machines.address, tls=mine.given)
+        assert len(runs) == 2
+        with Engine(Cluster(scheduler=machines.address, tls=mine)) as engine:
+            assert [each.value[0] for each in engine.run(squared, [3])] == [9]
+            (info,) = engine._client.scheduler_info()["workers"].values()
+            assert info["nanny"].startswith("tls://")
+        strange = Machines(tmp_path, "tls").certify(tmp_path / "strange")
+        for cluster in (
+            Cluster(scheduler=machines.address, tls=strange, patience=1.0),
+            Cluster(scheduler=machines.address.replace("tls", "tcp"), patience=1.0),
+        ):
+            with pytest.raises(EngineError, match="cannot be reached"), Engine(cluster):
+                pass
+    finally:
+        for process in machines.processes:
+            machines.kill(process)
 
 
 def test_a_worker_that_comes_later_takes_its_share(

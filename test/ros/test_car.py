@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 from dataclasses import replace
@@ -175,6 +176,8 @@ def test_a_car_ends_with_its_load_and_every_box_has_a_whole_file(graph: Graph) -
         assert np.array_equal(run.vibration.sample, np.arange(100 * 512))
         assert (run.complete, run.status) == (True, "complete")
         loads[box] = run.load
+        told = json.loads((graph.folder / f"car.{box}.twin.yaml").read_text(encoding="utf-8"))
+        assert told[f"/car/{box}/twin"]["ros__parameters"]["box"] == box
     assert all(graph.statuses("twin", f"/car/{box}") for box in TWO)
     assert not np.allclose(loads[TWO[0]].wrench[:500], loads[TWO[1]].wrench[:500])
 
@@ -204,15 +207,9 @@ def test_boxes_of_a_car_stay_together_within_the_horizon(graph: Graph) -> None:
 @pytest.mark.parametrize(
     ("first", "number"),
     [
-        ("car/axle_4_right/twin", signal.SIGKILL),
-        *(
-            pytest.param(name, signal.SIGKILL, marks=pytest.mark.slow)
-            for name in ("car/load", "car/recorder")
-        ),
-        *(
-            pytest.param(name, signal.SIGINT, marks=pytest.mark.slow)
-            for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
-        ),
+        pytest.param(name, number, marks=pytest.mark.slow)
+        for name in ("car/load", "car/recorder", "car/axle_4_right/twin")
+        for number in (signal.SIGKILL, signal.SIGINT)
     ],
 )
 def test_a_car_ends_orderly_whatever_ends_first(graph: Graph, first: str, number: signal.Signals) -> None:
@@ -262,6 +259,17 @@ def test_twins_of_a_car_refuse_boxes_that_there_are_not(graph: Graph) -> None:
     graph.start("twins", "beardyn_ros", "car_twin", boxes="axle_1_left", faulty="axle_2_left")
     assert graph.exit_code("twins") == 2
     assert "faulty has axle_2_left; the boxes are axle_1_left" in graph.processes.log("twins")
+
+
+def test_a_twin_that_is_told_its_box_is_mirrored_on_the_right() -> None:
+    """As `beardyn simulate` makes it of a scene with axleboxes; the defect stays, in the mirrored row."""
+    from beardyn_ros.car import lone_box_rig
+
+    rows = [
+        lone_box_rig(name)("cup_spall", "lumped", "standard")().description.truth["faults"][0]["row"]
+        for name in ("axle_1_left", "axle_1_right")
+    ]
+    assert rows == [0, 1]
 
 
 def _has_ended(graph: Graph, name: str) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -60,10 +59,9 @@ class FakeRuns:
         self._scatter, self._invalid, self._interrupted = scatter, invalid, interrupted
         self.scenes: list[Scene] = []
 
-    def __call__(self, scene: Scene, plan: Plan, on_block: Callable[[], None]) -> Run:
+    def __call__(self, scene: Scene, plan: Plan) -> Run:
         steps = round(scene.numerics.steps_per_sample)
         self.scenes.append(scene)
-        on_block()
         if steps == self._interrupted:
             raise KeyboardInterrupt
         if steps == self._invalid:
@@ -353,12 +351,12 @@ def test_the_picture_names_the_efficient_levels(plan: Plan, tmp_path: Path) -> N
 
 
 def test_a_real_ladder_of_two_levels() -> None:
-    """Full tier against quasi-static rollers: the same force, torque without sliding friction."""
+    """Full tier against rollers as springs: the same force, torque without sliding friction."""
     scene = load_scene("static_80kN")
     plan = plan_of(scene, 0.25, 0.1)
     neighbour = level("neighbour", steps=4, laminae=5)
     levels = LevelList(
-        level("reference", steps=4), neighbour, (level("rollers in balance", "quasistatic"), neighbour)
+        level("reference", steps=4), neighbour, (level("rollers as springs", "lumped"), neighbour)
     )
     ladder = climb(plan, levels, 0.05, ASKED)
     balanced, near = ladder.rows

@@ -354,6 +354,13 @@ def test_a_run_depends_on_the_content_of_its_files(
     assert run_digest(scene, quick, "code") != before
 
 
+@pytest.mark.parametrize("preset", ["standard", "full"])
+def test_a_preset_for_a_trial_leaves_the_box_of_the_scene_ringing(preset: str) -> None:
+    trial = load_trial("default", effects=preset)
+    for cell in trial.cells()[:2]:
+        assert trial_scene(trial, cell).effects.structure == ModalStructure("high_speed")
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 def test_a_full_disk_is_a_sentence_that_says_how_many_runs_are_kept(
     small: Trial, tmp_path: Path, conducted: list[str]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -32,9 +33,12 @@ CAGES = {"static_80kN": 0.0, "static_5kN": 0.025}
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("name", STATIC_SCENES)
 def test_mean_force_on_the_cup_is_the_load_less_the_weight_of_what_rolls(name: str, tier: str) -> None:
-    """Balance of the journal; the journal of 900 kg still swings by a little."""
+    """Balance of the journal, which still swings by a little; a cage of 4 N may lie or hang."""
+    cage = 5.0 if tier == "quasistatic" else 0.0
     np.testing.assert_allclose(
-        means(name, tier).force[:3], means(name, "full").force[:3], atol=2e-4 * means(name, tier).force[2]
+        means(name, tier).force[:3],
+        means(name, "full").force[:3],
+        atol=cage + 2e-4 * means(name, tier).force[2],
     )
 
 
@@ -43,8 +47,9 @@ def test_mean_force_on_the_cup_is_the_load_less_the_weight_of_what_rolls(name: s
 def test_deflection_and_largest_load_are_those_of_the_static_solution(name: str, tier: str) -> None:
     displacement, largest, _ = static_mean(name)
     found = means(name, tier)
-    assert found.deflection[2] == pytest.approx(displacement[2], rel=TOLERANCE[tier])
-    assert found.largest == pytest.approx(largest, rel=TOLERANCE[tier])
+    tolerance = TOLERANCE[tier] + (CAGES[name] if tier == "quasistatic" else 0.0)
+    assert found.deflection[2] == pytest.approx(displacement[2], rel=tolerance)
+    assert found.largest == pytest.approx(largest, rel=tolerance)
     assert found.status == 0
 
 
@@ -62,7 +67,7 @@ def test_deflection_and_largest_load_are_those_of_the_full_tier(name: str, tier:
 def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(name: str, tier: str) -> None:
     """With smooth pockets nothing else is lost: friction times static rib loads times sliding over speed.
 
-    A part of the torque of the full tier, with rough pockets as well.
+    With rough ones it is that of the full tier within 7 % where cages move, and a part of it elsewhere.
     """
     scene = scene_of(name, tier)
     assert scene.effects.rib is not None
@@ -72,7 +77,11 @@ def test_torque_of_the_fast_tiers_is_that_of_ribs_that_slide_in_pure_rolling(nam
     smooth = replace(scene.effects, cage=replace(scene.effects.cage, friction=0.0))
     assert _torque(replace(scene, effects=smooth)) == pytest.approx(expected, rel=0.01)
     found = means(name, tier).torque
-    assert means(name, "full").torque < found < expected
+    assert found < expected
+    if tier == "quasistatic":
+        assert found == pytest.approx(means(name, "full").torque, rel=0.07)
+    else:
+        assert means(name, "full").torque < found
 
 
 @pytest.mark.slow
@@ -165,14 +174,18 @@ def test_play_and_side_load_share_the_rows_as_the_static_solution_does(tier: str
     np.testing.assert_allclose(rib, static.rib_load, atol=tolerance * static.rib_load.max())
 
 
+@cache
+def _spalled(tier: str) -> np.ndarray:
+    blocks = blocks_of(scene_of("cup_spall", tier), 2.1)
+    heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
+    return third_octave_levels(heard[:, None])
+
+
 @pytest.mark.parametrize("tier", FAST)
 def test_a_spall_shakes_the_box_as_in_the_full_tier(tier: str) -> None:
-    """Third octaves from 400 Hz to 5 kHz, within 2 dB."""
-    levels = []
-    for each in ("full", tier):
-        blocks = blocks_of(scene_of("cup_spall", each), 0.6)
-        heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
-        levels.append(third_octave_levels(heard[:, None]))
+    """Third octaves from 400 Hz to 5 kHz, within 2 dB; over 2 s, for cages that slip by themselves excite the
+    resonance at 1 kHz by 2.5 dB more or less within half a second."""
+    levels = [_spalled(each) for each in ("full", tier)]
     bands = (BAND_CENTRES > 380.0) & (BAND_CENTRES < 5200.0)
     apart = np.abs(levels[1] - levels[0])[bands]
     assert apart.max() < 2.0

@@ -37,6 +37,7 @@ from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions
 from beardyn_core.twin import Twin
+from test.tiers.momentum import momentum_of_rolling_parts
 from test.tiers.runs import FAST, blocks_of, scene_of
 
 Float = NDArray[np.float64]
@@ -155,14 +156,19 @@ def test_held_response_is_the_direct_solution(kind: str) -> None:
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("kind", KINDS)
 def test_box_and_journal_exchange_their_momentum(tier: str, kind: str) -> None:
-    """The modes take none: together both change by what springs, load and weight push them with."""
+    """The modes take none: together both change by what springs, load and weight push them with.
+
+    In the quasistatic tier rollers and cages have their share, in frames that turn with the rollers: of what
+    80 kN give in the step, 3e-4 are not found again.
+    """
     twin = started(suspended(tier, kind))
     assert twin._state is not None
     twin._state.flex[1] = np.random.default_rng(2).normal(0.0, 1e-3, twin._state.flex.shape[1])
     stepped(twin, 8)
-    before = twin._state.copy()
+    before, rolling = twin._state.copy(), momentum_of_rolling_parts(twin)
     p, bodies = twin._kernel_parameters, twin._state.bodies
     stepped(twin, 1)
+    rolling = momentum_of_rolling_parts(twin) - rolling
     load = twin._loads(0, 20_000_000, 512)[0]
     mounting = p.base.mounting
     change = (bodies - before.bodies)[:2, LINEAR : LINEAR + 6]
@@ -179,7 +185,9 @@ def test_box_and_journal_exchange_their_momentum(tier: str, kind: str) -> None:
         outside = twin._work.box[FORCE : FORCE + 3] - signals_wrench(twin)
     outside = outside + load[:3] - [0.0, 0.0, p.kinematic.rolling_weight]
     scale = p.step * 8e4
-    np.testing.assert_allclose((box + journal)[[0, 2]], p.step * outside[[0, 2]], atol=1e-9 * scale)
+    allowed = 1e-9 if tier == "lumped" else 3e-4
+    changed = (box + journal + rolling)[[0, 2]]
+    np.testing.assert_allclose(changed, p.step * outside[[0, 2]], atol=allowed * scale)
 
 
 def signals_wrench(twin: Twin) -> Float:
@@ -273,7 +281,8 @@ def test_frequencies_of_the_loaded_box_are_those_of_an_independent_eigenproblem(
     errors = [
         _frequency(twin, rest, vectors[:, index], mass, rates[index], fitted.share, h) for index in tested
     ]
-    assert np.abs(errors).max() < 0.01, errors
+    # the eigenproblem has no mass of rollers: 8 kg between rings of 100 kg and more, 1.3 % in one mode
+    assert np.abs(errors).max() < (0.015 if tier == "quasistatic" else 0.01), errors
 
 
 def _springs(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
@@ -340,8 +349,12 @@ def _frequency(
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_run_begins_bent_and_quiet(tier: str, kind: str) -> None:
-    """The first millisecond of a bearing that stands still: modes stay where the static solution put them."""
-    twin = started(suspended(tier, kind))
+    """The first millisecond of a bearing that stands still: modes stay where the static solution put them.
+
+    Without cages, whose rollers would roll on.
+    """
+    scene = suspended(tier, kind)
+    twin = started(replace(scene, effects=replace(scene.effects, cage=None)))
     assert twin._state is not None
     begin = twin._state.flex[0].copy()
     signals, _ = stepped(twin, 32, 0.0)
@@ -383,7 +396,19 @@ def test_a_box_that_bends_takes_no_step_longer_than_a_sample() -> None:
     rigid = scene_of("static_80kN", "lumped")
     assert fast_steps(rigid).steps_per_sample < 1.0
     assert fast_steps(bent_scene("lumped", "rings")).steps_per_sample == 1.0
-    problems = contradictions("lumped", True, 6, 0.5, bends=True)
-    assert len(problems) == 1
-    assert "effects.structure" in problems[0]
+    for kind, steps in (("modes", 0.5), ("rings", 0.25)):
+        problems = contradictions("lumped", True, 6, steps, kind)
+        assert len(problems) == 1
+        assert "effects.structure" in problems[0]
     assert not contradictions("lumped", True, 6, 0.5)
+    assert not contradictions("lumped", True, 6, 0.5, "rings")
+    assert contradictions("quasistatic", True, 6, 0.5, "rings")
+
+
+def test_rings_take_steps_of_two_samples_where_only_low_bands_are_asked_for() -> None:
+    """Not so modes of a box, nor the quasistatic tier."""
+    rings = bent_scene("lumped", "rings", "cup_spall")
+    assert fast_steps(rings, band=1000.0).steps_per_sample == 0.5
+    assert fast_steps(rings, band=4000.0).steps_per_sample == 1.0
+    assert fast_steps(bent_scene("lumped", "modes", "cup_spall"), band=1000.0).steps_per_sample >= 1.0
+    assert fast_steps(bent_scene("quasistatic", "rings", "cup_spall"), band=1000.0).steps_per_sample == 1.0

@@ -29,7 +29,7 @@ def strongest_order(vertical: Float, rate: float, shaft_speed: float, low: float
 
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic", pytest.param("full", marks=pytest.mark.slow)])
 def test_a_spalled_roller_strikes_at_twice_the_spin_of_pure_rolling(tier: str) -> None:
-    """It spins so wherever it is loaded; of the full tier, drag slows it where it is not.
+    """It spins so wherever it is loaded; drag slows it where it is not, but in the lumped tier.
 
     The line lies at twice the spin of the truth over whole turns of the cage.
     """
@@ -50,9 +50,11 @@ def test_a_spalled_roller_strikes_at_twice_the_spin_of_pure_rolling(tier: str) -
             loads.append(np.linalg.norm(block.contacts[:, 0, 0, 0, 3:6], axis=1))
     shaft_speed = float(np.mean(block.shaft_speed))
     spin, load = np.concatenate(spins) / shaft_speed / orders.bsf, np.concatenate(loads)
-    assert np.allclose(spin[load > 2e3], 1.0, rtol=0.0, atol=5e-3)
-    assert spin[load > 2e3].mean() == pytest.approx(1.0, abs=1e-3)
-    assert spin.mean() == pytest.approx(1.0, abs=5e-3 if tier == "full" else 1e-9)
+    # a roller whose traction is limited slips a little more than one on films
+    most, mean = (1e-2, 3e-3) if tier == "quasistatic" else (5e-3, 1e-3)
+    assert np.allclose(spin[load > 2e3], 1.0, rtol=0.0, atol=most)
+    assert spin[load > 2e3].mean() == pytest.approx(1.0, abs=mean)
+    assert spin.mean() == pytest.approx(1.0, abs=1e-9 if tier == "lumped" else 5e-3)
     vertical = np.concatenate([each.acceleration[:, 2] for each in readings])
     settled = vertical[round(SETTLED_S * readings[0].rate) :]
     found = strongest_order(settled, readings[0].rate, shaft_speed, 6.5, 7.1)

@@ -51,7 +51,7 @@ def test_restart_from_a_snapshot_is_bit_identical(tier: str) -> None:
 
 @pytest.mark.parametrize("tier", FAST)
 def test_a_block_has_the_channels_of_the_full_tier(tier: str) -> None:
-    """Same shapes; rollers orbit with the cage at its kinematic speed; no pocket contact, no audit."""
+    """Same shapes; rollers orbit with the cage, in the lumped tier at its kinematic speed; no audit."""
     full, fast = (
         blocks_of(scene_of("cup_spall", "full"), 0.1)[-1],
         blocks_of(scene_of("cup_spall", tier), 0.1)[-1],
@@ -60,11 +60,12 @@ def test_a_block_has_the_channels_of_the_full_tier(tier: str) -> None:
     assert fast.contacts.shape == full.contacts.shape
     assert fast.acceleration.shape == full.acceleration.shape
     scene = scene_of("cup_spall", tier)
+    slip = {"lumped": (1e-4, 1e-3), "quasistatic": (1e-2, 3e-2)}[tier]
     np.testing.assert_allclose(
-        fast.cage_speed[:, 0], cage_speed(scene.bearing, 1.0) * fast.shaft_speed, rtol=1e-4
+        fast.cage_speed[:, 0], cage_speed(scene.bearing, 1.0) * fast.shaft_speed, rtol=slip[0]
     )
     np.testing.assert_allclose(
-        fast.roller_speed, fast.cage_speed[:, :1, None] * np.ones((1, 2, 17)), rtol=1e-3
+        fast.roller_speed, fast.cage_speed[:, :1, None] * np.ones((1, 2, 17)), rtol=slip[1]
     )
     assert not fast.contacts[..., 3, :].any()
     assert fast.audit is None
@@ -125,12 +126,12 @@ def test_mirrored_rollers_carry_mirrored_loads(tier: str) -> None:
 def test_effects_beyond_a_tier_are_listed_and_not_ignored(tier: str) -> None:
     scene = replace(scene_of("static_80kN", tier), duration=0.1)
     summary = run(scene)
-    assert summary.not_in_tier == ("traction", "cage", "audit", "rib.roller_end")
-    assert summary.effects == ("contact_damping", "film", "rib", "gravity")
+    assert summary.not_in_tier == ("traction", "audit", "rib.roller_end")
+    assert set(summary.effects) == {"contact_damping", "film", "rib", "cage", "gravity"}
     assert summary.energy_residual is None
     truth = Twin(scene).truth()
     assert truth["tier"] == tier
-    assert truth["not_in_this_tier"]["effects"] == ["traction", "cage", "audit", "rib.roller_end"]
+    assert truth["not_in_this_tier"]["effects"] == list(summary.not_in_tier)
     assert "energy audit" in truth["not_in_this_tier"]["channels"]
 
 
@@ -141,14 +142,16 @@ def test_the_full_tier_misses_nothing() -> None:
 @pytest.mark.parametrize("tier", TIER_NAMES)
 def test_a_tier_brings_its_own_step_and_a_resolved_scene_keeps_it(tier: str) -> None:
     scene = load_scene("static_80kN", tier=tier)
-    assert scene.numerics.steps_per_sample == {"lumped": 0.25, "quasistatic": 0.5, "full": 4}[tier]
+    assert scene.numerics.steps_per_sample == {"lumped": 0.25, "quasistatic": 1, "full": 4}[tier]
     assert scene_from_text(scene_text(scene)).numerics == scene.numerics
     assert scene_from_text(scene_text(scene)).tier == tier
 
 
 @pytest.mark.parametrize("tier", FAST)
 def test_half_the_step_gives_the_same_load_distribution(tier: str) -> None:
+    """Without cages, in whose pockets the rollers would be at other places."""
     scene = scene_of("static_80kN", tier)
+    scene = replace(scene, effects=replace(scene.effects, cage=None))
     fine = replace(scene, numerics=replace(scene.numerics, steps_per_sample=4))
     peaks = []
     for each in (scene, fine):

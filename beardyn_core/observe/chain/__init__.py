@@ -4,6 +4,7 @@
 module      responsibility
 =========== ========================================================================
 inputs      what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
+diagnosable tells what no fault can be heard in
 kurtogram   another select_band: where the spectral kurtosis is largest
 whitening   select_band and whiten: all that is usable, every frequency with the same weight
 wheel       takes out what turns with the wheel (flats, polygons)
@@ -11,7 +12,7 @@ tracking    track: over the angle of the shaft, as logarithm
 surprise    how often noise has such lines: evidence, and the threshold of a stated rate
 rivals      evenly spaced lines that no pattern explains
 fault_lines score: power on the lines of each fault against noise
-loudness    how loud and deep they are in the signal as measured
+strikes     how much of the power as measured comes in short strikes
 levels      RMS, kurtosis, crest factor and their trend
 verdict     decide: which fault is called, and why; the temperature rule
 result      what an algorithm answers

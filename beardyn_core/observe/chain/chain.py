@@ -10,17 +10,16 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
+from beardyn_core.observe.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
+from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, comb_score
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
 from beardyn_core.observe.chain.levels import levels_of, rise
-from beardyn_core.observe.chain.loudness import with_loudness
 from beardyn_core.observe.chain.result import MonitorResult
+from beardyn_core.observe.chain.strikes import with_strikes
 from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
 from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
-
-_RATE_TOLERANCE = 1e-3  # of a rate that is known from time stamps
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
@@ -37,15 +36,6 @@ def squared_envelope(stretch: Stretch, band: Band) -> Float:
     Process. 25, section 4.3: the squared envelope has no harmonics of its own making.
     """
     return stretch.squared_envelope((band.low, band.high))
-
-
-def live_axes(stretch: Stretch) -> tuple[Stretch, str]:
-    """Leave out the axes whose signal does not change, and name them by their number from 1 on."""
-    live = np.ptp(stretch.acceleration, axis=0) > 0.0
-    if live.all():
-        return stretch, ""
-    dead = ", ".join(str(axis + 1) for axis in np.flatnonzero(~live))
-    return replace(stretch, acceleration=stretch.acceleration[:, live]), dead
 
 
 Algorithm = Callable[[Stretch, FaultFrequencies, int, MonitorSettings], MonitorResult]
@@ -89,44 +79,37 @@ class Chain:
             Rollers of one row.
         """
         speed = stretch.shaft_frequency
-        least = 2.0 * (settings.lowest_band + settings.narrowest_band)
-        if stretch.rate < least * (1.0 - _RATE_TOLERANCE):
+        if why := unheard(stretch, settings):
             return MonitorResult(
-                "waiting",
-                f"the sampling rate is {stretch.rate:.6g} Hz; at least {least:g} Hz are needed for a band "
-                f"above {settings.lowest_band:g} Hz",
+                NOT_DIAGNOSABLE,
+                why,
                 stretch.end_ns,
                 shaft_frequency=speed,
                 revolutions=stretch.revolutions,
             )
         stretch, dead = live_axes(stretch)
-        if not stretch.acceleration.shape[1]:
-            return MonitorResult(
-                "waiting",
-                "the accelerometer is dead: its signal does not change",
-                stretch.end_ns,
-                shaft_frequency=speed,
-                revolutions=stretch.revolutions,
-            )
         band = self.select_band(stretch, settings)
         power = self.envelope(self.whiten(stretch, settings), band)
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
-        measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
-        found = with_loudness(found, measured, stretch, band, settings)
+        found = with_strikes(found, stretch, band, settings)
         verdict = self.decide(found, stretch, settings)
         if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is heard as measured
+            measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
             clockwork = self.score(measured, orders, roller_count, speed, settings)
-            clockwork = with_loudness(clockwork, measured, stretch, band, settings)
-            deep = replace(settings, least_burst=np.inf, least_depth=settings.clockwork_depth)
+            clockwork = with_strikes(clockwork, stretch, band, settings)
+            never = (np.inf, np.inf, np.inf)
+            deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
             heard = self.decide(clockwork, stretch, deep)
             if heard.name not in (HEALTHY, HOT_BOX):
                 found, verdict = clockwork, heard
+        if verdict.name == HEALTHY and (why := doubt(stretch)):
+            verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
-        best, called = verdict.best, verdict.name not in (HEALTHY, HOT_BOX)
+        best, called = verdict.best, verdict.name in FAULTS
         return MonitorResult(
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",

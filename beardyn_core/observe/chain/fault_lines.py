@@ -71,9 +71,10 @@ class Candidate:
     evidence: A[float, "against chance, whatever the number of lines, [nat]"]
     rival: A[Rival, "evenly spaced lines that it does not explain"]
     lines: A[tuple[Line, ...], "those that stand out one by one"]
-    burst: A[
-        float, "root of the mean power that comes and goes on a line, the strongest left out, [m/s^2]"
+    strikes: A[
+        float, "what its harmonics but the loudest make of the mean power, NaN when not measured, [-]"
     ] = np.nan
+    sharpest: A[float, "the same in the octave where it is most, 0 when not measured, [-]"] = 0.0
 
     def places(self, harmonics: int) -> Float:
         """Compute where its lines are, shape [line], [-]."""
@@ -90,8 +91,7 @@ class FaultLines:
     candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`"]
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
-    power: A[float, "mean squared envelope beside strikes of the wheel, NaN when unknown, [m^2/s^4]"] = np.nan
-    deepest: A[float, "share of that power in the strongest line as measured, [-]"] = 0.0
+    deepest: A[float, "strongest line as measured over the mean power, [-]"] = 0.0
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:

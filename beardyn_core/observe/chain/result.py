@@ -10,14 +10,18 @@ import numpy as np
 from beardyn_core.observe.chain.fault_lines import Line
 from beardyn_core.observe.features import OrderSpectrum
 
-VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "hot_box")
+VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "hot_box", "not_diagnosable")
 
 
 @dataclass(frozen=True)
 class MonitorResult:
     """Result of the monitor at one time; an algorithm sets the fields that it computes."""
 
-    verdict: A[str, "one of `VERDICTS`: ``waiting`` where there is not enough signal yet"]
+    verdict: A[
+        str,
+        "one of `VERDICTS`: ``waiting`` where there is not enough signal yet, ``not_diagnosable`` where "
+        "more of it would not help",
+    ]
     reason: A[str, "the verdict in a sentence"]
     end_ns: A[int, "simulated time of the last sample analysed, [ns]"]
     fault_order: A[float, "found, NaN without a fault, per shaft revolution"] = np.nan

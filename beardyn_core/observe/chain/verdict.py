@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isnan, log
 from typing import Annotated as A
 
-from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines
+from beardyn_core.observe.chain.fault_lines import FAULTS, Candidate, FaultLines
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 
 HEALTHY, HOT_BOX = "healthy", "hot_box"
@@ -18,7 +18,7 @@ _ZERO_CELSIUS = 273.15
 class Verdict:
     """Fault that is reported, with its reason."""
 
-    name: A[str, "``healthy``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
+    name: A[str, "``healthy``, ``not_diagnosable``, ``cup``, ``cone``, ``roller`` or ``hot_box``"]
     reason: A[str, "in a sentence"]
     best: A[Candidate, "the strongest candidate, or the one that is called"]
     temperature_state: A[str, "``unknown``, ``normal``, ``warm`` or ``hot``"] = UNKNOWN
@@ -27,12 +27,12 @@ class Verdict:
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
     """Report the fault with most evidence if that passes its threshold, unless a rival explains more.
 
-    What is below `least_burst` and `least_depth` is faint and no fault, however sure it is that it is there.
+    What is below `least_strikes` is a hum and no fault, however sure it is that it is there.
     A rival are evenly spaced lines of another bearing, a gear or a fan, no chance where the fault does not
     explain them: some of them always lie near those of a fault. A hot box is called whatever the lines say;
     it leaves a fault its name.
     """
-    heard = [each for each in found.candidates if not _is_faint(each, found.power, settings)]
+    heard = [each for each in found.candidates if strikes(each, settings)]
     best = max(heard or found.candidates, key=lambda candidate: candidate.evidence)
     chance = -log(settings.false_alarm_rate)
     contradicted = best.rival.own > chance and best.rival.evidence > best.evidence
@@ -40,15 +40,18 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     if heard and best.score >= best.threshold and not contradicted:
         name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
     else:
-        name, reason = HEALTHY, _healthy_sentence(best, contradicted, found.power)
+        name, reason = HEALTHY, _healthy_sentence(best, contradicted)
     if state == HOT:
         name = HOT_BOX if name == HEALTHY else name
         reason = f"{_hot_sentence(stretch)}; {reason}"
     return Verdict(name, reason, best, state)
 
 
-def _is_faint(candidate: Candidate, power: float, settings: MonitorSettings) -> bool:
-    return candidate.burst < settings.least_burst and candidate.burst**2 < settings.least_depth * power
+def strikes(candidate: Candidate, settings: MonitorSettings) -> bool:
+    """Tell whether a candidate strikes, in all that is heard or in one octave, or was not measured."""
+    hums = candidate.strikes < settings.least_strikes
+    least = settings.least_sharpest[FAULTS.index(candidate.pattern.fault)]
+    return not hums or candidate.sharpest >= least
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
@@ -80,13 +83,15 @@ def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
     )
 
 
-def _healthy_sentence(best: Candidate, contradicted: bool, power: float) -> str:
+def _healthy_sentence(best: Candidate, contradicted: bool) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if best.score >= best.threshold:
         if contradicted:
             return f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer"
-        share = best.burst**2 / power
-        return f"no fault: {scores}, but with {share:.1%} of the power in its band it is too faint"
+        return (
+            f"no fault: {scores}, but it does not strike: its harmonics but the loudest make "
+            f"{best.strikes:.1%} of the power in its band"
+        )
     return f"no fault: {scores}"
 
 

@@ -55,9 +55,11 @@ def _struck_in(power: Float, known: Bool | bool = False) -> Bool:
     steady = quartile > _STEADY * np.mean(power, axis=0)
     struck = known | (steady & (quartile > _STRIKE * usual))
     ringing = steady & (quartile > _RINGING * usual)
-    for _ in range(SECTORS):
-        struck = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
-    return np.asarray(struck)
+    while True:
+        more = struck | (ringing & (np.roll(struck, 1) | np.roll(struck, -1)))
+        if np.array_equal(more, struck):
+            return np.asarray(more)
+        struck = more
 
 
 def quiet_samples(stretch: Stretch, settings: MonitorSettings) -> Bool:

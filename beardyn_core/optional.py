@@ -1,0 +1,34 @@
+"""Libraries of an extra, imported when they are needed."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+from beardyn_core.errors import InputError
+
+
+def library(name: str, purpose: str, extra: str) -> Any:
+    """Import a library of an extra.
+
+    Parameters
+    ----------
+    name : str
+        Of the module.
+    purpose : str
+        What needs it, as the sentence begins.
+    extra : str
+        What installs it.
+
+    Raises
+    ------
+    InputError
+        It is not installed, or something that it needs itself.
+    """
+    try:
+        return importlib.import_module(name)
+    except (ImportError, OSError) as error:  # OSError: a library of the system is not there
+        raise InputError(
+            f"{purpose} needs {name.partition('.')[0]}, which is not installed ({error}); install it with: "
+            f"pip install 'beardyn[{extra}]'"
+        ) from error

@@ -1,0 +1,32 @@
+"""Every spectrum that was tried finds a fault that is clear, and none in noise."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from beardyn_core.config import load_plate
+from beardyn_core.observe.chain import MonitorSettings, Stretch
+from evidence.measured.spectra import standings
+
+RATE, SHAFT, SECONDS = 12_000.0, 30.0, 2.0
+
+
+def heard(strike: float) -> Stretch:
+    """Strikes at BPFO of a 6205 that ring at 3 kHz, in noise of 1 m/s²."""
+    random = np.random.default_rng(1)
+    time = np.arange(int(SECONDS * RATE)) / RATE
+    period = 1.0 / (load_plate("6205").frequencies.bpfo * SHAFT)
+    when = np.cumsum(period * random.normal(1.0, 0.005, int(SECONDS / period) - 4))
+    signal = random.normal(size=len(time))
+    for each in when:
+        since = time[int(each * RATE) :][:100] - each
+        signal[int(each * RATE) :][:100] += strike * np.exp(-since / 1e-3) * np.sin(6e3 * np.pi * since)
+    return Stretch(RATE, signal[:, None], np.asarray(2.0 * np.pi * SHAFT * time), np.nan, 0)
+
+
+def test_each_finds_a_clear_fault_and_none_in_noise() -> None:
+    orders, settings = load_plate("6205").frequencies, MonitorSettings()
+    found = {name: each.called for name, each in standings(heard(6.0), orders, settings)}
+    assert len(found) == 6
+    assert set(found.values()) == {"cup"}
+    assert {each.called for _, each in standings(heard(0.0), orders, settings)} == {""}
