@@ -76,7 +76,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (SHARE, ["package.xml"]),
         *tree("launch", "*.py", "*.yaml"),
-        *tree("config", "*.yaml", "*.csv"),
+        *tree("config", "*.yaml", "*.csv", "*.npz"),
         (f"lib/{NAME}", sorted(glob("scripts/*"))),
     ],
     install_requires=[

@@ -39,6 +39,7 @@ measured   files of measuring programs as recordings and runs
 engine     many runs at once, on all cores or a Dask cluster
 study      desk runs, ladders, trials, summaries, pictures
 population sweeps: sets of labelled runs, and a learner to compare with
+follow     load, end play and spall from vibration, with intervals
 api        the functions of this module
 cli        the beardyn command, a module a subcommand
 ========== ===================================================================
@@ -54,6 +55,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from beardyn_core.api.estimating import estimate, train
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
@@ -74,6 +76,7 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.effects import EffectSet
     from beardyn_core.errors import InputError, ValidityError
+    from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.chain import Chain, MonitorSettings
     from beardyn_core.observe.summary import RunSummary
@@ -90,17 +93,28 @@ __all__ = [
     "Block",
     "Chain",
     "EffectSet",
+    "Estimates",
+    "Estimator",
     "InputError",
     "LabelledSet",
     "Lubricant",
     "MonitorSettings",
 ]
 __all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
-__all__ += ["equilibrium", "fault_frequencies", "film", "import_measured", "life", "load_distribution"]
+__all__ += [
+    "equilibrium",
+    "estimate",
+    "fault_frequencies",
+    "film",
+    "import_measured",
+    "life",
+    "load_distribution",
+]
 __all__ += ["lubricant", "monitor", "name_plate", "open_set", "read", "read_measured", "scene", "severity"]
-__all__ += ["simulate", "steady_heat", "stiffness", "sweep", "torque", "trend"]
+__all__ += ["simulate", "steady_heat", "stiffness", "sweep", "torque", "train", "trend"]
 
 _MODULES = {
+    "api.estimating": ("estimate", "train"),
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
@@ -114,6 +128,7 @@ _MODULES = {
     "bearing.lubricant": ("Lubricant",),
     "bearing.name_plate": ("NamePlate",),
     "effects": ("EffectSet",),
+    "follow.estimator": ("Estimates", "Estimator"),
     "errors": ("InputError", "ValidityError"),
     "observe.block": ("Block",),
     "observe.chain": ("Chain", "MonitorSettings"),

@@ -70,7 +70,7 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
-    heard, plate, sensor = _heard(run, bearing, sensor)
+    heard, plate, sensor = heard_of(run, bearing, sensor)
     return conclude(findings_of(heard, plate, algorithm, settings, sensor))
 
 
@@ -96,12 +96,12 @@ def severity(
         ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
         rollers are not two clear events.
     """
-    heard, plate, sensor = _heard(run, bearing, sensor)
+    heard, plate, sensor = heard_of(run, bearing, sensor)
     found = conclusion or conclude(findings_of(heard, plate, sensor=sensor))
     return severity_in(heard, found, plate, sensor)
 
 
-def _heard(
+def heard_of(
     run: Run | Path | str, bearing: Bearing | NamePlate | str | None, sensor: str
 ) -> tuple[Run, Bearing | NamePlate, str]:
     """Find run, bearing and accelerometer."""

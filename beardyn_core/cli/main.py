@@ -24,9 +24,9 @@ DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
 COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
-    "recordings": ("import", "view", "report", "monitor", "export"),
+    "recordings": ("import", "view", "report", "monitor", "estimate", "export"),
     "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
-    "populations": ("sweep", "baseline"),
+    "populations": ("sweep", "baseline", "train"),
     "files": ("schema",),
 }
 """The subcommands, each a module of this package, under the headings of the help."""

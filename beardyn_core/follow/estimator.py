@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from math import sqrt
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -16,14 +17,19 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
-from beardyn_core.estimate.descriptors import names_of
-from beardyn_core.estimate.quantities import BY_NAME, Quantity
-from beardyn_core.estimate.regression import LEVELS, Regression
+from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.part import PartEstimate, PartRule
+from beardyn_core.follow.quantities import BY_NAME, Quantity
+from beardyn_core.follow.regression import LEVELS, Regression
+from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
 VERSION = 1
 _ARRAYS = ("directions", "support", "weights", "doubt_weights", "reach")
+_PART = ("slope", "offset", "least")
 _NUMBERS = ("width", "mean", "doubt")
+_AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
+_BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
 _FAR = 4.0  # standard deviations: an expected share of 1e-4 of runs like those learnt from
 
 
@@ -48,6 +54,32 @@ class Estimate:
         )
 
 
+@dataclass(frozen=True)
+class Estimates:
+    """What an estimator makes of a run."""
+
+    part: A[PartEstimate | None, "condition of the bearing; none where the estimator learnt one alone"]
+    quantities: A[tuple[Estimate, ...], "in the order in which they are told"]
+    strangeness: A[float, "distance from the runs learnt from, 1 where hardly one of them lies, [-]"]
+    stretches: A[int, "of the signal that were heard"]
+
+    @property
+    def sentences(self) -> list[str]:
+        """Say everything, a line each."""
+        lines = [] if self.part is None else [self.part.sentence]
+        lines += [each.sentence for each in self.quantities]
+        if self.strangeness > 1.0:
+            lines.append(
+                f"the signal is unlike all that was learnt from, {self.strangeness:.1f} times as far "
+                "as those hardly are: intervals do not hold"
+            )
+        return lines
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Find a quantity by its name."""
+        return next(each for each in self.quantities if each.quantity.name == name)
+
+
 @dataclass(frozen=True, eq=False)
 class Estimator:
     """Numbers that give estimates, and where they come from."""
@@ -62,6 +94,7 @@ class Estimator:
     sizes: A[Float, "shape [direction], standard deviation along each"]
     farthest: A[float, "distance from the middle that a run learnt from hardly has, [-]"]
     regressions: A[Mapping[str, Regression], "by quantity"]
+    part: A[PartRule | None, "which part is spalled; none where one condition alone was learnt"]
     card: A[Mapping[str, Any], "set, counts, errors on bearings not learnt from, versions"]
 
     @property
@@ -70,7 +103,7 @@ class Estimator:
         return fault_frequencies(self.plate)
 
     def standardised(self, descriptors: Float) -> Float:
-        """Take descriptors, shape [run, descriptor], to zero mean and unit spread; what is missing is usual."""
+        """Take descriptors, shape [run, descriptor], to zero mean and unit spread; what lacks is usual."""
         return np.nan_to_num((descriptors - self.middle) / self.spread, nan=0.0, posinf=0.0, neginf=0.0)
 
     def strangeness(self, descriptors: Float) -> Float:
@@ -78,43 +111,54 @@ class Estimator:
         along = self.standardised(descriptors) @ self.usual.T / self.sizes
         return np.asarray(np.sqrt((along**2).mean(axis=1)) / self.farthest, np.float64)
 
-    def estimates(self, descriptors: Float, spalled: bool) -> list[Estimate]:
+    def estimates(self, descriptors: Float) -> Estimates:
         """Estimate from stretches of one run, shape [stretch, descriptor].
 
         The middle of the stretches is told, with the intervals of one stretch: what a box or a track has of
         its own is in all of them, and does not go away with their number.
         """
         standard = self.standardised(descriptors)
-        return list(self._estimates(standard, spalled))
+        part = None if self.part is None else self.part.estimate(standard)
+        known = [BY_NAME[name] for name in BY_NAME if name in self.card["quantities"]]
+        spalled = part is None or part.condition != HEALTHY
+        return Estimates(
+            part,
+            tuple(
+                _silent(each, "no part is called spalled")
+                if each.of_fault and not spalled
+                else self._estimate(each, standard)
+                for each in known
+            ),
+            float(np.median(self.strangeness(descriptors))),
+            len(descriptors),
+        )
 
-    def _estimates(self, standard: Float, spalled: bool) -> Iterator[Estimate]:
-        for name, quantity in BY_NAME.items():
-            known = self.card["quantities"].get(name)
-            if known is None:
-                continue
-            if quantity.of_fault and not spalled:
-                yield _silent(quantity, "no part is called faulty")
-                continue
-            if name not in self.regressions:
-                yield _silent(
-                    quantity,
-                    f"not identifiable: on bearings not learnt from, the estimate explains "
-                    f"{100 * max(known['explained'], 0.0):.0f} % of its variance",
-                )
-                continue
-            guess = self.regressions[name].guess(standard)
-            middle = float(np.median(guess.value))
-            half = np.median(guess.high - guess.value, axis=1)
-            ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
-            value = float(quantity.restored(np.array(middle)))
-            yield Estimate(quantity, value, tuple((float(low), float(high)) for low, high in ends))
+    def _estimate(self, quantity: Quantity, standard: Float) -> Estimate:
+        known = self.card["quantities"][quantity.name]
+        if quantity.name not in self.regressions:
+            return _silent(
+                quantity,
+                f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
+                "of its variance is explained",
+            )
+        guess = self.regressions[quantity.name].guess(standard)
+        middle = float(np.median(guess.value))
+        half = np.median(guess.high - guess.value, axis=1)
+        low, high = (float(quantity.scaled(np.array(known[end]))) for end in ("low", "high"))
+        ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
+        intervals = tuple((float(first), float(last)) for first, last in ends)
+        if 2.0 * half[-1] >= _AS_WIDE * (high - low):
+            return Estimate(quantity, float("nan"), intervals, _BLURRED)
+        return Estimate(quantity, float(quantity.restored(np.array(middle))), intervals)
 
-    def save(self, path: Path) -> None:
+    def save(self, path: Path, *, replace: bool = True) -> None:
         """Write the estimator as an NPZ file, whole or not at all."""
         arrays = {f"{name}_": getattr(self, name) for name in ("middle", "spread", "usual", "sizes")}
         for name, each in self.regressions.items():
             arrays |= {f"{name}.{part}": getattr(each, part) for part in _ARRAYS}
             arrays[f"{name}.numbers"] = np.array([getattr(each, part) for part in _NUMBERS])
+        if self.part is not None:
+            arrays |= {f"part.{name}": getattr(self.part, name) for name in _PART}
         head = {
             "version": VERSION,
             "plate": {
@@ -127,10 +171,11 @@ class Estimator:
             "stretch": self.stretch,
             "farthest": self.farthest,
             "quantities": tuple(self.regressions),
+            "conditions": () if self.part is None else self.part.conditions,
             "card": dict(self.card),
         }
         stored = {name: np.asarray(values, np.float32) for name, values in arrays.items()}
-        with as_a_whole(path) as fresh, fresh.open("wb") as file:
+        with as_a_whole(path, replace=replace) as fresh, fresh.open("wb") as file:
             np.savez_compressed(file, head=np.array(json.dumps(head)), **stored)  # type: ignore[arg-type]
 
 
@@ -165,11 +210,14 @@ def read_estimator(path: Path) -> Estimator:
         found = Estimator(
             NamePlate(**head["plate"]), tuple(head["axes"]), head["rate"], head["stretch"],
             *(numbers[f"{name}_"] for name in ("middle", "spread", "usual", "sizes")),
-            head["farthest"], regressions, head["card"],
+            head["farthest"], regressions,
+            PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
+            if head["conditions"] else None,
+            head["card"],
         )  # fmt: skip
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file") from None
-    except (OSError, ValueError, KeyError, TypeError, EOFError) as error:
+    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as error:
         raise InputError(f"{path}: is no estimator that `beardyn train` wrote ({error})") from None
     if len(found.middle) != len(names_of(found.axes)):
         raise InputError(
@@ -180,6 +228,6 @@ def read_estimator(path: Path) -> Estimator:
 
 
 def farthest_of(along: Float) -> float:
-    """Find the distance that a run learnt from hardly has; `along` has standard deviations, [run, direction]."""
+    """Find the distance that a run learnt from hardly has; `along` in standard deviations of each."""
     distance = np.sqrt((along**2).mean(axis=1))
     return float(distance.mean() + _FAR * distance.std()) or sqrt(along.shape[1])

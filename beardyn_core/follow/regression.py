@@ -8,6 +8,7 @@ from typing import Annotated as A
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from beardyn_core.arrays import Float
 
@@ -64,9 +65,14 @@ class Regression:
         half = self.reach[:, None] * error
         return Guess(value, value - half, value + half)
 
+    def solved(self, standardised: Float, values: Float, ridge: float) -> Float:
+        """Solve for the weights, shape [run], that give values of the runs learnt from."""
+        kernel = self._kernel(standardised)
+        return np.asarray(np.linalg.solve(kernel + ridge * np.eye(len(kernel)), values), np.float64)
+
     def _kernel(self, standardised: Float) -> Float:
         place = standardised @ self.directions
-        square = ((place[:, None, :] - self.support[None, :, :]) ** 2).sum(axis=2)
+        square = cdist(place, self.support, "sqeuclidean")
         return np.asarray(np.exp(-0.5 * square / self.width**2), np.float64)
 
 

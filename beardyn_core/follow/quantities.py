@@ -37,14 +37,22 @@ class Quantity:
         """Write a value in SI in the unit of the edge."""
         return f"{(value - self.offset) * self.factor:.3g} {self.shown}"
 
+    def width_text(self, width: float) -> str:
+        """Write a difference of two values in SI in the unit of the edge."""
+        return f"{width * self.factor:.2g} {'K' if self.offset else self.shown}"
+
 
 QUANTITIES = (
     Quantity("vertical_load", "mean vertical load on the journal", "load_fz_N_mean", "N", "kN", 1e-3, True),
     Quantity("lateral_load", "mean lateral load on the journal", "load_fy_N_mean", "N", "kN", 1e-3, False),
     Quantity("end_play", "end play of the bearing as mounted", "end_play_m", "m", "mm", 1e3, False),
-    Quantity("temperature", "temperature of the bearing", "temperature_K", "K", "°C", 1.0, False, offset=273.15),
+    Quantity(
+        "temperature", "temperature of the bearing", "temperature_K", "K", "°C", 1.0, False, offset=273.15
+    ),
     Quantity("width", "width of the spall along the raceway", "fault_width_m", "m", "mm", 1e3, True, True),
-    Quantity("length", "length of the spall across the raceway", "fault_length_m", "m", "mm", 1e3, True, True),
+    Quantity(
+        "length", "length of the spall across the raceway", "fault_length_m", "m", "mm", 1e3, True, True
+    ),
     Quantity("depth", "depth of the spall", "fault_depth_m", "m", "um", 1e6, True, True),
 )
 """In the order in which they are told."""

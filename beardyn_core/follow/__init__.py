@@ -6,7 +6,10 @@ module       responsibility, in the order of the data
 descriptors  what is worked out of a stretch of signal
 quantities   what is estimated, on which scale, and by which label of a run it is learnt
 regression   numbers from descriptors with intervals that hold their promise
+part         which part is spalled, with sets of parts that hold their promise
 estimator    the numbers that make an estimator, its card, and the file that keeps them
+listening    what an estimator makes of a run
+shipped      estimators that are shipped, found by the bearing
 training     an estimator of a set of runs, judged on bearings that it has not seen
 ============ ==================================================================
 

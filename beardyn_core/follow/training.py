@@ -14,20 +14,26 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
-from beardyn_core.estimate.descriptors import AXES, describe, names_of
-from beardyn_core.estimate.estimator import Estimator, farthest_of
-from beardyn_core.estimate.quantities import QUANTITIES, Quantity
-from beardyn_core.estimate.regression import LEVELS, Regression, reach_of
+from beardyn_core.follow.descriptors import AXES, describe, names_of
+from beardyn_core.follow.estimator import Estimator, farthest_of
+from beardyn_core.follow.part import PartRule, least_of
+from beardyn_core.follow.quantities import QUANTITIES, Quantity
+from beardyn_core.follow.regression import LEVELS, Regression, reach_of
 from beardyn_core.observe.chain import Stretch
+from beardyn_core.optional import library
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
-from beardyn_core.population.store import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 _FEWEST = 40  # runs to learn a number from
 _FOLDS = 5
-_DIRECTIONS, _WIDTHS, _RIDGES = (6, 12, 20), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)  # what is tried, widths per root
+_DIRECTIONS, _WIDTHS, _RIDGES = (
+    (6, 12, 20),
+    (1.0, 2.0, 4.0),
+    (0.01, 0.1, 1.0),
+)  # what is tried, widths per root
 _DOUBT_RIDGE = 3.0
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
+_OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way")  # descriptors that tell the parts apart
 _USUAL = 20  # principal directions that strangeness looks along
 
 
@@ -37,6 +43,7 @@ class Described(NamedTuple):
     descriptors: Float  # shape [run, descriptor]
     truth: dict[str, Float]  # by quantity, SI, shape [run]; NaN where a run has none
     bearings: NDArray[Any]  # shape [run], names
+    conditions: NDArray[Any]  # shape [run]
 
 
 class Score(NamedTuple):
@@ -53,11 +60,9 @@ def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES)
     """Work out the descriptors of the complete runs of a part of a set, of all parts with `None`."""
     chosen = runs.runs_of(part)
     columns = [each.label for each in QUANTITIES if each.label in runs.table]
-    known = runs.labels_of(chosen, [*columns, "bearing_id"])
+    known = runs.labels_of(chosen, [*columns, "bearing_id", "condition"])
     plate = plate_of(runs)
-    orders = frequencies(
-        plate.roller_count, plate.pitch_diameter, plate.roller_diameter, plate.contact_angle
-    )
+    orders = frequencies(plate.roller_count, plate.pitch_diameter, plate.roller_diameter, plate.contact_angle)
     kept = [AXES.index(axis) for axis in axes]
     rows = np.full((len(chosen), len(names_of(axes))), np.nan)
     signals = runs.signals
@@ -73,7 +78,9 @@ def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES)
         else np.full(len(chosen), np.nan)
         for each in QUANTITIES
     }
-    return Described(rows, truth, np.asarray(known["bearing_id"]).astype(str))
+    return Described(
+        rows, truth, *(np.asarray(known[name]).astype(str) for name in ("bearing_id", "condition"))
+    )
 
 
 def plate_of(runs: LabelledSet) -> NamePlate:
@@ -97,7 +104,9 @@ def plate_of(runs: LabelledSet) -> NamePlate:
     )
 
 
-def trained(train: Described, plate: NamePlate, axes: tuple[str, ...], rate: float, stretch: float) -> Estimator:
+def trained(
+    train: Described, plate: NamePlate, axes: tuple[str, ...], rate: float, stretch: float
+) -> Estimator:
     """Learn every quantity from the runs of a training part; intervals are not calibrated yet."""
     descriptors = train.descriptors
     with np.errstate(invalid="ignore"):
@@ -111,28 +120,53 @@ def trained(train: Described, plate: NamePlate, axes: tuple[str, ...], rate: flo
         if inside.sum() < _FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         learnt, explained = _learnt(standard[inside], values[inside], train.bearings[inside])
-        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained}
+        low, high = quantity.restored(np.quantile(values[inside], (0.05, 0.95))).tolist()
+        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "low": low, "high": high}
         if explained >= LEAST_EXPLAINED:
             regressions[quantity.name] = learnt
     farthest = farthest_of(standard @ usual.T / sizes)
     return Estimator(
-        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, regressions, {"quantities": card}
-    )
+        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, regressions,
+        _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
+    )  # fmt: skip
 
 
-def calibrated(estimator: Estimator, runs: Described) -> Estimator:
-    """Set the widths of the intervals by runs that were not learnt from."""
+def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
+    """Set the widths of the intervals by runs that were not learnt from.
+
+    With `straightened` numbers are first put on the line that fits those runs, which takes out what a tier
+    that learns has too much or too little of; the errors that remain are those of each run by a line through
+    the others.
+    """
     standard = estimator.standardised(runs.descriptors)
     found = {}
     for quantity in QUANTITIES:
         if quantity.name in estimator.regressions:
             each = estimator.regressions[quantity.name]
             values, inside = _known(quantity, runs)
-            errors = values[inside] - each.value(standard[inside])
+            given = each.value(standard[inside])
+            errors = values[inside] - given
+            if straightened:
+                each, errors = _straightened(each, given, values[inside])
             found[quantity.name] = replace(
                 each, reach=reach_of(errors, each.expected_error(standard[inside]))
             )
-    return replace(estimator, regressions=found)
+    part = estimator.part
+    if part is not None:
+        inside = np.isin(runs.conditions, part.conditions)
+        places = [part.conditions.index(each) for each in runs.conditions[inside]]
+        truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
+        part = replace(part, least=least_of(truth))
+    return replace(estimator, regressions=found, part=part)
+
+
+def _straightened(learnt: Regression, given: Float, values: Float) -> tuple[Regression, Float]:
+    """Put a regression on the line through runs not learnt from; gives their errors too, each left out."""
+    table = np.stack([np.ones(len(given)), given], axis=1)
+    turn = np.linalg.pinv(table)
+    offset, slope = turn @ values
+    errors = (values - table @ (turn @ values)) / (1.0 - np.einsum("ij,ji->i", table, turn))
+    return replace(learnt, weights=slope * learnt.weights, mean=offset + slope * learnt.mean), errors
 
 
 def scores(estimator: Estimator, runs: Described) -> dict[str, Score]:
@@ -159,6 +193,24 @@ def scores(estimator: Estimator, runs: Described) -> dict[str, Score]:
     return found
 
 
+def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
+    """Judge which conditions are named, and which are in the sets of each level; `None` without a rule."""
+    part = estimator.part
+    if part is None or not len(runs.conditions):
+        return None
+    probability = part.probabilities(estimator.standardised(runs.descriptors))
+    named = np.array(part.conditions)[probability.argmax(axis=1)]
+    held = [
+        [truth in each for each in part.sets(row)]
+        for row, truth in zip(probability, runs.conditions, strict=True)
+    ]
+    return {
+        "runs": len(named),
+        "named": float(np.mean(named == runs.conditions)),
+        "coverage": np.mean(held, axis=0).tolist(),
+    }
+
+
 def train(
     runs: LabelledSet, *, calibration: Sequence[LabelledSet] = (), axes: tuple[str, ...] = AXES
 ) -> Estimator:
@@ -179,7 +231,9 @@ def train(
         There are too few runs, or bearings of several drawings.
     """
     about = runs.about
-    seen = described(runs, TRAIN, axes)
+    seen = _joined(
+        [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
+    )
     if len(seen.bearings) < _FEWEST:
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {_FEWEST} are needed"
@@ -188,12 +242,14 @@ def train(
     seconds = float(time[-1] - time[0])
     found = trained(seen, plate_of(runs), axes, (len(time) - 1) / seconds, seconds)
     held_back = [described(each, None, axes) for each in calibration] or [described(runs, VALIDATION, axes)]
-    found = calibrated(found, _joined(held_back))
-    judged = scores(found, described(runs, TEST, axes))
+    found = calibrated(found, _joined(held_back), straightened=bool(calibration))
+    test = described(runs, TEST, axes)
+    judged = scores(found, test)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.items():
         quantities[name]["test"] = each._asdict()
     card = {
+        "condition": part_score(found, test),
         "quantities": dict(quantities),
         "set": about["sweep"],
         "runs": len(seen.bearings),
@@ -211,6 +267,7 @@ def _joined(parts: Sequence[Described]) -> Described:
         np.concatenate([each.descriptors for each in parts]),
         {name: np.concatenate([each.truth[name] for each in parts]) for name in parts[0].truth},
         np.concatenate([each.bearings for each in parts]),
+        np.concatenate([each.conditions for each in parts]),
     )
 
 
@@ -229,47 +286,64 @@ def _principal(standard: Float) -> tuple[Float, Float]:
 
 def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, float]:
     """Learn a number; gives with it the share of its variance that is explained on other bearings."""
-    library("sklearn.kernel_ridge")
+    library("sklearn.cross_decomposition", "training", "sweep")
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
+    directions = [_directions(standard[fit], values[fit]) for fit, _ in folds]
     best, errors = np.inf, np.zeros(len(values))
     chosen = (_DIRECTIONS[0], _WIDTHS[0], _RIDGES[0])
     for setting in product(_DIRECTIONS, _WIDTHS, _RIDGES):
         missed = np.empty(len(values))
-        for fit, rest in folds:
-            learnt = _fitted(standard[fit], values[fit], setting)
+        for (fit, rest), along in zip(folds, directions, strict=True):
+            learnt = _fitted(standard[fit], values[fit], along, setting)
             missed[rest] = values[rest] - learnt.value(standard[rest])
         if (square := float(np.mean(missed**2))) < best:
             best, errors, chosen = square, missed, setting
-    learnt = _fitted(standard, values, chosen)
+    learnt = _fitted(standard, values, _directions(standard, values), chosen)
     return _doubting(learnt, standard, errors, float(np.std(values))), 1.0 - best / float(np.var(values))
 
 
-def _fitted(standard: Float, values: Float, setting: tuple[int, float, float]) -> Regression:
-    """Fit the number alone, its error everywhere alike."""
-    from sklearn.cross_decomposition import PLSRegression
-    from sklearn.kernel_ridge import KernelRidge
+def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:
+    """Learn which part is spalled from what a monitor works out; `None` of one condition alone."""
+    if len(set(conditions)) < 2:
+        return None
+    from sklearn.linear_model import LogisticRegression
 
+    heard = [k for k, name in enumerate(names) if name.startswith(_OF_MONITOR)]
+    learnt = LogisticRegression(max_iter=2000).fit(standard[:, heard], conditions)
+    slope = np.zeros((len(learnt.classes_), len(names)))
+    # of two conditions the library keeps the second one's power alone
+    slope[-len(learnt.coef_) :, heard], offset = learnt.coef_, np.zeros(len(slope))
+    offset[-len(learnt.intercept_) :] = learnt.intercept_
+    return PartRule(tuple(map(str, learnt.classes_)), slope, offset, np.zeros(len(LEVELS)))
+
+
+def _directions(standard: Float, values: Float) -> Float:
+    """Find the directions that vary with a number, shape [descriptor, direction], the first ones most."""
+    from sklearn.cross_decomposition import PLSRegression
+
+    count = min(max(_DIRECTIONS), *standard.shape)
+    found = PLSRegression(count, scale=False).fit(standard, values).x_rotations_
+    return np.asarray(found / np.std(standard @ found, axis=0), np.float64)
+
+
+def _fitted(
+    standard: Float, values: Float, directions: Float, setting: tuple[int, float, float]
+) -> Regression:
+    """Fit the number alone, its error everywhere alike."""
     count, width, ridge = setting
-    mean = float(values.mean())
-    directions = PLSRegression(min(count, *standard.shape), scale=False).fit(standard, values).x_rotations_
-    directions = directions / np.std(standard @ directions, axis=0)
-    support = standard @ directions
-    reach = width * np.sqrt(directions.shape[1])
-    ridged = KernelRidge(alpha=ridge, kernel="rbf", gamma=0.5 / reach**2).fit(support, values - mean)
-    nothing = np.zeros(len(support))
-    return Regression(
-        directions, support, ridged.dual_coef_, nothing, reach, mean, 0.0, np.ones(len(LEVELS))
+    directions = directions[:, :count]
+    mean, reach = float(values.mean()), width * np.sqrt(directions.shape[1])
+    nothing = np.zeros(len(standard))
+    empty = Regression(
+        directions, standard @ directions, nothing, nothing, reach, mean, 0.0, np.ones(len(LEVELS))
     )
+    return replace(empty, weights=empty.solved(standard, values - mean, ridge))
 
 
 def _doubting(learnt: Regression, standard: Float, errors: Float, spread: float) -> Regression:
     """Learn where the number errs more and where less, from errors on bearings not learnt from."""
-    from sklearn.kernel_ridge import KernelRidge
-
     size = np.log(np.maximum(np.abs(errors), _LEAST_ERROR * spread))
     mean = float(size.mean())
-    ridged = KernelRidge(alpha=_DOUBT_RIDGE, kernel="rbf", gamma=0.5 / learnt.width**2)
-    ridged.fit(learnt.support, size - mean)
-    return replace(learnt, doubt_weights=ridged.dual_coef_, doubt=mean)
+    return replace(learnt, doubt_weights=learnt.solved(standard, size - mean, _DOUBT_RIDGE), doubt=mean)

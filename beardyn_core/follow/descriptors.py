@@ -14,7 +14,9 @@ from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stret
 from beardyn_core.observe.severity import severity_of
 
 AXES = ("x", "y", "z")
-_THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
+_THIRDS = tuple(
+    1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11)
+)  # middles of third octaves, 25 Hz to 10 kHz
 _FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
 _PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
 _TURNS = (1, 2)  # multiples of the shaft
@@ -91,7 +93,9 @@ def _thirds(signal: Float, rate: float) -> dict[float, float]:
     """Measure third octaves against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
     power = np.abs(rfft(signal * np.hanning(len(signal)))) ** 2 / len(signal) ** 2 * (2.0 * 8.0 / 3.0)
     frequency = np.arange(len(power)) * rate / len(signal)
-    edges = np.searchsorted(frequency, [middle * 2.0 ** (side / 6.0) for middle in _THIRDS for side in (-1, 1)])
+    edges = np.searchsorted(
+        frequency, [middle * 2.0 ** (side / 6.0) for middle in _THIRDS for side in (-1, 1)]
+    )
     sums = np.concatenate([[0.0], np.cumsum(power)])
     levels = {}
     for k, middle in enumerate(_THIRDS):

@@ -1,0 +1,99 @@
+"""``beardyn train``: an estimator of load, end play and spall from a set of labelled runs."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems
+
+if TYPE_CHECKING:
+    from beardyn_core.follow.estimator import Estimator
+    from beardyn_core.study.table import Table
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "train",
+        help="train an estimator of load, end play and spall on a set of runs",
+        description="Train an estimator on the training part of a set that `beardyn sweep` has made, for its "
+        "bearing and its accelerometer, and judge it by the test part, whose bearings are others. "
+        "`beardyn estimate` reads the file.",
+    )
+    parser.add_argument("set", metavar="DIR", type=Path, help="set to train with")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE.npz", type=Path, required=True, help="file to write, without default"
+    )
+    parser.add_argument(
+        "--calibration",
+        metavar="DIR",
+        type=Path,
+        action="append",
+        default=[],
+        help="another set that straightens estimates and sets the intervals, such as a small one of a truer "
+        "tier; may be given again; default the validation part of the set",
+    )
+    parser.add_argument(
+        "--axes",
+        metavar="AXES",
+        default="xyz",
+        help="of the accelerometer that are heard, such as z; default xyz",
+    )
+    add_force(parser, "replace the file when it exists; default refuse")
+    add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; gives the exit code."""
+    problems = file_problems(
+        "--output", args.output, inputs=[args.set, *args.calibration], force=args.force, ending=".npz"
+    )
+    if not args.axes or set(args.axes) - set("xyz") or len(set(args.axes)) < len(args.axes):
+        problems.append(f"--axes {args.axes!r}: give one or more of x, y and z, each once")
+    if problems:
+        raise InputError(problems)
+    from beardyn_core.api.estimating import train
+
+    found = train(
+        args.set,
+        args.output,
+        calibration=args.calibration,
+        axes=[each for each in "xyz" if each in args.axes],
+        force=args.force,
+    )
+    if args.json:
+        print(json_text("train", {"file": args.output, "card": found.card}))
+    else:
+        print(table(found).text())
+        print(f"written: {args.output}, {args.output.stat().st_size / 1e3:.0f} kB")
+    return 0
+
+
+def table(estimator: Estimator) -> Table:
+    """Tell how well an estimator does on bearings that it has not learnt from."""
+    from beardyn_core.follow.quantities import BY_NAME
+    from beardyn_core.study.table import Table
+
+    rows = []
+    for name, known in estimator.card["quantities"].items():
+        test, quantity = known.get("test"), BY_NAME[name]
+        if test is None:
+            rows.append(
+                (quantity.words, str(known["runs"]), f"{100 * known['explained']:.0f} %", *3 * ("-",))
+            )
+            continue
+        error = f"{100 * test['error']:.0f} %" if quantity.relative else quantity.width_text(test["error"])
+        inside = [f"{100 * each:.0f} %" for each in test["coverage"]]
+        rows.append((quantity.words, str(known["runs"]), f"{100 * known['explained']:.0f} %", error, *inside))
+    card = estimator.card
+    return Table(
+        f"{estimator.plate.name}, {card['runs']} runs of {card['bearings']} bearings of {card['set']}",
+        ("quantity", "runs", "explained", "median error", "in 50 %", "in 90 %"),
+        tuple(rows),
+    )

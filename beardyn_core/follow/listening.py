@@ -1,0 +1,105 @@
+"""What an estimator makes of a run: its stretches, its estimates, and what speaks against them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+import numpy as np
+from scipy.signal import resample_poly
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.errors import InputError
+from beardyn_core.follow.descriptors import AXES, describe
+from beardyn_core.follow.estimator import Estimates, Estimator
+from beardyn_core.observe.chain import Stretch
+from beardyn_core.record.run import Run
+
+_FEWEST_TURNS = 10.0  # of the shaft in a stretch
+_ALIKE = 0.01  # sizes of a bearing that an estimator fits
+_SAME_RATE = 1e-3
+_LEAST_LENGTH = 0.95  # of a stretch
+
+
+def doubt_of(estimator: Estimator, bearing: Bearing | NamePlate) -> str:
+    """Say why an estimator is not for a bearing; empty when it is."""
+    plate = estimator.plate
+    sizes = ("roller_count", "pitch_diameter", "roller_diameter")
+    if all(abs(getattr(plate, name) / getattr(bearing, name) - 1.0) < _ALIKE for name in sizes):
+        return ""
+    return (
+        f"the estimator is for {plate.name}, {_described(plate)}; the run is of {bearing.name}, "
+        f"{_described(bearing)}"
+    )
+
+
+def _described(bearing: Bearing | NamePlate) -> str:
+    pitch, roller = 1e3 * bearing.pitch_diameter, 1e3 * bearing.roller_diameter
+    return f"{bearing.roller_count} rollers of {roller:.1f} mm on {pitch:.0f} mm"
+
+
+def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, sensor: str = "") -> Estimates:
+    """Estimate from the vibration and the shaft of a run, and nothing else.
+
+    Raises
+    ------
+    InputError
+        The estimator is for another bearing, an axis is not measured, or the run is too short or too slow.
+    """
+    if doubt := doubt_of(estimator, bearing):
+        raise InputError(f"{run.label}: {doubt}; train one with `beardyn train`")
+    rows = [
+        describe(stretch, estimator.orders, estimator.plate, estimator.axes)
+        for stretch in stretches_of(run, estimator, sensor)
+    ]
+    if not rows:
+        raise InputError(
+            f"{run.label}: has no {estimator.stretch:.2f} s of whole vibration in which the shaft turns "
+            f"{_FEWEST_TURNS:g} times one way; the estimator hears so much at once"
+        )
+    return estimator.estimates(np.stack(rows))
+
+
+def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[Stretch]:
+    """Cut a run into stretches of the length and sampling rate that an estimator hears."""
+    if sensor and sensor not in run.sensors:
+        raise InputError(f"{run.label}: has no sensor {sensor!r}; it has {', '.join(run.sensors)}")
+    signal = run.sensors[sensor] if sensor else run.vibration
+    if not len(signal) or not len(run.shaft):
+        raise InputError(f"{run.label}: has no vibration with a shaft angle to estimate from")
+    inside = (signal.time_ns >= run.shaft.time_ns[0]) & (signal.time_ns <= run.shaft.time_ns[-1])
+    heard = np.asarray(signal.values, np.float64)[inside][:, [AXES.index(axis) for axis in estimator.axes]]
+    for axis, values in zip(estimator.axes, heard.T, strict=True):
+        if np.isnan(values).all():
+            raise InputError(
+                f"{run.label}: axis {axis} is not measured; the estimator hears {', '.join(estimator.axes)}: "
+                "train one with --axes"
+            )
+    angle = np.interp(signal.time_ns[inside], run.shaft.time_ns, np.unwrap(run.shaft.angle))
+    heard, angle = _resampled(run, heard, angle, signal.rate, estimator.rate)
+    length = round(estimator.stretch * estimator.rate) + 1
+    count = max(1, len(heard) // length)
+    for k in range(count):
+        part = slice(k * length, (k + 1) * length)
+        turned = np.diff(angle[part])
+        whole = len(angle[part]) >= _LEAST_LENGTH * length and np.isfinite(heard[part]).all()
+        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
+        if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= _FEWEST_TURNS * 2.0 * np.pi:
+            yield Stretch(estimator.rate, heard[part], angle[part], np.nan, 0)
+
+
+def _resampled(run: Run, heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
+    """Bring vibration, shape [sample, axis], and angle to the sampling rate of the estimator."""
+    if abs(rate / wanted - 1.0) < _SAME_RATE:
+        return heard, angle
+    if rate < wanted:
+        raise InputError(
+            f"{run.label}: is sampled at {rate:.0f} Hz, the estimator hears {wanted:.0f} Hz; what lies "
+            "between is not in the signal"
+        )
+    ratio = Fraction(wanted / rate).limit_denominator(1000)
+    fewer = resample_poly(np.nan_to_num(heard), ratio.numerator, ratio.denominator, axis=0)
+    time = np.arange(len(fewer)) * (rate / wanted)
+    return fewer, np.interp(time, np.arange(len(angle)), angle)

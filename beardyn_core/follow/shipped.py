@@ -1,0 +1,36 @@
+"""Estimators that are shipped, found by the bearing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config.folders import config_folder
+from beardyn_core.errors import InputError
+from beardyn_core.follow.estimator import Estimator, read_estimator
+from beardyn_core.follow.listening import doubt_of
+
+
+def shipped() -> list[Path]:
+    """List the files of the shipped estimators."""
+    return sorted((config_folder() / "estimators").glob("*.npz"))
+
+
+def shipped_for(bearing: Bearing | NamePlate) -> Estimator:
+    """Read the shipped estimator of a bearing.
+
+    Raises
+    ------
+    InputError
+        There is none, with those that there are.
+    """
+    known = [read_estimator(path) for path in shipped()]
+    for each in known:
+        if not doubt_of(each, bearing):
+            return each
+    names = ", ".join(sorted({each.plate.name for each in known})) or "none"
+    raise InputError(
+        f"no estimator is shipped for {bearing.name}; there are those of {names}: make a set with "
+        "`beardyn sweep` and train one with `beardyn train`, then give it with --estimator"
+    )

@@ -1,0 +1,124 @@
+"""What is heard of a run: stretches at the estimator's rate, the command, runs that are refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import beardyn_core as bd
+from beardyn_core.arrays import Float
+from beardyn_core.cli import main as command
+from beardyn_core.errors import InputError
+from beardyn_core.follow.descriptors import AXES, describe, names_of
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.listening import stretches_of
+from beardyn_core.observe.chain import Stretch
+from test.cli.json_page import check
+from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
+
+SHAFT_HZ = 20.0
+ORDERS = PLATE.frequencies
+
+
+@pytest.fixture(scope="module")
+def estimator() -> Estimator:
+    return taught(drawn(60, 2), runs=80)
+
+
+def signal(seconds: float, rate: float = RATE, axes: int = 3) -> Float:
+    """Noise with a line at twice the rollers' passing on z, 3 m/s^2, shape [sample, axis]."""
+    time = np.arange(round(seconds * rate)) / rate
+    heard = np.random.default_rng(1).normal(0.0, 0.5, (len(time), axes))
+    heard[:, -1] += 3.0 * np.sin(2.0 * np.pi * 2.0 * ORDERS.bpfo * SHAFT_HZ * time)
+    return heard
+
+
+def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
+    """Make a recording of a measured file."""
+    np.savez(folder / "measured.npz", acceleration=values, fs=rate)
+    axes = {"channels": "z=acceleration"} if values.shape[1] == 1 else {}
+    return bd.import_measured(
+        folder / "measured.npz", folder / "run.mcap", bearing="HS130x230", unit="m/s2",
+        speed_rpm=60.0 * SHAFT_HZ, **axes,
+    )  # fmt: skip
+
+
+def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
+    values = signal(STRETCH)
+    angle = 2.0 * np.pi * SHAFT_HZ * np.arange(len(values)) / RATE
+    found = dict(
+        zip(
+            names_of(AXES),
+            describe(Stretch(RATE, values, angle, np.nan, 0), ORDERS, PLATE, AXES),
+            strict=True,
+        )
+    )
+    assert found["passing_2_level_z"] == pytest.approx(20.0 * np.log10(3.0 / np.sqrt(2.0)), abs=0.1)
+    assert found["passing_2_lead_z"] > 30.0
+    assert abs(found["passing_2_lead_x"]) < 20.0
+    assert found["band_x_1000"] == pytest.approx(
+        10.0 * np.log10(0.25 * 1000.0 * (2 ** (1 / 6) - 2 ** (-1 / 6)) / (RATE / 2.0)), abs=1.0
+    )
+    assert found["shaft"] == pytest.approx(np.log10(SHAFT_HZ), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("rate", "seconds", "count"), [(RATE, 4.6, 3), (2.0 * RATE, 3.1, 2), (RATE, 1.46, 1)]
+)
+def test_a_run_is_heard_in_whole_stretches_at_the_rate_learnt(
+    rate: float, seconds: float, count: int, tmp_path: Path, estimator: Estimator
+) -> None:
+    run = bd.read(measured(tmp_path, signal(seconds, rate), rate))
+    found = list(stretches_of(run, estimator))
+    assert len(found) == count
+    for each in found:
+        assert each.rate == RATE
+        assert each.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
+        kept = np.sqrt(np.mean(each.acceleration[:, 2] ** 2))
+        assert kept == pytest.approx(np.sqrt(4.5 + 0.25 * min(1.0, RATE / rate)), rel=0.02)
+
+
+def test_command_tells_what_the_function_finds(
+    tmp_path: Path, estimator: Estimator, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, file = measured(tmp_path, signal(3.1)), tmp_path / "one.npz"
+    estimator.save(file)
+    found = bd.estimate(path, file)
+    assert command.main(["estimate", str(path), "--estimator", str(file)]) == 0
+    assert capsys.readouterr().out.splitlines() == found.sentences
+    assert command.main(["estimate", str(path), "--estimator", str(file), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    check("estimate", told)
+    load = told["estimates"]["vertical_load_N"]
+    assert (load["value"] or np.nan, load["reason"]) == pytest.approx(
+        (found["vertical_load"].value, found["vertical_load"].reason), nan_ok=True
+    )
+    assert told["stretches"] == 2
+
+
+@pytest.mark.parametrize(
+    ("seconds", "rate", "axes", "options", "sentence"),
+    [
+        (1.0, RATE, 3, {}, "has no 1.50 s of whole vibration"),
+        (2.0, 12_800.0, 3, {}, "is sampled at 12800 Hz"),
+        (2.0, RATE, 1, {}, "axis x is not measured"),
+        (2.0, RATE, 3, {"bearing": "METRO120x220"}, "the estimator is for HS130x230"),
+        (2.0, RATE, 3, {"sensor": "bottom"}, "has no sensor 'bottom'"),
+    ],
+)
+def test_runs_that_cannot_be_heard_are_refused(
+    seconds: float, rate: float, axes: int, options: dict[str, Any], sentence: str,
+    tmp_path: Path, estimator: Estimator,
+) -> None:  # fmt: skip
+    path = measured(tmp_path, signal(seconds, rate, axes), rate)
+    with pytest.raises(InputError, match=sentence):
+        bd.estimate(path, estimator, **options)
+
+
+def test_a_bearing_without_a_shipped_estimator_is_told_which_there_are(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no estimator is shipped for METRO120x220"):
+        bd.estimate(measured(tmp_path, signal(2.0)), bearing="METRO120x220")
