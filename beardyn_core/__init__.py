@@ -55,7 +55,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from beardyn_core.api.estimating import estimate, train
+    from beardyn_core.api.estimating import estimate, forecast, train
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
@@ -77,6 +77,8 @@ if TYPE_CHECKING:
     from beardyn_core.effects import EffectSet
     from beardyn_core.errors import InputError, ValidityError
     from beardyn_core.follow.estimator import Estimates, Estimator
+    from beardyn_core.follow.forecast import Forecast, Service
+    from beardyn_core.follow.growth import GrowthLaw
     from beardyn_core.observe.block import Block
     from beardyn_core.observe.chain import Chain, MonitorSettings
     from beardyn_core.observe.summary import RunSummary
@@ -88,33 +90,16 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, scene
 
-__all__ = [
-    "Bearing",
-    "Block",
-    "Chain",
-    "EffectSet",
-    "Estimates",
-    "Estimator",
-    "InputError",
-    "LabelledSet",
-    "Lubricant",
-    "MonitorSettings",
-]
-__all__ += ["NamePlate", "Run", "RunSummary", "Scene", "Twin", "ValidityError", "bearing", "blocks"]
-__all__ += [
-    "equilibrium",
-    "estimate",
-    "fault_frequencies",
-    "film",
-    "import_measured",
-    "life",
-    "load_distribution",
-]
-__all__ += ["lubricant", "monitor", "name_plate", "open_set", "read", "read_measured", "scene", "severity"]
-__all__ += ["simulate", "steady_heat", "stiffness", "sweep", "torque", "train", "trend"]
+__all__ = ["Bearing", "Block", "Chain", "EffectSet", "Estimates", "Estimator", "Forecast"]
+__all__ += ["GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
+__all__ += ["Run", "RunSummary", "Scene", "Service", "Twin", "ValidityError", "bearing", "blocks"]
+__all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "forecast", "import_measured"]
+__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
+__all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
+__all__ += ["torque", "train", "trend"]
 
 _MODULES = {
-    "api.estimating": ("estimate", "train"),
+    "api.estimating": ("estimate", "forecast", "train"),
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
@@ -128,6 +113,8 @@ _MODULES = {
     "bearing.lubricant": ("Lubricant",),
     "bearing.name_plate": ("NamePlate",),
     "effects": ("EffectSet",),
+    "follow.forecast": ("Forecast", "Service"),
+    "follow.growth": ("GrowthLaw",),
     "follow.estimator": ("Estimates", "Estimator"),
     "errors": ("InputError", "ValidityError"),
     "observe.block": ("Block",),

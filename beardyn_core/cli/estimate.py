@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
+from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimates
+    from beardyn_core.follow.forecast import Forecast, Service
+    from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.record.run import Run
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -34,6 +38,25 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--sensor", metavar="NAME", default="", help="accelerometer; default the first")
     add_box(parser)
+    group = parser.add_argument_group("forecast", "what remains, with --mileage-km")
+    group.add_argument("--mileage-km", metavar="KM", type=float, help="so far; default no forecast")
+    group.add_argument(
+        "--wheel-diameter-mm", metavar="MM", type=float, default=920.0, help="running diameter; default 920"
+    )
+    group.add_argument(
+        "--widest-mm",
+        metavar="MM",
+        type=float,
+        help="width of a spall at which the bearing is taken out; default the distance of two rollers",
+    )
+    group.add_argument(
+        "--growth-mm2",
+        metavar="MM2",
+        type=float,
+        default=100.0,
+        help="growth of a spall in 1000 km, mm2, beyond 250 mm2, median of the fleet; default 100, assumed",
+    )
+    group.add_argument("--lubricant", metavar="NAME", default="L055", help="of the rating life; default L055")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -43,14 +66,64 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.api.estimating import estimate
     from beardyn_core.record.reading import read_run
 
-    found = estimate(
-        read_run(args.recording, args.box), args.estimator, bearing=args.bearing, sensor=args.sensor
-    )
+    service, law = _service_of(args)
+    heard = read_run(args.recording, args.box)
+    found = estimate(heard, args.estimator, bearing=args.bearing, sensor=args.sensor)
+    remains = None if service is None else _forecast(args, heard, found, service, law)
     if args.json:
-        print(json_text("estimate", {"recording": args.recording, **json_object(found)}))
+        content = {"recording": args.recording, **json_object(found)}
+        content["forecast"] = (
+            None if remains is None else {"mileage_m": args.mileage_km * 1e3, **_object(remains)}
+        )
+        print(json_text("estimate", content))
     else:
-        print("\n".join(found.sentences))
+        print("\n".join([*found.sentences, *([] if remains is None else remains.sentences)]))
     return 0
+
+
+def _service_of(args: argparse.Namespace) -> tuple[Service | None, GrowthLaw]:
+    """Read the options of the forecast; `None` without a mileage."""
+    from beardyn_core.follow.forecast import Service
+    from beardyn_core.follow.growth import GrowthLaw
+
+    wheel = 1e-3 * args.wheel_diameter_mm
+    wrong = [
+        f"--{name}: is {value:g}; it must be {least} 0"
+        for name, value, least, right in (
+            ("mileage-km", args.mileage_km, "at least", args.mileage_km is None or args.mileage_km >= 0.0),
+            ("wheel-diameter-mm", args.wheel_diameter_mm, "above", wheel > 0.0),
+            ("widest-mm", args.widest_mm, "above", args.widest_mm is None or args.widest_mm > 0.0),
+            ("growth-mm2", args.growth_mm2, "above", args.growth_mm2 > 0.0),
+        )
+        if not right
+    ]
+    if wrong:
+        raise InputError(wrong)
+    law = GrowthLaw(rate=args.growth_mm2 * 1e-12)
+    if args.mileage_km is None:
+        return None, law
+    widest = None if args.widest_mm is None else 1e-3 * args.widest_mm
+    return Service(1e3 * args.mileage_km, wheel, widest), law
+
+
+def _forecast(
+    args: argparse.Namespace, heard: Run, found: Estimates, service: Service, law: GrowthLaw
+) -> Forecast:
+    """Forecast what remains of the bearing of the recording, or of the one that is named."""
+    from beardyn_core.api.estimating import forecast
+
+    return forecast(found, heard, service, law, bearing=args.bearing, lubricant=args.lubricant)
+
+
+def _object(remains: Forecast) -> dict[str, Any]:
+    return {
+        "widest_m": remains.widest,
+        "remaining_m": remains.remaining,
+        "equivalent_load_N": remains.equivalent_load,
+        "life_m": remains.life,
+        "reference_life_m": remains.reference_life,
+        "used": remains.used,
+    }
 
 
 def json_object(found: Estimates) -> dict[str, Any]:
@@ -80,4 +153,5 @@ def json_object(found: Estimates) -> dict[str, Any]:
         },
         "strangeness": found.strangeness,
         "stretches": found.stretches,
+        "shaft_frequency_Hz": found.shaft_frequency,
     }

@@ -39,6 +39,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "tier; may be given again; default the validation part of the set",
     )
     parser.add_argument(
+        "--test",
+        metavar="DIR",
+        type=Path,
+        help="another set, all of it to judge the estimator by; default the test part of the set",
+    )
+    parser.add_argument(
         "--axes",
         metavar="AXES",
         default="xyz",
@@ -64,6 +70,7 @@ def run(args: argparse.Namespace) -> int:
         args.set,
         args.output,
         calibration=args.calibration,
+        test=args.test,
         axes=[each for each in "xyz" if each in args.axes],
         force=args.force,
     )
@@ -80,7 +87,7 @@ def table(estimator: Estimator) -> Table:
     from beardyn_core.follow.quantities import BY_NAME
     from beardyn_core.study.table import Table
 
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for name, known in estimator.card["quantities"].items():
         test, quantity = known.get("test"), BY_NAME[name]
         if test is None:

@@ -10,6 +10,8 @@ part         which part is spalled, with sets of parts that hold their promise
 estimator    the numbers that make an estimator, its card, and the file that keeps them
 listening    what an estimator makes of a run
 shipped      estimators that are shipped, found by the bearing
+growth       how a spall grows with mileage, with its scatter
+forecast     mileage until a spall is too wide, share of the rating life that is used
 training     an estimator of a set of runs, judged on bearings that it has not seen
 ============ ==================================================================
 

@@ -17,6 +17,7 @@ AXES = ("x", "y", "z")
 _THIRDS = tuple(
     1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11)
 )  # middles of third octaves, 25 Hz to 10 kHz
+_TWELFTHS = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
 _FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
 _PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
 _TURNS = (1, 2)  # multiples of the shaft
@@ -32,6 +33,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *("score", "kurtosis", "crest", "strongest_level"),
         *(f"way_{part}" for part in ("cup", "cone")),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in _THIRDS),
+        *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
     )
 
@@ -61,7 +63,9 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     }
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
-        found |= {f"band_{axis}_{m:.0f}": level for m, level in _thirds(heard, stretch.rate).items()}
+        for name, middles, share in (("band", _THIRDS, 3), ("fine", _TWELFTHS, 12)):
+            levels = _bands(heard, stretch.rate, middles, share)
+            found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
         found |= {f"{name}_{axis}": value for name, value in _lines(heard, stretch, orders).items()}
     return np.array([found[name] for name in names_of(axes)])
 
@@ -89,18 +93,16 @@ def _ways(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) -> dict[
     return found
 
 
-def _thirds(signal: Float, rate: float) -> dict[float, float]:
-    """Measure third octaves against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
+def _bands(signal: Float, rate: float, middles: tuple[float, ...], share: int) -> dict[float, float]:
+    """Measure bands, so many to an octave, against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
     power = np.abs(rfft(signal * np.hanning(len(signal)))) ** 2 / len(signal) ** 2 * (2.0 * 8.0 / 3.0)
-    frequency = np.arange(len(power)) * rate / len(signal)
-    edges = np.searchsorted(
-        frequency, [middle * 2.0 ** (side / 6.0) for middle in _THIRDS for side in (-1, 1)]
-    )
+    frequency, half = np.arange(len(power)) * rate / len(signal), 2.0 ** (0.5 / share)
+    edges = np.searchsorted(frequency, [middle * half**side for middle in middles for side in (-1, 1)])
     sums = np.concatenate([[0.0], np.cumsum(power)])
     levels = {}
-    for k, middle in enumerate(_THIRDS):
+    for k, middle in enumerate(middles):
         first, last = edges[2 * k], edges[2 * k + 1]
-        inside = middle * 2.0 ** (1.0 / 6.0) < 0.5 * rate and last > first
+        inside = middle * half < 0.5 * rate and last > first
         levels[middle] = _level(float(sums[last] - sums[first])) if inside else nan
     return levels
 

@@ -14,7 +14,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
@@ -39,7 +39,10 @@ class Estimate:
 
     quantity: Quantity
     value: A[float, "most likely, NaN where nothing can be said, SI"]
-    intervals: A[tuple[tuple[float, float], ...], "of 50 and of 90 %, SI; none where nothing can be said"]
+    intervals: A[
+        tuple[tuple[float, float], ...],
+        "of 50 and of 90 %, SI; of the runs learnt from",
+    ]
     reason: A[str, "why nothing can be said; empty"] = ""
 
     @property
@@ -62,6 +65,7 @@ class Estimates:
     quantities: A[tuple[Estimate, ...], "in the order in which they are told"]
     strangeness: A[float, "distance from the runs learnt from, 1 where hardly one of them lies, [-]"]
     stretches: A[int, "of the signal that were heard"]
+    shaft_frequency: A[float, "middle of the stretches, [Hz]"]
 
     @property
     def sentences(self) -> list[str]:
@@ -98,9 +102,9 @@ class Estimator:
     card: A[Mapping[str, Any], "set, counts, errors on bearings not learnt from, versions"]
 
     @property
-    def orders(self) -> Any:
+    def orders(self) -> FaultFrequencies:
         """Fault frequencies of the bearing per revolution."""
-        return fault_frequencies(self.plate)
+        return self.plate.frequencies
 
     def standardised(self, descriptors: Float) -> Float:
         """Take descriptors, shape [run, descriptor], to zero mean and unit spread; what lacks is usual."""
@@ -131,6 +135,7 @@ class Estimator:
             ),
             float(np.median(self.strangeness(descriptors))),
             len(descriptors),
+            float(np.median(10.0 ** descriptors[:, names_of(self.axes).index("shaft")])),
         )
 
     def _estimate(self, quantity: Quantity, standard: Float) -> Estimate:
@@ -140,11 +145,12 @@ class Estimator:
                 quantity,
                 f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
                 "of its variance is explained",
+                tuple((low, high) for low, high in known["ranges"]),
             )
         guess = self.regressions[quantity.name].guess(standard)
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
-        low, high = (float(quantity.scaled(np.array(known[end]))) for end in ("low", "high"))
+        low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
         ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
         intervals = tuple((float(first), float(last)) for first, last in ends)
         if 2.0 * half[-1] >= _AS_WIDE * (high - low):
@@ -179,8 +185,8 @@ class Estimator:
             np.savez_compressed(file, head=np.array(json.dumps(head)), **stored)  # type: ignore[arg-type]
 
 
-def _silent(quantity: Quantity, reason: str) -> Estimate:
-    return Estimate(quantity, float("nan"), (), reason)
+def _silent(quantity: Quantity, reason: str, ranges: tuple[tuple[float, float], ...] = ()) -> Estimate:
+    return Estimate(quantity, float("nan"), ranges, reason)
 
 
 def read_estimator(path: Path) -> Estimator:
@@ -200,21 +206,17 @@ def read_estimator(path: Path) -> Estimator:
                 f"{path}: is an estimator of version {head['version']}, not {VERSION}: train it again"
             )
         numbers = {name: np.asarray(values, np.float64) for name, values in stored.items()}
-        regressions = {
-            name: Regression(
-                **{part: numbers[f"{name}.{part}"] for part in _ARRAYS},
-                **dict(zip(_NUMBERS, map(float, numbers[f"{name}.numbers"]), strict=True)),
-            )
-            for name in head["quantities"]
-        }
+        kept: dict[str, Any] = {name: head[name] for name in ("rate", "stretch", "farthest", "card")}
+        kept |= {name: numbers[f"{name}_"] for name in ("middle", "spread", "usual", "sizes")}
         found = Estimator(
-            NamePlate(**head["plate"]), tuple(head["axes"]), head["rate"], head["stretch"],
-            *(numbers[f"{name}_"] for name in ("middle", "spread", "usual", "sizes")),
-            head["farthest"], regressions,
-            PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
-            if head["conditions"] else None,
-            head["card"],
-        )  # fmt: skip
+            plate=NamePlate(**head["plate"]),
+            axes=tuple(head["axes"]),
+            **kept,
+            regressions={name: _regression(numbers, name) for name in head["quantities"]},
+            part=PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
+            if head["conditions"]
+            else None,
+        )
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file") from None
     except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as error:
@@ -225,6 +227,11 @@ def read_estimator(path: Path) -> Estimator:
             f"{len(names_of(found.axes))}: train it again"
         )
     return found
+
+
+def _regression(numbers: Mapping[str, Float], name: str) -> Regression:
+    parts: dict[str, Any] = {part: numbers[f"{name}.{part}"] for part in _ARRAYS}
+    return Regression(**parts, **dict(zip(_NUMBERS, numbers[f"{name}.numbers"].tolist(), strict=True)))
 
 
 def farthest_of(along: Float) -> float:

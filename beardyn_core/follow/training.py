@@ -26,11 +26,8 @@ from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, Labell
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 _FEWEST = 40  # runs to learn a number from
 _FOLDS = 5
-_DIRECTIONS, _WIDTHS, _RIDGES = (
-    (6, 12, 20),
-    (1.0, 2.0, 4.0),
-    (0.01, 0.1, 1.0),
-)  # what is tried, widths per root
+# what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
+_SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
 _DOUBT_RIDGE = 3.0
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way")  # descriptors that tell the parts apart
@@ -98,10 +95,9 @@ def plate_of(runs: LabelledSet) -> NamePlate:
         names = ", ".join(sorted(runs.table["bearing"].unique()))
         raise InputError(f"{runs.folder}: has the bearings {names}; an estimator is for one")
     usual = runs.table.median(numeric_only=True)
-    numbers = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
-    return NamePlate(
-        name=str(runs.table["bearing"].iloc[0]), **numbers | {"roller_count": round(numbers["roller_count"])}
-    )
+    numbers: dict[str, Any] = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
+    numbers["roller_count"] = round(numbers["roller_count"])
+    return NamePlate(name=str(runs.table["bearing"].iloc[0]), **numbers)
 
 
 def trained(
@@ -120,8 +116,9 @@ def trained(
         if inside.sum() < _FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         learnt, explained = _learnt(standard[inside], values[inside], train.bearings[inside])
-        low, high = quantity.restored(np.quantile(values[inside], (0.05, 0.95))).tolist()
-        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "low": low, "high": high}
+        ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
+        ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
+        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges}
         if explained >= LEAST_EXPLAINED:
             regressions[quantity.name] = learnt
     farthest = farthest_of(standard @ usual.T / sizes)
@@ -212,7 +209,11 @@ def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
 
 
 def train(
-    runs: LabelledSet, *, calibration: Sequence[LabelledSet] = (), axes: tuple[str, ...] = AXES
+    runs: LabelledSet,
+    *,
+    calibration: Sequence[LabelledSet] = (),
+    test: LabelledSet | None = None,
+    axes: tuple[str, ...] = AXES,
 ) -> Estimator:
     """Train an estimator on the training part of a set.
 
@@ -222,6 +223,8 @@ def train(
     calibration : sequence of LabelledSet
         Sets by which the widths of the intervals are set, such as one in a truer tier; by default the
         validation part of `runs`.
+    test : LabelledSet, optional
+        All of it judges the estimator; by default the test part of `runs`.
     axes : tuple of str
         Of the accelerometer.
 
@@ -243,18 +246,19 @@ def train(
     found = trained(seen, plate_of(runs), axes, (len(time) - 1) / seconds, seconds)
     held_back = [described(each, None, axes) for each in calibration] or [described(runs, VALIDATION, axes)]
     found = calibrated(found, _joined(held_back), straightened=bool(calibration))
-    test = described(runs, TEST, axes)
-    judged = scores(found, test)
+    others = described(runs, TEST, axes) if test is None else described(test, None, axes)
+    judged = scores(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.items():
         quantities[name]["test"] = each._asdict()
     card = {
-        "condition": part_score(found, test),
+        "condition": part_score(found, others),
         "quantities": dict(quantities),
         "set": about["sweep"],
         "runs": len(seen.bearings),
         "bearings": len(set(seen.bearings)),
         "calibration": [each.about["sweep"] for each in calibration] or [f"{about['sweep']}, {VALIDATION}"],
+        "test": f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"],
         "levels": LEVELS,
         "code": about["code"],
         "licence": about["licence"],
@@ -290,17 +294,18 @@ def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Reg
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
-    directions = [_directions(standard[fit], values[fit]) for fit, _ in folds]
     best, errors = np.inf, np.zeros(len(values))
-    chosen = (_DIRECTIONS[0], _WIDTHS[0], _RIDGES[0])
-    for setting in product(_DIRECTIONS, _WIDTHS, _RIDGES):
-        missed = np.empty(len(values))
-        for (fit, rest), along in zip(folds, directions, strict=True):
-            learnt = _fitted(standard[fit], values[fit], along, setting)
-            missed[rest] = values[rest] - learnt.value(standard[rest])
-        if (square := float(np.mean(missed**2))) < best:
-            best, errors, chosen = square, missed, setting
-    learnt = _fitted(standard, values, _directions(standard, values), chosen)
+    screen, chosen = _SCREENS[0], (_DIRECTIONS[0], _WIDTHS[0], _RIDGES[0])
+    for kept in _SCREENS:
+        directions = [_directions(standard[fit], values[fit], kept) for fit, _ in folds]
+        for setting in product(_DIRECTIONS, _WIDTHS, _RIDGES):
+            missed = np.empty(len(values))
+            for (fit, rest), along in zip(folds, directions, strict=True):
+                learnt = _fitted(standard[fit], values[fit], along, setting)
+                missed[rest] = values[rest] - learnt.value(standard[rest])
+            if (square := float(np.mean(missed**2))) < best:
+                best, errors, screen, chosen = square, missed, kept, setting
+    learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
     return _doubting(learnt, standard, errors, float(np.std(values))), 1.0 - best / float(np.var(values))
 
 
@@ -319,13 +324,22 @@ def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) 
     return PartRule(tuple(map(str, learnt.classes_)), slope, offset, np.zeros(len(LEVELS)))
 
 
-def _directions(standard: Float, values: Float) -> Float:
-    """Find the directions that vary with a number, shape [descriptor, direction], the first ones most."""
+def _directions(standard: Float, values: Float, kept: int) -> Float:
+    """Find the directions that vary with a number, shape [descriptor, direction], the first ones most.
+
+    Descriptors beyond the `kept` that are best correlated with the number are left out: where runs are few,
+    hundreds of them fit any number.
+    """
     from sklearn.cross_decomposition import PLSRegression
 
-    count = min(max(_DIRECTIONS), *standard.shape)
-    found = PLSRegression(count, scale=False).fit(standard, values).x_rotations_
-    return np.asarray(found / np.std(standard @ found, axis=0), np.float64)
+    centred = standard - standard.mean(axis=0)
+    size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
+    heard = np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:kept]
+    count = min(max(_DIRECTIONS), len(standard) - 1, len(heard))
+    found = PLSRegression(count, scale=False).fit(standard[:, heard], values).x_rotations_
+    directions = np.zeros((standard.shape[1], count))
+    directions[heard] = found / np.std(standard[:, heard] @ found, axis=0)
+    return directions
 
 
 def _fitted(

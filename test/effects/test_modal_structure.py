@@ -347,3 +347,17 @@ def test_modes_left_out_keep_the_static_bending(highest: float) -> None:
     assert found == pytest.approx(np.ones(len(found)), rel=1e-6)
     assert len(fewer.frequency) <= len(modes.frequency)
     assert (fewer.frequency[fewer.free_count :] > highest).all() or highest > modes.frequency.max()
+
+
+def test_a_box_unlike_its_drawing_is_stiffer_and_more_damped_by_its_factors() -> None:
+    plain = modes_of_effects(MODES)
+    other = modes_of_effects(
+        replace(MODES, structure=ModalStructure("high_speed", stiffness_factor=1.44, damping_factor=100.0))
+    )
+    assert plain is not None
+    assert other is not None
+    np.testing.assert_allclose(other.frequency, 1.2 * plain.frequency)
+    expected = np.minimum(100.0 * plain.damping_ratio, 0.95)
+    np.testing.assert_allclose(other.damping_ratio, expected)
+    assert expected.max() == 0.95  # none may stop to swing
+    np.testing.assert_array_equal(other.raceway, plain.raceway)

@@ -40,7 +40,7 @@ def signal(seconds: float, rate: float = RATE, axes: int = 3) -> Float:
 def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
     """Make a recording of a measured file."""
     np.savez(folder / "measured.npz", acceleration=values, fs=rate)
-    axes = {"channels": "z=acceleration"} if values.shape[1] == 1 else {}
+    axes: dict[str, Any] = {"channels": "z=acceleration"} if values.shape[1] == 1 else {}
     return bd.import_measured(
         folder / "measured.npz", folder / "run.mcap", bearing="HS130x230", unit="m/s2",
         speed_rpm=60.0 * SHAFT_HZ, **axes,
@@ -49,7 +49,7 @@ def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
 
 def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
     values = signal(STRETCH)
-    angle = 2.0 * np.pi * SHAFT_HZ * np.arange(len(values)) / RATE
+    angle = np.asarray(2.0 * np.pi * SHAFT_HZ * np.arange(len(values)) / RATE, np.float64)
     found = dict(
         zip(
             names_of(AXES),
@@ -90,7 +90,10 @@ def test_command_tells_what_the_function_finds(
     found = bd.estimate(path, file)
     assert command.main(["estimate", str(path), "--estimator", str(file)]) == 0
     assert capsys.readouterr().out.splitlines() == found.sentences
-    assert command.main(["estimate", str(path), "--estimator", str(file), "--json"]) == 0
+    forecast = ["--mileage-km", "200000", "--bearing", "HS130x230"]
+    assert command.main(["estimate", str(path), "--estimator", str(file), *forecast]) == 0
+    assert "rating life" in capsys.readouterr().out
+    assert command.main(["estimate", str(path), "--estimator", str(file), "--json", *forecast]) == 0
     told = json.loads(capsys.readouterr().out)
     check("estimate", told)
     load = told["estimates"]["vertical_load_N"]
@@ -117,6 +120,15 @@ def test_runs_that_cannot_be_heard_are_refused(
     path = measured(tmp_path, signal(seconds, rate, axes), rate)
     with pytest.raises(InputError, match=sentence):
         bd.estimate(path, estimator, **options)
+
+
+def test_options_of_a_forecast_that_cannot_be_are_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert command.main(["estimate", "no.mcap", "--mileage-km", "-1", "--growth-mm2", "0"]) == 2
+    told = capsys.readouterr().err
+    assert "--mileage-km: is -1; it must be at least 0" in told
+    assert "--growth-mm2: is 0; it must be above 0" in told
 
 
 def test_a_bearing_without_a_shipped_estimator_is_told_which_there_are(tmp_path: Path) -> None:

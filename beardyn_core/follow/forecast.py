@@ -1,0 +1,160 @@
+"""What remains: mileage until a spall is too wide, and the share of the rating life that loads have used."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite, nan, pi
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.edge import At, refuse
+from beardyn_core.follow.estimator import Estimate, Estimates
+from beardyn_core.follow.growth import GrowthLaw, drawn_between
+from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_life
+
+_DRAWS, _SEED = 4000, 1
+_QUANTILES = (0.05, 0.5, 0.95)
+_USUAL_TEMPERATURE, _USUAL_END_PLAY = 333.15, 1.0e-4
+_NOW = 1.0e6  # [m], below which a forecast counts as now
+
+
+@dataclass(frozen=True)
+class Service:
+    """What a forecast must be told: how far the bearing has run, and what it may not come to."""
+
+    mileage: A[float, At(ge=0.0, le=1e11), "of the bearing so far, [m]"] = 0.0
+    wheel_diameter: A[float, At("mm", gt=0.0, ge=300.0, le=1500.0), "running diameter"] = 0.92
+    widest: A[
+        float | None,
+        At("mm", gt=0.0, le=200.0),
+        "width at which a bearing is taken out; the distance of two rollers when left out",
+    ] = None
+
+    def __post_init__(self) -> None:
+        refuse(self, "service")
+
+    @property
+    def revolutions(self) -> float:
+        """Revolutions of the shaft so far."""
+        return self.mileage / (pi * self.wheel_diameter)
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What remains of a bearing."""
+
+    condition: A[str, "of the bearing"]
+    widest: A[float, "width at which it is taken out, [m]"]
+    remaining: A[tuple[float, float, float], "mileage to it, 5, 50 and 95 of 100; NaN without a spall, [m]"]
+    equivalent_load: A[float, "P of ISO 281 at the estimated load; NaN where it is not known, [N]"]
+    life: A[float, "L10 of ISO 281 at that load, [m]"]
+    reference_life: A[float, "L10r of ISO 16281, from the load distribution, [m]"]
+    used: A[
+        tuple[float, float, float],
+        "share of L10r that is used, least, likely, most; NaN unknown",
+    ]
+
+    @property
+    def sentences(self) -> list[str]:
+        """Say it in lines."""
+        lines = []
+        if isfinite(self.remaining[1]):
+            low, middle, high = (f"{each / 1e3:,.0f}" for each in self.remaining)
+            when = "take it out now" if self.remaining[0] < _NOW else "by then it must come out"
+            lines.append(
+                f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, {low} to "
+                f"{high} km in 90 of 100; {when}"
+            )
+        if isfinite(self.life):
+            lines.append(
+                f"rating life at {1e-3 * self.equivalent_load:.1f} kN: {self.life / 1e9:.2f} million km (ISO "
+                f"281), {self.reference_life / 1e9:.2f} (ISO 16281), which one in ten bearings does not reach"
+            )
+        else:
+            lines.append("rating life: the load is not known")
+        if isfinite(self.used[1]):
+            low, middle, high = (f"{100 * each:.1f}" for each in self.used)
+            lines.append(f"used of it so far: {middle} %, {low} to {high} % for the load's interval of 90 %")
+        return lines
+
+
+def forecast(
+    found: Estimates, bearing: Bearing, lubricant: Lubricant, service: Service, law: GrowthLaw | None = None
+) -> Forecast:
+    """Forecast what remains from estimates of load, end play and spall.
+
+    Parameters
+    ----------
+    found : Estimates
+    bearing : Bearing
+        Whose rating life and roller distance count.
+    lubricant : Lubricant
+        Of the rating life.
+    service : Service
+    law : GrowthLaw, optional
+
+    Notes
+    -----
+    Width and rate of growth are drawn from their distributions. The length of a spall, across the raceway, is
+    drawn from its interval, or from the lengths learnt from where it is not identifiable; it stays while the
+    spall grows along the raceway. The load of the stretches heard stands for the whole mileage.
+    """
+    condition = "healthy" if found.part is None else found.part.condition
+    widest = service.widest or pi * bearing.pitch_diameter / bearing.roller_count
+    classes = [_class_of(found, k) for k in range(3)]
+    life = [None if each is None else _life_of(each, found, bearing, lubricant) for each in classes]
+    around = pi * service.wheel_diameter
+    likely = life[1]
+    used = [nan if each is None else service.revolutions / each.reference_basic for each in life]
+    return Forecast(
+        condition,
+        widest,
+        _remaining(found, widest, law or GrowthLaw()),
+        nan if likely is None else likely.equivalent_load,
+        nan if likely is None else likely.basic * around,
+        nan if likely is None else likely.reference_basic * around,
+        (used[0], used[1], used[2]) if service.mileage else (nan, nan, nan),
+    )
+
+
+def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, float, float]:
+    """Draw mileages until the spall is too wide, and give their quantiles, [m]."""
+    width = _estimate(found, "width")
+    length = _estimate(found, "length")
+    if width is None or not isfinite(width.value) or length is None or not length.intervals:
+        return nan, nan, nan
+    random = np.random.default_rng(_SEED)
+    across = drawn_between(length.intervals[-1], _DRAWS, random)
+    area = across * drawn_between(width.intervals[-1], _DRAWS, random)
+    distance = law.distance(area, across * widest, law.rates(_DRAWS, random))
+    low, middle, high = np.quantile(distance, _QUANTILES).tolist()
+    return low, middle, high
+
+
+def _estimate(found: Estimates, name: str) -> Estimate | None:
+    return next((each for each in found.quantities if each.quantity.name == name), None)
+
+
+def _class_of(found: Estimates, which: int) -> LoadClass | None:
+    """Take the load at the low end, the middle or the high end of its interval; `None`: not known."""
+    vertical, lateral = _estimate(found, "vertical_load"), _estimate(found, "lateral_load")
+    if vertical is None or not isfinite(vertical.value):
+        return None
+    low, high = vertical.intervals[-1]
+    size = (low, vertical.value, high)[which]
+    sideways = 0.0 if lateral is None or not isfinite(lateral.value) else lateral.value
+    return LoadClass(1.0, (0.0, sideways, size), (0.0, 0.0, 0.0), 2.0 * pi * found.shaft_frequency)
+
+
+def _life_of(load: LoadClass, found: Estimates, bearing: Bearing, lubricant: Lubricant) -> RatingLife | None:
+    """Compute the rating life at a load, temperature and end play as estimated where they are."""
+    warm, play = _estimate(found, "temperature"), _estimate(found, "end_play")
+    return rating_life(
+        bearing, (load,), lubricant,
+        _USUAL_TEMPERATURE if warm is None or not isfinite(warm.value) else warm.value,
+        end_play=_USUAL_END_PLAY if play is None or not isfinite(play.value) else play.value,
+        tilt="locked",
+    )  # fmt: skip

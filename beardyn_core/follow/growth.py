@@ -1,0 +1,56 @@
+"""How a spall grows with mileage, and how far it may run: a law with its scatter, not a number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import log
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.edge import At, refuse
+
+NORMAL_90 = 1.645  # standard deviations on either side of the middle that hold 90 %
+
+
+@dataclass(frozen=True)
+class GrowthLaw:
+    """Growth of the area of a spall: slow up to a critical area, linear with mileage beyond it.
+
+    The shape of the law is published: on test rigs of railway axle bearings spalls of the cup grow slowly at
+    first and, from a critical area on, by a rate that mileage does not change, which differs from bearing to
+    bearing. The rates are **assumed**: they belong to freight bearings under full load and are not public as
+    numbers that fit another bearing. Give those of a fleet where there are any.
+
+    References
+    ----------
+    Tarawneh, Lima, De Los Santos, Jones (2019), Tribol. Trans. 62, 897: prognostics models for railroad
+    tapered roller bearings with spall defects on inner or outer rings; Lima, Dasgupta, Leal, Jones, Tarawneh
+    (2017), ASME JRC2017-2272, defect prognostics models for spall growth in railroad bearing rings: the two
+    regimes.
+    """
+
+    critical_area: A[float, At(gt=0.0), "from which the growth is linear, [m^2]; assumed"] = 250.0e-6
+    rate: A[float, At(gt=0.0), "median beyond it, [m^2/m]; assumed"] = 1.0e-10
+    rate_spread: A[float, At(ge=1.0, le=100.0), "90 % of the rates are within this factor; assumed"] = 4.0
+    slow_share: A[float, At(gt=0.0, le=1.0), "of the rate, below the critical area; assumed"] = 0.2
+
+    def __post_init__(self) -> None:
+        refuse(self, "growth of a spall")
+
+    def distance(self, begin: Float, end: Float, rate: Float) -> Float:
+        """Compute the distance in which areas grow from one to another at their rates, [m]; 0 where grown."""
+        slow = np.maximum(np.minimum(end, self.critical_area) - begin, 0.0) / self.slow_share
+        fast = np.maximum(end - np.maximum(begin, self.critical_area), 0.0)
+        return np.asarray((slow + fast) / rate, np.float64)
+
+    def rates(self, count: int, random: np.random.Generator) -> Float:
+        """Draw rates of bearings, lognormal, shape [count], [m^2/m]."""
+        return self.rate * np.exp(random.normal(0.0, log(self.rate_spread) / NORMAL_90, count))
+
+
+def drawn_between(interval: tuple[float, float], count: int, random: np.random.Generator) -> Float:
+    """Draw a positive number that lies in an interval in 90 of 100, lognormal, shape [count]."""
+    low, high = np.log(np.maximum(interval, 1e-9))
+    return np.exp(random.normal(0.5 * (low + high), max(high - low, 0.0) / (2.0 * NORMAL_90), count))

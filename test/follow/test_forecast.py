@@ -1,0 +1,94 @@
+"""Mileage of spalls and rating life that is used, against draws and closed forms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isnan, log, pi
+
+import numpy as np
+import pytest
+
+from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.follow.estimator import Estimate, Estimates
+from beardyn_core.follow.forecast import Forecast, Service, forecast
+from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, drawn_between
+from beardyn_core.follow.part import PartEstimate
+from beardyn_core.follow.quantities import BY_NAME
+from beardyn_core.integrate.rating_life import LoadClass, rating_life
+
+BEARING, GREASE = load_bearing("HS130x230"), load_lubricant("L055")
+LENGTH = (24e-3, 26e-3)
+SERVICE = Service(mileage=4e8, widest=30e-3)
+LOAD = (6e4, 7e4, 8e4)
+
+
+def known(name: str, low: float, value: float, high: float, reason: str = "") -> Estimate:
+    """An estimate with its interval of 90 %, that of 50 % the same."""
+    return Estimate(BY_NAME[name], float("nan") if reason else value, ((low, high),) * 2, reason)
+
+
+def found(width: float = 8e-3, factor: float = 1.2, condition: str = "cup") -> Estimates:
+    """Estimates of a spall that is so wide, within a factor in 90 of 100."""
+    return Estimates(
+        PartEstimate(condition, 0.9, ((condition,),) * 2),
+        (
+            known("vertical_load", *LOAD),
+            known("end_play", 5e-5, 1e-4, 1.5e-4),
+            known("width", width / factor, width, width * factor, "" if condition == "cup" else "healthy"),
+            known("length", LENGTH[0], 25e-3, LENGTH[1], "not identifiable"),
+        ),
+        0.3, 2, 20.0,
+    )  # fmt: skip
+
+
+def made(*arguments: object, **options: object) -> Forecast:
+    law = options.pop("law", None)
+    return forecast(found(*arguments, **options), BEARING, GREASE, SERVICE, law)  # type: ignore[arg-type]
+
+
+def test_area_grows_slowly_up_to_the_critical_one_and_linearly_beyond() -> None:
+    law = GrowthLaw(critical_area=250e-6, rate=1e-10, slow_share=0.25)
+    begin, end = np.array([100e-6, 300e-6, 500e-6]), np.full(3, 450e-6)
+    np.testing.assert_allclose(
+        law.distance(begin, end, np.full(3, 1e-10)), [150e-6 / 0.25e-10 + 200e-6 / 1e-10, 150e-6 / 1e-10, 0.0]
+    )
+
+
+def test_a_wider_spall_or_a_faster_growth_leaves_less() -> None:
+    usual = made().remaining
+    assert made(14e-3).remaining[1] < 0.8 * usual[1]
+    np.testing.assert_allclose(made(law=GrowthLaw(rate=2e-10)).remaining, np.array(usual) / 2.0)
+    assert "take it out now" in made(40e-3).sentences[0]
+    assert isnan(made(condition="healthy").remaining[1])
+
+
+def test_nine_of_ten_spalls_that_grow_by_the_law_come_to_the_width_within_the_interval() -> None:
+    random, count, law = np.random.default_rng(3), 300, GrowthLaw()
+    width = 8e-3 * np.exp(random.normal(0.0, log(1.2) / NORMAL_90, count))  # around what is measured
+    across = drawn_between(LENGTH, count, random)
+    true = law.distance(width * across, 30e-3 * across, law.rates(count, random))
+    low, _, high = made().remaining
+    inside = float(np.mean((low <= true) & (true <= high)))
+    assert abs(inside - 0.9) < 4.0 * np.sqrt(0.09 / count)
+
+
+def test_rating_life_is_that_of_the_load_and_its_interval_that_of_the_load() -> None:
+    told = made()
+    likely = rating_life(
+        BEARING, (LoadClass(1.0, (0.0, 0.0, LOAD[1]), (0.0, 0.0, 0.0), 40.0 * pi),), GREASE, 333.15,
+        end_play=1e-4, tilt="locked",
+    )  # fmt: skip
+    assert likely is not None
+    assert told.equivalent_load == pytest.approx(LOAD[1])
+    assert told.life == pytest.approx(pi * 0.92 * likely.basic)
+    assert told.used[1] == pytest.approx(4e8 / (pi * 0.92) / likely.reference_basic)
+    assert told.used[2] / told.used[0] == pytest.approx(
+        (LOAD[2] / LOAD[0]) ** 4.0, rel=0.4
+    )  # near 10/3 to 9/2
+
+
+def test_without_a_load_nothing_is_said_of_the_rating_life() -> None:
+    unknown = replace(found(), quantities=found().quantities[1:])
+    told = forecast(unknown, BEARING, GREASE, SERVICE)
+    assert isnan(told.used[1])
+    assert "rating life: the load is not known" in told.sentences

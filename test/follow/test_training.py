@@ -1,0 +1,69 @@
+"""The card of an estimator, and what the command prints of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from beardyn_core.cli import train as command
+from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.main import main
+from beardyn_core.errors import InputError
+from beardyn_core.follow import training
+from test.cli.json_page import check
+from test.follow.synthetic import PLATE, RATE, STRETCH, drawn
+
+ABOUT = {"sweep": "made", "code": "digest", "licence": "CC-BY-4.0"}
+PARTS = {"train": 80, "validation": 40, "test": 60, None: 50}
+
+
+@pytest.fixture
+def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """A set whose runs are drawn when they are asked for."""
+    seeds = {part: seed for seed, part in enumerate(PARTS, start=20)}
+    monkeypatch.setattr(training, "described", lambda _runs, part, _axes: drawn(PARTS[part], seeds[part]))
+    monkeypatch.setattr(training, "plate_of", lambda _runs: PLATE)
+    time = np.arange(round(STRETCH * RATE) + 1) / RATE
+    return SimpleNamespace(folder="made", about=ABOUT, signals=SimpleNamespace(time_vibration=time))
+
+
+def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
+    found = training.train(runs)
+    check("train", json.loads(json_text("train", {"file": Path("one.npz"), "card": found.card})))
+    assert (found.rate, found.stretch) == pytest.approx((RATE, STRETCH))
+    assert found.card["runs"] == PARTS["train"]
+    assert found.card["condition"]["runs"] == PARTS["test"]
+    load = found.card["quantities"]["vertical_load"]
+    text = command.table(found).text()
+    assert f"{100 * load['test']['error']:.0f} %" in text
+    depth = next(line for line in text.splitlines() if "depth" in line)
+    assert depth.split()[-1] == "-"  # it is not identifiable, and nothing is promised of it
+
+
+def test_other_sets_calibrate_and_judge(runs: Any) -> None:
+    other = SimpleNamespace(**{**vars(runs), "about": {**ABOUT, "sweep": "truer"}})
+    found = training.train(runs, calibration=[other], test=other)
+    assert found.card["runs"] == PARTS["train"] + PARTS["validation"]  # which is not needed for the intervals
+    assert found.card["calibration"] == ["truer"]
+    assert found.card["test"] == "truer"
+    assert found.card["condition"]["runs"] == PARTS[None]
+
+
+def test_too_few_runs_are_refused(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(PARTS, "train", 30)
+    with pytest.raises(InputError, match="has 30 complete runs to learn from; 40 are needed"):
+        training.train(runs)
+
+
+def test_options_that_cannot_be_are_refused_at_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["train", str(tmp_path), "-o", str(tmp_path / "one.txt"), "--axes", "zw"]) == 2
+    told = capsys.readouterr().err
+    assert "let its name end in .npz" in told
+    assert "--axes 'zw': give one or more of x, y and z, each once" in told
