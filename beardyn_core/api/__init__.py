@@ -9,6 +9,7 @@ reading     read a recording, let a monitor judge a run
 measuring   read measured files, make recordings of them
 statics     stiffness, torque, life, film and load distribution, no run needed
 sweeping    sets of labelled runs over a population of bearings
+estimating  load, end play and spall from a run, what remains; training
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================
 

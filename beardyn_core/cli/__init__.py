@@ -21,6 +21,7 @@ warmup           kernels compiled ahead
 view             a recording in 3-D
 report           what a recording holds
 monitor          what a monitor says over a recording
+estimate         load, end play and spall of a recording, what remains
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing
 structure        modes of an axlebox
@@ -29,6 +30,7 @@ trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
 sweep            sets of labelled runs over a population of bearings
 baseline         a simple learner on such a set
+train            an estimator of such a set
 schema           JSON schemas for editors
 ================ ========================================================================
 """

@@ -46,7 +46,7 @@ def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
 
 
 def test_other_sets_calibrate_and_judge(runs: Any) -> None:
-    other = SimpleNamespace(**{**vars(runs), "about": {**ABOUT, "sweep": "truer"}})
+    other: Any = SimpleNamespace(**{**vars(runs), "about": {**ABOUT, "sweep": "truer"}})
     found = training.train(runs, calibration=[other], test=other)
     assert found.card["runs"] == PARTS["train"] + PARTS["validation"]  # which is not needed for the intervals
     assert found.card["calibration"] == ["truer"]
