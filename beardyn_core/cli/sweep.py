@@ -90,7 +90,9 @@ def run(args: argparse.Namespace) -> int:
         plan = asked(args.sweep, _say, runs=args.runs, seed=args.seed, hours=args.hours)
     bar = _Bar(plan.sweep.run_count) if sys.stderr.isatty() else Lines()
     try:
-        with last_words(lambda: f"{bar.done} of {plan.sweep.run_count} runs are done; the same command goes on"):
+        with last_words(
+            lambda: f"{bar.done} of {plan.sweep.run_count} runs are done; the same command goes on"
+        ):
             swept = conduct(plan, args.output, cluster, force=args.force, report=bar, say=_say)
     except EngineError as error:
         raise InputError(str(error)) from error

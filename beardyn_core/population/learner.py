@@ -25,6 +25,8 @@ WIDTH = "fault_width_m"
 TRANSFERABLE = (
     *("score_cup", "score_cone", "score_roller", "score", "threshold_margin", "lead"),
     *("strongest_level", "strongest_order", "kurtosis", "crest"),
+    *("band_score_cup", "band_score_cone", "band_score_roller"),
+    *("band_strongest_level", "band_strongest_order", "band_kurtosis"),
 )
 _TREES = 300
 

@@ -259,7 +259,9 @@ def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
     return problems[:_SHOWN]
 
 
-def _wrong(plan: Plan, rows: Iterable[Row], look: Callable[[Row, Scene], None] = lambda *_: None) -> list[str]:
+def _wrong(
+    plan: Plan, rows: Iterable[Row], look: Callable[[Row, Scene], None] = lambda *_: None
+) -> list[str]:
     """List what is wrong with the scenes of runs, each kind of mistake once; look at those that are right."""
     found: dict[str, list[str]] = {}
     for row in rows:

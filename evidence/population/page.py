@@ -22,6 +22,7 @@ from beardyn_core.population.learner import TRANSFERABLE, Learner
 from beardyn_core.study.table import Table
 from evidence.pages import DOCS, PICTURES, save_small
 from evidence.population import scale
+from evidence.population.again import up_to_date
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.sets import OTHERS, TRAINED, other_set, trained_set
 
@@ -45,9 +46,12 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("--workers", type=int, metavar="N", help="default one for each core")
     parser.add_argument("--sets", default=",".join(OTHERS), help="further sets, with commas between")
     arguments = parser.parse_args(words)
-    trained = trained_set(arguments.folder, arguments.trained, arguments.workers)
+    trained = up_to_date(trained_set(arguments.folder, arguments.trained, arguments.workers))
     names = [name for name in arguments.sets.split(",") if name]
-    others = {name: other_set(name, arguments.folder, arguments.runs, arguments.workers) for name in names}
+    others = {
+        name: up_to_date(other_set(name, arguments.folder, arguments.runs, arguments.workers))
+        for name in names
+    }
     found = {
         "gap": judgements(trained, others, arguments.measured),
         "trained": len(trained.runs_of(TRAIN)),
