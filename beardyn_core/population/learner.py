@@ -60,8 +60,17 @@ class Learner:
         self._classes: Any = None
         self._widths: Any = None
 
-    def fit(self, runs: LabelledSet, part: str | None = TRAIN) -> Learner:
+    def fit(
+        self, runs: LabelledSet, part: str | None = TRAIN, only: NDArray[np.int64] | None = None
+    ) -> Learner:
         """Learn from the complete runs of a part.
+
+        Parameters
+        ----------
+        part : str or None
+            Of the set; ``None``: all.
+        only : int array, optional
+            Numbers of the runs, where not all of the part.
 
         Raises
         ------
@@ -71,7 +80,7 @@ class Learner:
         library("sklearn.ensemble", "the baseline", "sweep")
         from sklearn.ensemble import RandomForestClassifier, RandomForestRegressor
 
-        chosen = runs.runs_of(part)
+        chosen = runs.runs_of(part) if only is None else only
         known = runs.labels_of(chosen, ["condition", *self.names])
         conditions = known["condition"].astype(str)
         if len(set(conditions)) < 2 or len(chosen) < 10:
