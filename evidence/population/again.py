@@ -37,7 +37,7 @@ def up_to_date(runs: LabelledSet) -> LabelledSet:
     path = runs.folder.parent / f"{runs.folder.name}-features-{listening_digest()}.parquet"
     rows = pandas.read_parquet(path).to_dict("records") if path.is_file() else []
     group = zarr_library().open_group(str(runs.folder / SIGNALS), mode="r")
-    times = group["time_vibration"][:], group["time_shaft"][:]
+    times = tuple(np.rint(1e9 * group[name][:]).astype(np.int64) for name in ("time_vibration", "time_shaft"))
     whole = set(runs.runs_of().tolist())
     labels, before = runs.table.to_dict("records"), runs.features.to_dict("records")
     for index in range(len(rows), len(labels)):
@@ -61,10 +61,10 @@ def first_of(runs: LabelledSet, count: int | None) -> LabelledSet:
 
 
 def features_of_stored(
-    runs: LabelledSet, run: int, label: dict[str, Any], before: dict[str, Any], times: tuple[Any, Any]
+    runs: LabelledSet, run: int, label: dict[str, Any], before: dict[str, Any], times: tuple[Any, ...]
 ) -> dict[str, float]:
     """Work out what the features of before have not; where they have nothing but levels, all of them."""
-    heard, turned = times
+    heard, turned = times  # [ns]
     values = np.asarray(runs.arrays["vibration"][run], np.float64)
     nothing = np.empty(0)
     part = MonitorInput(
