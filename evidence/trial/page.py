@@ -41,7 +41,7 @@ noise has such a sum anywhere. A part is not called when a rival has more: a com
 order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
 whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
 measured, and must strike with {deep:g} of it. [monitor_measured.md](monitor_measured.md) has what the chain
-says of measured bearings. The scores in the tables above are of the chain before whitening.
+says of measured bearings.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the
