@@ -22,7 +22,7 @@ from beardyn_core.record.run import Run
 
 PARTS = FAULTS
 # one analysis, of the last revolutions; runs are short, and a learner sees what few revolutions are worth
-ONCE = MonitorSettings(interval=1e9, least_revolutions=6.0)
+_ONCE = MonitorSettings(interval=1e9, least_revolutions=6.0)
 _BANDS = (250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)  # middles of octaves, [Hz]
 _RESULT = ("score", "strongest_level", "rms", "kurtosis", "crest", "shaft_frequency")
 _IN_BAND = {
@@ -98,10 +98,10 @@ def features_from(
     ) -> MonitorResult:
         result = REFERENCE(stretch, orders, count, settings)
         if isfinite(result.threshold):
-            in_band.update(heard_in_band(stretch, orders, count, settings))
+            in_band.update(_heard_in_band(stretch, orders, count, settings))
         return result
 
-    monitor = Monitor(orders, roller_count, settings=ONCE, algorithm=both)
+    monitor = Monitor(orders, roller_count, settings=_ONCE, algorithm=both)
     for part in inputs:
         monitor.take(part)
     known = values[:, np.isfinite(values).all(axis=0)]
@@ -122,7 +122,7 @@ def _of_result(result: MonitorResult) -> dict[str, float]:
     }
 
 
-def heard_in_band(
+def _heard_in_band(
     stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
 ) -> dict[str, float]:
     """Look for the lines of faults in the band of the largest spectral kurtosis."""

@@ -4,7 +4,6 @@
 module   responsibility
 ======== ==================================================================
 sets     the sets that the learner is trained and tested on
-again    features from the signals of a set that an earlier monitor has listened to
 causes   what the learner's errors come from
 measured public records, and their features
 scale    throughput of the engine, memory, size and reading of formats

@@ -22,7 +22,6 @@ from beardyn_core.population.learner import TRANSFERABLE, Learner
 from beardyn_core.study.table import Table
 from evidence.pages import DOCS, PICTURES, save_small
 from evidence.population import scale
-from evidence.population.again import first_of, up_to_date
 from evidence.population.causes import causes
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.sets import OTHERS, TRAINED, other_set, trained_set
@@ -45,7 +44,6 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--trained", type=int, metavar="N", help=f"of {TRAINED}, where it is to be made (as its file says)"
     )
-    parser.add_argument("--first", metavar="N", type=int, help="runs of it that are used (all)")
     parser.add_argument("--workers", type=int, metavar="N", help="default one for each core")
     parser.add_argument("--sets", default=",".join(OTHERS), help="further sets, with commas between")
     parser.add_argument(
@@ -55,13 +53,9 @@ def main(words: Sequence[str] | None = None) -> int:
     )
     arguments = parser.parse_args(words)
     parts, known = arguments.parts.split(","), arguments.folder / "population.json"
-    trained = first_of(trained_set(arguments.folder, arguments.trained, arguments.workers), arguments.first)
-    trained = up_to_date(trained)
+    trained = trained_set(arguments.folder, arguments.trained, arguments.workers)
     names = [name for name in arguments.sets.split(",") if name]
-    others = {
-        name: up_to_date(other_set(name, arguments.folder, arguments.runs, arguments.workers))
-        for name in names
-    }
+    others = {name: other_set(name, arguments.folder, arguments.runs, arguments.workers) for name in names}
     found = {} if set(parts) >= {LEARNER, *scale.PARTS} else json.loads(known.read_text(encoding="utf-8"))
     if LEARNER in parts:
         found["gap"] = judgements(trained, others, arguments.measured)

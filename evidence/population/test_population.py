@@ -4,22 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.io import savemat
 
-import beardyn_core as bd
-from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import read_sweep
 from beardyn_core.engine import Cluster, Engine
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.features import features_of
 from beardyn_core.population.plan import plan_of
 from evidence.population import page as page_module
-from evidence.population.again import features_of_stored
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.page import section, write_page
 from evidence.population.scale import waited
@@ -146,28 +141,6 @@ def test_records_are_named_by_their_folders_and_have_the_features_of_simulated_r
     scores = {name: values[0] for name, values in features.items() if name.startswith("score_")}
     assert max(scores, key=lambda name: scores[name]) == "score_cup"
     assert scores["score_cup"] > 20.0
-
-
-@pytest.mark.parametrize("analysed", [True, False])
-def test_features_of_stored_signals_are_those_of_the_run(analysed: bool) -> None:
-    """Both where only the band is looked at and where a run was too short for the monitor of before."""
-    scene = bd.scene("cup_spall", tier="lumped", duration=2.0)
-    run = bd.simulate(scene)
-    orders = fault_frequencies(scene.bearing)
-    expected = features_of(run, orders, scene.bearing.roller_count)
-    stored = SimpleNamespace(
-        arrays={"vibration": run.vibration.values[None], "shaft_angle": run.shaft.angle[None]}
-    )
-    label: dict[str, Any] = {
-        **{f"fault_frequencies_per_rev_{name}": order for name, order in orders.by_name.items()},
-        "geometry_roller_count": scene.bearing.roller_count,
-    }
-    before = {name: value for name, value in expected.items() if not name.startswith("band_")}
-    if not analysed:
-        before["score_cup"] = float("nan")
-    times = run.vibration.time_ns, run.shaft.time_ns
-    found = features_of_stored(stored, 0, label, before, times)  # type: ignore[arg-type]
-    assert found == pytest.approx(expected, rel=1e-4)  # the monitor hears eight bytes here and four there
 
 
 @pytest.mark.slow
