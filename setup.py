@@ -18,7 +18,7 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
-SWEEP = ["pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
+SWEEP = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
 TORCH = ["torch>=2.2"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
