@@ -1,4 +1,4 @@
-"""Write docs/hard.md from what `make hard` wrote: ``python -m evidence.hard.page hard.json``, or parts of it."""
+"""Write docs/hard.md from what `make hard` wrote: ``python -m evidence.hard.page hard.json``, or several."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Write docs/light.md and its picture: ``python -m evidence.light.page``; with sets as arguments of these alone."""
+"""Write docs/light.md and its picture: ``python -m evidence.light.page``; with sets as arguments of these."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ COLOURS = 32
 HEAD = """# Light loads
 
 Written by `python -m evidence.light.page`. Speed of the cages over that of pure rolling, mean of the last 0.5
-of 1.2 s, in tier `quasistatic` of {turns:g} turns of the shaft at least: `{bearing}` without play, cup held, 70 °C,
-grease {supply}; {count} runs.
+of 1.2 s, in tier `quasistatic` of {turns:g} turns of the shaft at least: `{bearing}` without play, cup held,
+70 °C, grease {supply}; {count} runs.
 
 ![Slip of the cages against load]({picture})
 
 Catalogues ask for a load of at least {minimum_share:g} C on a roller bearing so that it does not skid (SKF,
 2018, Rolling bearings, "Minimum load"): {minimum:.0f} kN here. Above it no set slips by more than
-{above:.1%}; below it `full` does at high speed, and `quasistatic`, with the same effects, does not: its rollers
-move in their pockets, and do not skid. {verdict}
+{above:.1%}; below it `full` does at high speed, and `quasistatic`, with the same effects, does not: its
+rollers move in their pockets, and do not skid. {verdict}
 """
 AHEAD = """
 Ahead of rolling by more than {limit:.1%}:

@@ -43,7 +43,7 @@ def test_five_kilonewtons_slip_by_less_than_one_percent() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("speed_rpm", SPEEDS_RPM)
-@pytest.mark.parametrize("effects", (*SETS, FAST))
+@pytest.mark.parametrize("effects", [*SETS, FAST])
 def test_whole_grid(effects: str, speed_rpm: float) -> None:
     """Nothing runs back; what runs ahead is dry, and above 1 % the status tells."""
     for load in LOADS_KN:

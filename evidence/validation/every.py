@@ -76,8 +76,8 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "Hou et al. 2024, Rail. Eng. Sci. 32, 444, roller loads of an axlebox bearing in service",
-        "its figures and tables were not at hand; the relations of its abstract are among the trends, and from "
-        "the same method the number of loaded rollers is compared, Zhao et al. 2026",
+        "its figures and tables were not at hand; the relations of its abstract are among the trends, and "
+        "from the same method the number of loaded rollers is compared, Zhao et al. 2026",
     ),
     (
         "cage slip measured on rigs in per cent (Smith 1962, Harris 1966, Guo and Keller 2020, Dawoud 2022)",

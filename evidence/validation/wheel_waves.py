@@ -129,9 +129,9 @@ def rows_differ() -> Finding:
     loaded, largest = pushed_along()
     return Finding(
         differ(found.loaded) and differ(found.mean),
-        f"At {SPEEDS_KMH[-1]} km/h {found.loaded[0]:.1f} and {found.loaded[1]:.1f} rollers carry, the largest "
-        f"{found.mean[0] / 1e3:.2f} and {found.mean[1] / 1e3:.2f} kN in the mean. With {AXIAL_KN:g} kN along "
-        f"the axle, at rest: {loaded[0]} and {loaded[1]}, {largest[0] / 1e3:.2f} and "
+        f"At {SPEEDS_KMH[-1]} km/h {found.loaded[0]:.1f} and {found.loaded[1]:.1f} rollers carry, the "
+        f"largest {found.mean[0] / 1e3:.2f} and {found.mean[1] / 1e3:.2f} kN in the mean. With {AXIAL_KN:g} "
+        f"kN along the axle, at rest: {loaded[0]} and {loaded[1]}, {largest[0] / 1e3:.2f} and "
         f"{largest[1] / 1e3:.2f} kN.",
     )
 
@@ -148,8 +148,8 @@ TRENDS = (
         "their mean goes up and down with it, too",
         HOU,
         mean_turns,
-        misses="the height of the waves, which the abstract does not tell: on waves of 80 um instead of 20 it "
-        "does",
+        misses="the height of the waves, which the abstract does not tell: on waves of 80 um instead of 20 "
+        "it does",
     ),
     Trend(
         "roller loads",

@@ -5,8 +5,8 @@ line of ERRI B176 from 200 km/h on, else on the worse one, all with the rail rou
 line, with a corrugation of its own, was chosen after the levels on smooth rails had been seen, the Chinese
 line before its run. Levels are those of a sensor 170 mm above the bearing's centre, 10 to 500 Hz, as the rail
 model moves box and journal. Upright the twin's sensor reads the same; sideways it does not where a scene
-holds the tilt of a journal whose axle does not bend in the twin, so those rows are not counted, but four that the
-twin itself makes are: the published level is met as soon as the end of the axle may turn.
+holds the tilt of a journal whose axle does not bend in the twin, so those rows are not counted, but four that
+the twin itself makes are: the published level is met as soon as the end of the axle may turn.
 """
 
 from __future__ import annotations
@@ -65,9 +65,9 @@ CHINA_MISSES = (
     "300 Hz alone 8.9"
 )
 TILT_HELD = (
-    "the end of the axle cannot turn, which moves a sensor above the bearing sideways: with a journal that is "
-    "free, and with an axle that bends in the twin, it is the rows below; smooth rails move the box itself by "
-    "0.2 m/s2"
+    "the end of the axle cannot turn, which moves a sensor above the bearing sideways: with a journal that "
+    "is free, and with an axle that bends in the twin, it is the rows below; smooth rails move the box "
+    "itself by 0.2 m/s2"
 )
 SENSOR_HEIGHT = 0.17
 SECONDS, SETTLED = 4.0, 0.5
