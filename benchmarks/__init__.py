@@ -8,6 +8,8 @@
 | `step_costs` | stages of a step, cost of a lamina, scaling in rollers and laminae |
 | `starting` | compile time with an empty cache, cold start with a warm one |
 | `sink_throughput` | recording |
+| `held_friction` | what holding the friction of the raceways costs in accuracy |
+| `two_trees` | this tree against an older one, in turns |
 | `naive_model` | the yardstick: the same model written plainly, in scipy's `solve_ivp` |
 | `effect_costs` | cost of every effect, a run of its own: `make costs` |
 """

@@ -55,6 +55,11 @@ def _scenes() -> dict[str, Scene]:
     return dict(zip(ASKED, found, strict=True))
 
 
+def full_scenes() -> dict[str, Scene]:
+    """Take the scenes of the full tier."""
+    return {name: scene for name, scene in _scenes().items() if scene.tier == "full"}
+
+
 def verdict(now: float, asked: Asked) -> str:
     """Say what a number reaches."""
     return "goal" if now >= asked.goal else "floor" if now >= asked.floor else "short of the floor"

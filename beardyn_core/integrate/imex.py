@@ -21,6 +21,7 @@ from beardyn_core.kernels.cage_bodies import (
     place_cages,
     settle_cages,
 )
+from beardyn_core.kernels.held import is_fresh
 from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
 from beardyn_core.kernels.roller import step_rollers
@@ -134,10 +135,12 @@ def advance(lanes, state, work, loads, output, p):
                 flex, structure
             )
         mark(timers, RINGS)
+        shown = (step + 1) % stride == 0
+        fresh = shown or is_fresh(step, p.held)
         for group in range(groups):
             for index in range(blocks_per_group):
                 block = group * blocks_per_group + index
-                step_rollers(lanes, block, rollers, rings[group], sums[group], bend.lanes[group], p)
+                step_rollers(lanes, block, rollers, rings[group], sums[group], bend.lanes[group], fresh, p)
         collect_reactions(sums, wrenches)
         mark(timers, RINGS)
         lands = push_lands(bodies, wrenches, cage, land)
@@ -176,5 +179,5 @@ def advance(lanes, state, work, loads, output, p):
                 + kinetic_energy(rollers, bodies, axle, p)
                 + structure_energy(flex, structure)
             )
-        if (step + 1) % stride == 0:
+        if shown:
             keep_trend(rollers, bodies, output, (step + 1) // stride - 1)

@@ -38,6 +38,7 @@ defect            gap over patches of raceways and rollers
 waviness          gap of waviness; the force along a sloping gap
 lamina_coupling   laminae that sink with each other, also partly over a patch
 film              film thickness of a lamina
+held              friction of a contact, worked out in every few steps
 traction          friction of a lamina: dry, of a full film, of both
 laminae           the springs of a raceway contact and their sums
 raceway           contact of a roller with a raceway

@@ -20,6 +20,7 @@ class Here(NamedTuple):
     mask: Any  # 1 for a roller, 0 for a lane that shadows one
     cosine: Any  # of the orbit azimuth
     sine: Any
+    shown: bool  # whether the outputs of this step are used
 
 
 class ContactOutput(NamedTuple):

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import soften, spring_damage, spring_slopes, springs_of
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
+from beardyn_core.kernels.held import forget, held_friction, keep_friction, remember
 from beardyn_core.kernels.lamina_coupling import (
     DEPTH,
     FORCE,
@@ -23,7 +24,7 @@ from beardyn_core.kernels.lamina_coupling import (
 from beardyn_core.kernels.lane_math import at_least, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.stage_timer import mark_result
-from beardyn_core.kernels.traction import LaminaContact, friction_rate
+from beardyn_core.kernels.traction import LaminaContact, friction_rate, load_sharing_coefficient
 from beardyn_core.model.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 from beardyn_core.model.stages import CONTACT, FILM, TRACTION
 
@@ -67,6 +68,7 @@ class Raceway(NamedTuple):
     effects: Any
     turning: Any  # 2, rates of the contact's azimuth in ring and roller [rad/s], used near a patch
     times: Any  # 2, the step, and the time over which springs are implicit [s]
+    held: Any  # Held
 
 
 @inline
@@ -83,6 +85,7 @@ def lamina_sums(raceway, line, slip, log2_speed, near, damage):
     if damage is None:
         return _sound_sums(raceway, line, slip, log2_speed)
     if near:
+        forget(raceway.held, raceway.held.params)
         return _spring_sums(raceway, line, slip, log2_speed, damage)
     return _sound_sums(raceway, line, slip, log2_speed)
 
@@ -93,6 +96,7 @@ def _sound_sums(raceway, line, slip, log2_speed):
     if may_touch(raceway.lanes, line.approach, raceway.reach):
         return _spring_sums(raceway, line, slip, log2_speed, None)
     zero = raceway.lanes.constant(0.0)
+    forget(raceway.held, raceway.held.params)
     nothing = (zero, zero, zero)
     level = (zero, zero)
     gap = GapSums(level, level, level, zero)
@@ -110,10 +114,10 @@ def may_touch(lanes, approach, reach):
 @inline
 def _spring_sums(raceway, line, slip, log2_speed, damage):
     """Sum over the springs in two passes, as short loops keep several laminae in flight."""
-    lanes, ring, work, effects = raceway.lanes, raceway.ring, raceway.work, raceway.effects
+    lanes, work, effects = raceway.lanes, raceway.work, raceway.effects
     laminae, approach = raceway.laminae, line.approach
     zero = lanes.constant(0.0)
-    force, stiffness, friction = (zero, zero, zero), (zero, zero, zero), (zero, zero, zero)
+    force, stiffness = (zero, zero, zero), (zero, zero, zero)
     energy = zero
     lean = (zero, zero)
     released = (zero, zero, zero)
@@ -145,6 +149,27 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         released = _release_gap(released, lost * gap_rate, damage)
         deepest = _deepest_so_far(deepest, share, depth, damage)
         force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
+    friction = _friction_sums(raceway, slip, log2_speed, (laminae, springs), damage)
+    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest, gap)
+
+
+@inline
+def _friction_sums(raceway, slip, log2_speed, table, damage):
+    """Sum the friction over slip of the springs with x^0, x^1, x^2, [N s/m m^k].
+
+    ``table``: of the laminae of the springs, and how many there are.
+    """
+    lanes, ring, work, effects, held = (
+        raceway.lanes, raceway.ring, raceway.work, raceway.effects, raceway.held,
+    )  # fmt: skip
+    laminae, springs = table
+    zero = lanes.constant(0.0)
+    friction = (zero, zero, zero)
+    if held.recalled:
+        for k in range(springs):
+            rate = held_friction(held, k, lanes.load(work, _LOADS, k), held.params)
+            friction = add_moments(friction, rate, laminae[LAMINA_PLACE, k])
+        return friction
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         load = lanes.load(work, _LOADS, k)
@@ -156,10 +181,34 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         log2_film = log2_film_thickness(log2_force, log2_speed, k, ring, laminae, effects.film)
         mark_result(effects.timers, FILM, log2_film)
         contact = LaminaContact(load, log2_force, square, log2_film, log2_speed[1], k, ring, laminae)
-        rate = friction_rate(contact, effects)
+        rate = _friction_rate(contact, held, effects, held.params, damage)
         mark_result(effects.timers, TRACTION, rate)
         friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
-    return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest, gap)
+    _remember(held, damage)
+    return friction
+
+
+@inline
+def _friction_rate(contact, held, effects, params, damage):
+    """Work out the friction of a lamina over slip speed, [N s/m], and keep it far from every patch."""
+    if params is None:
+        return friction_rate(contact, effects)
+    coefficient = load_sharing_coefficient(contact, effects.film, effects.load_sharing)
+    _keep(held, contact.lamina, coefficient, damage)
+    return contact.load * coefficient
+
+
+@inline
+def _keep(held, lamina, coefficient, damage):
+    if damage is None:
+        keep_friction(held, lamina, coefficient, held.params)
+
+
+@inline
+def _remember(held, damage):
+    """Take note that the friction of a contact far from every patch is kept."""
+    if damage is None:
+        remember(held, held.params)
 
 
 @inline

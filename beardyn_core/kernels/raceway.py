@@ -18,6 +18,7 @@ from beardyn_core.kernels.generator_line import (
     shifted,
     weighted,
 )
+from beardyn_core.kernels.held import hold_contact
 from beardyn_core.kernels.laminae import LaminaSums, Raceway, lamina_sums, released_power
 from beardyn_core.kernels.lane_math import at_least, at_most, sqrt
 from beardyn_core.kernels.orbit import Body, entrainment_speed
@@ -66,6 +67,7 @@ class RacewayContact(NamedTuple):
     centre: Vector  # of mass of the roller from the origin about which reactions are summed [m]
     body: Body
     damage: Any  # DamageParams, None on a surface without patches
+    held: Any  # Held
 
 
 class Settled(NamedTuple):
@@ -80,7 +82,7 @@ class Settled(NamedTuple):
 
 
 @inline
-def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
+def prepare_raceway(lanes, block, ring, body, oversize, azimuths, fresh, p):
     """Work out everything that one raceway contact needs before the solve: a `RacewayContact`."""
     faults, view = ring.faults, ring.ring_view
     centre = subtract(body.place, view.origin)
@@ -91,18 +93,29 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, p):
     crowns = p.effects.faults.crowns
     line = bend_line(line, crown_bend(lanes, block, crowns), crowns)
     slip = line_slip(line, centre, body, view)
-    log2_speed = log2_entrainment(entrainment_speed(line, centre, body, view), p.effects.film)
     surfaces = (faults.surface, faults.roller_surface)
     near = find_damage(lanes, block, azimuths, p.laminae.shape[1], surfaces, faults.damage)
+    held = hold_contact(lanes, block, ring.number, fresh, near, p.held)
+    log2_speed = _log2_speed(lanes, entrainment_speed(line, centre, body, view), held, p.effects.film)
     reach = p.roller.half_length + abs(p.roller.mass_offset)
     turning = contact_turning(body, view, faults.damage)
     times = (p.step, p.spring_time)
-    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times)
+    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times, held)
     sums = lamina_sums(shared, line, slip, log2_speed, near, faults.damage)
     lean = lean_wrench(
         lanes, body, sums, (ring_climb, roller_climb), faults.damage, faults.waves, faults.roller_waves
     )
-    return RacewayContact(line, slip, sums, lean, log2_speed, centre, body, faults.damage)
+    return RacewayContact(line, slip, sums, lean, log2_speed, centre, body, faults.damage, held)
+
+
+@inline
+def _log2_speed(lanes, speed, held, film):
+    """Work out what friction needs of the entrainment speed; zeros where the memory has the friction."""
+    zero = lanes.constant(0.0)
+    if held.recalled:
+        return zero, zero
+    part, rolling = log2_entrainment(speed, film)
+    return part + zero, rolling + zero
 
 
 @inline
@@ -170,8 +183,22 @@ def settle_raceway(ring, contact, change, here, p):
 
     Returns the `Wrench` on the roller that the step ends with.
     """
-    lanes, line, slip = here.lanes, contact.line, contact.slip
+    lanes = here.lanes
     wrench, normal, friction = _react(ring, contact, change, here, p)
+    _output(ring, contact, wrench, normal, here, p)
+    capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
+    exchange.watch_chatter(here, ring, friction, capacity)
+    deepest = at_least(lanes.load(here.rollers, here.block, PENETRATION), contact.sums.deepest)
+    lanes.store(here.rollers, here.block, PENETRATION, deepest)
+    return wrench
+
+
+@inline
+def _output(ring, contact, wrench, normal, here, p):
+    """Write what the last step of a stretch says of the contact; other steps are not read."""
+    if not here.shown:
+        return
+    lanes, line, slip = here.lanes, contact.line, contact.slip
     # a grazing contact has hardly any force to divide by
     pressure_centre = normal[1] / at_least(normal[0], 1e-3)
     pressure_centre = at_most(at_least(pressure_centre, -p.roller.half_length), p.roller.half_length)
@@ -181,11 +208,6 @@ def settle_raceway(ring, contact, change, here, p):
     exchange.output_contact(
         lanes, here.rollers, here.block, ring, exchange.ContactOutput(wrench.force, arm, speed, film)
     )
-    capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
-    exchange.watch_chatter(here, ring, friction, capacity)
-    deepest = at_least(lanes.load(here.rollers, here.block, PENETRATION), contact.sums.deepest)
-    lanes.store(here.rollers, here.block, PENETRATION, deepest)
-    return wrench
 
 
 @inline

@@ -50,15 +50,18 @@ def velocity_change(matrix, right, zero, explicit):
 
 
 @inline
-def step_rollers(lanes, block, rollers, rings, sums, bends, p):
-    """Advance one block of rollers by one step, their state in place, and add what it does to the rings."""
+def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
+    """Advance one block of rollers by one step, their state in place, and add what it does to the rings.
+
+    ``fresh``: whether friction is worked out, whatever is held, and outputs are written.
+    """
     step, effects, roller = p.step, p.effects, p.roller
     orbit = drift(
         lanes, rollers, block, load_vector(lanes, rings, layout.CUP, layout.RING_DRIFT), step, roller
     )
     cosine, sine, azimuth, momentum = orbit.cosine, orbit.sine, orbit.azimuth, orbit.momentum
     mask = lanes.load(p.rollers, block, layout.MASK)
-    here = Here(lanes, block, rollers, sums, mask, cosine, sine)
+    here = Here(lanes, block, rollers, sums, mask, cosine, sine, fresh)
     oversize = lanes.load(p.rollers, block, layout.OVERSIZE)
     omega = angular_velocity(momentum, orbit.axis, roller)
     zero = lanes.constant(0.0)
@@ -72,11 +75,11 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, p):
 
     azimuths = (azimuth - lanes.load(rings, layout.CUP, layout.RING_TURN), -spin)
     ring = raceway.Ring(layout.CUP, p.cup, raceway.faults_of_cup(effects.faults), bent_view)
-    cup = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
+    cup = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, fresh, p)
     cup = about_rigid_cup(cup, shift, effects.structure)
     azimuths = (azimuth - lanes.load(rings, layout.CONE, layout.RING_TURN), _PI - spin)
     ring = raceway.Ring(layout.CONE, p.cone, raceway.faults_of_cone(effects.faults), cone_view)
-    cone = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, p)
+    cone = raceway.prepare_raceway(lanes, block, ring, body, oversize, azimuths, fresh, p)
     mark(timers, CONTACT)
     cup_rolling = prepare_rolling(cup, layout.CUP, cup_view, body, effects.rolling)
     cone_rolling = prepare_rolling(cone, layout.CONE, cone_view, body, effects.rolling)

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account_loss, react
+from beardyn_core.kernels.held import held_couple, keep_couple
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
 from beardyn_core.kernels.orbit import entrainment_speed
 from beardyn_core.kernels.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
@@ -137,8 +138,7 @@ def prepare_rolling(contact, ring, view, body, rolling):
     if not contact.sums.touches:
         return RollingContact(zero, zero, zero, zero, line.arm, contact.centre, line.around, line.along)
     speed = entrainment_speed(line, contact.centre, body, view)
-    floor = rolling.smallest_speed
-    couple = rolling_couple(load, speed, ring, rolling) * speed / sqrt(speed * speed + floor * floor)
+    couple = _couple(load, speed, ring, contact.held, rolling)
     relative = dot(subtract(body.omega, view.omega), line.along)
     return RollingContact(
         rolling.force[ring] * couple,
@@ -150,6 +150,17 @@ def prepare_rolling(contact, ring, view, body, rolling):
         line.around,
         line.along,
     )
+
+
+@inline
+def _couple(load, speed, ring, held, rolling):
+    """Work out the couple against the entrainment, or take the one that is held, [N m]."""
+    if held.recalled:
+        return held_couple(held, load, held.params)
+    floor = rolling.smallest_speed
+    couple = rolling_couple(load, speed, ring, rolling) * speed / sqrt(speed * speed + floor * floor)
+    keep_couple(held, couple, held.params)
+    return couple
 
 
 @inline

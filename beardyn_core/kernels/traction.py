@@ -64,7 +64,7 @@ def friction_rate(contact, effects):
 @inline
 def _rate(contact, film, coulomb, mixed, load_sharing):
     if load_sharing is not None:
-        return load_sharing_rate(contact, film, load_sharing)
+        return contact.load * load_sharing_coefficient(contact, film, load_sharing)
     if mixed is not None:
         return mixed_rate(contact, film, mixed)
     return coulomb_rate(contact, coulomb)
@@ -192,8 +192,8 @@ def _full_film_rate(contact, dry, film, mixed, sheared_film):
 
 
 @inline
-def load_sharing_rate(contact, film, sharing):
-    """Share the load between asperities and film, each with its own friction over slip speed, [N s/m].
+def load_sharing_coefficient(contact, film, sharing):
+    """Share the load between asperities and film, each with its friction over slip speed and load, [s/m].
 
     The film carries 1 - exp(-1.8 Lambda^1.2); asperities have mu_0 2/pi atan(slope s), s slip over
     entrainment speed. The film never has more friction than dry asperities: the fits extrapolate to that
@@ -207,32 +207,32 @@ def load_sharing_rate(contact, film, sharing):
     inverse_slip = 1.0 / at_least(slip, 1e-12)  # one division for all laws
     per_slip = sharing.slope * exp2(-contact.log2_rolling)
     saturated = per_slip * arctangent_with(per_slip * slip, inverse_slip * (1.0 / per_slip))
-    asperities = sharing.friction * _TWO_OVER_PI * contact.load * saturated
-    return _shared_rate(contact, slip, inverse_slip, asperities, film, sharing)
+    asperities = sharing.friction * _TWO_OVER_PI * saturated
+    return _shared(contact, slip, inverse_slip, asperities, film, sharing)
 
 
 @inline
-def _shared_rate(contact, slip, inverse_slip, asperities, film, sharing):
+def _shared(contact, slip, inverse_slip, asperities, film, sharing):
     if film is None:
         return asperities
-    wet = _flat_rate(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_rate(
+    wet = _flats(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_shear(
         contact, sharing.inlet
     )
-    wet = at_most(wet, sharing.friction * contact.load * inverse_slip)
+    wet = at_most(wet, sharing.friction * inverse_slip)
     share = exp2(-1.8 * LOG2_E * exp2(1.2 * (contact.log2_film - sharing.log2_roughness)))
     return wet + (asperities - wet) * share
 
 
 @inline
-def _flat_rate(contact, slip, inverse_slip, film, sharing, aihara):
-    """Take the traction of the flats over slip speed; Aihara's only at the pressures of its tests.
+def _flats(contact, slip, inverse_slip, film, sharing, aihara):
+    """Take the traction of the flats over slip speed and load; Aihara's only at the pressures of its tests.
 
     From 0.5 down to 0.25 GPa it gives way, with the logarithm of the pressure, to a film that shears.
     """
-    sheared = bair_winer_rate(contact, slip, film, sharing.bair_winer)
+    sheared = bair_winer_shear(contact, slip, inverse_slip, film, sharing.bair_winer)
     if aihara is None:
-        return eyring_rate(contact, slip, film, sharing.eyring) + sheared
-    fitted, log2_pressure = aihara_rate(contact, slip, inverse_slip, aihara)
+        return eyring_shear(contact, slip, film, sharing.eyring) + sheared
+    fitted, log2_pressure = aihara_traction(contact, slip, inverse_slip, aihara)
     share = at_most(at_least(log2_pressure - _LOG2_NO_LONGER_FITTED, 0.0), 1.0)
     return sheared + share * (fitted - sheared)
 
@@ -267,7 +267,7 @@ def _log2_thickening(pressure, pressure_viscosity, roelands):
 
 
 @inline
-def aihara_rate(contact, slip, inverse_slip, aihara):
+def aihara_traction(contact, slip, inverse_slip, aihara):
     """Work out traction as fitted to tests of rolling contacts, and the largest pressure it is for.
 
     mu = mu_max (1 - exp(-2.6 s / s_max)), s slip over entrainment speed, with eta in cP, u in mm/s and the
@@ -277,8 +277,8 @@ def aihara_rate(contact, slip, inverse_slip, aihara):
 
     Returns
     -------
-    rate : lane value
-        Friction over slip speed, [N s/m].
+    coefficient : lane value
+        Friction over slip speed and load, [s/m].
     log2_pressure : lane value
         Binary logarithm of the largest Hertz pressure, [log2 kgf/mm^2].
 
@@ -299,12 +299,12 @@ def aihara_rate(contact, slip, inverse_slip, aihara):
     )
     friction = exp2((aihara.log2_friction - 0.12 * log2_speed) + log2_friction)
     per_slip = exp2((_LOG2_STEEPNESS - contact.log2_rolling) - log2_slide)
-    return contact.load * friction * decay_rate(per_slip, slip, inverse_slip), log2_pressure
+    return friction * decay_rate(per_slip, slip, inverse_slip), log2_pressure
 
 
 @inline
-def eyring_rate(contact, slip, film, eyring):
-    """Shear the Hertz area with the stress tau_0 asinh(eta u / (h tau_0)), over slip speed, [N s/m].
+def eyring_shear(contact, slip, film, eyring):
+    """Shear the Hertz area with the stress tau_0 asinh(eta u / (h tau_0)), over slip speed and load, [s/m].
 
     References
     ----------
@@ -313,14 +313,16 @@ def eyring_rate(contact, slip, film, eyring):
     if eyring is None:
         return 0.0
     pressure = mean_pressure(contact)
-    area = contact.load / at_least(pressure, _SMALLEST_PRESSURE)
+    area = 1.0 / at_least(pressure, _SMALLEST_PRESSURE)
     shear = film.viscosity * exp2(log2_thickening(pressure, film) - contact.log2_film)
     return area * shear * asinh_over(shear * slip / eyring.stress)
 
 
 @inline
-def bair_winer_rate(contact, slip, film, limit):
-    """Shear with tau_L (1 - exp(-eta u / (h tau_L))), tau_L a share of the mean pressure, [N s/m].
+def bair_winer_shear(contact, slip, inverse_slip, film, limit):
+    """Shear with tau_L (1 - exp(-eta u / (h tau_L))), tau_L a share of the mean pressure, over slip and load.
+
+    [s/m]; what the stress rises with, eta / (h tau_L), is put together as a logarithm, without a division.
 
     References
     ----------
@@ -329,15 +331,15 @@ def bair_winer_rate(contact, slip, film, limit):
     """
     if limit is None:
         return 0.0
-    pressure = mean_pressure(contact)
-    bounded = at_least(pressure, _SMALLEST_PRESSURE)
-    shear = film.viscosity * exp2(log2_thickening(pressure, film) - contact.log2_film)
-    return contact.load / bounded * shear * decay_over(shear * slip / (limit.limiting_shear * bounded))
+    thickening = log2_thickening(mean_pressure(contact), film)
+    thinner = 0.5 * contact.log2_load + contact.log2_film
+    shear = exp2((thickening - thinner) + limit.log2_shear[contact.ring, contact.lamina])
+    return limit.limiting_shear * decay_rate(shear * (1.0 / limit.limiting_shear), slip, inverse_slip)
 
 
 @inline
-def inlet_rate(contact, factor):
-    """Shear the oil at ambient viscosity in the parabolic gap around a contact, over slip speed, [N s/m].
+def inlet_shear(contact, inlet):
+    """Shear the oil at ambient viscosity in the parabolic gap around a contact, over slip and load, [s/m].
 
     eta l times the integral of dx/h from the far inlet to Reynolds' exit, h + x^2/2R: all the friction of
     rigid surfaces, and small beside that of the flats where they are pressed.
@@ -346,10 +348,9 @@ def inlet_rate(contact, factor):
     ----------
     Martin (1916), after Dowson, D. and Higginson, G. R. (1966), Elasto-Hydrodynamic Lubrication, ch. 4.
     """
-    if factor is None:
+    if inlet is None:
         return 0.0
-    curvature = contact.laminae[LAMINA_PRESSURE + contact.ring, contact.lamina]
-    return factor * sqrt(exp2(-contact.log2_film) / curvature)
+    return exp2((inlet[contact.ring, contact.lamina] - 0.5 * contact.log2_film) - contact.log2_load)
 
 
 @inline

@@ -9,13 +9,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.effects import LoadSharingTraction
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.model.cage import cage_params
 from beardyn_core.model.faults import fault_params, roller_oversize
 from beardyn_core.model.film import film_params
 from beardyn_core.model.journal import journal_params
 from beardyn_core.model.laminae import coupling_params, lamina_table
-from beardyn_core.model.layout import LAMINA_STIFFNESS, MASK, OVERSIZE, POCKET_ANGLE, ROLLER_CONSTANTS
+from beardyn_core.model.layout import (
+    HELD_COEFFICIENT,
+    LAMINA_STIFFNESS,
+    MASK,
+    OVERSIZE,
+    POCKET_ANGLE,
+    ROLLER_CONSTANTS,
+)
 from beardyn_core.model.losses import drag_params, rolling_params, seal_params
 from beardyn_core.model.mounting import mounting_params
 from beardyn_core.model.parameters import (
@@ -24,6 +32,7 @@ from beardyn_core.model.parameters import (
     EffectParams,
     ExplicitParams,
     GravityParams,
+    HeldParams,
     Parameters,
     RacewayParams,
     RollerParams,
@@ -35,6 +44,8 @@ from beardyn_core.model.structure import body_of, structure_params
 from beardyn_core.model.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
+# steps from one time that friction of the raceways is worked out to the next, see `kernels.held`
+HELD_STEPS = 3.0
 LEAST_SHARE, MOST_SHARE = 1.0 / 12.0, 0.25
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]
 _MARGIN = 1.1  # on the frequency, for ribs and moving rings
@@ -107,6 +118,15 @@ def roller_constants(
     return constants
 
 
+def held_params(scene: Scene, arrangement: Arrangement) -> HeldParams | None:
+    """Make the memory of friction, or ``None`` where it is cheap or the step is explicit."""
+    dear = isinstance(scene.effects.traction, LoadSharingTraction)
+    if not dear or scene.numerics.integrator == "explicit":
+        return None
+    fields = HELD_COEFFICIENT + scene.numerics.laminae
+    return HeldParams(HELD_STEPS, aligned_zeros(2 * arrangement.block_count, fields, arrangement.width))
+
+
 def build_parameters(
     scene: Scene, arrangement: Arrangement, preload: NDArray[np.float64], rest: ArrayLike = (0.0,) * 6
 ) -> Parameters:
@@ -174,4 +194,5 @@ def build_parameters(
             timers=new_timers(),
         ),
         explicit=(ExplicitParams(1.0) if scene.numerics.integrator == "explicit" else None),
+        held=held_params(scene, arrangement),
     )

@@ -100,6 +100,11 @@ LAMINA_PLACE, LAMINA_DROP, LAMINA_STIFFNESS, LAMINA_RADIUS = range(4)
 LAMINA_FILM, LAMINA_PRESSURE = 4, 6
 LAMINA_ROWS = 8
 
+# --- friction held of a raceway contact [2 x block + ring, field, lane]
+HELD_FROM = 0  # 1 if the memory is filled
+HELD_COUPLE = 1  # against rolling [N m]
+HELD_COEFFICIENT = 2  # of each lamina: friction over slip speed and load [s/m]
+
 # --- work space of coupled laminae [row, lamina, lane]
 COUPLING_ROWS = 5
 

@@ -66,6 +66,13 @@ class ExplicitParams(NamedTuple):
     taken: float
 
 
+class HeldParams(NamedTuple):
+    """Friction of the raceways that is worked out in every few steps, see `kernels.held`."""
+
+    steps: float  # from one time to the next
+    memory: Any  # [2 x block + ring, HELD_COEFFICIENT + lamina, lane]
+
+
 class EffectParams(NamedTuple):
     """All switchable effects; ``None`` is absent."""
 
@@ -102,3 +109,4 @@ class Parameters(NamedTuple):
     mounting: MountingParams
     effects: EffectParams
     explicit: ExplicitParams | None = None
+    held: HeldParams | None = None

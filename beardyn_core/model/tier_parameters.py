@@ -145,7 +145,7 @@ def without_roller_dynamics(base: Parameters) -> Parameters:
         coupling=None, coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
         structure=None,
     )  # fmt: skip
-    return base._replace(effects=effects, explicit=None)
+    return base._replace(effects=effects, explicit=None, held=None)
 
 
 def flattened(base: Parameters, scene: Scene) -> Parameters:

@@ -70,6 +70,13 @@ class EyringParams(NamedTuple):
     stress: float  # [Pa]
 
 
+class BairWinerParams(NamedTuple):
+    """Film whose stress rises to a share of the mean pressure."""
+
+    limiting_shear: float
+    log2_shear: Any  # viscosity over mean pressure at 1 N on the lamina, [ring, spring], [log2 s]
+
+
 class LoadSharingParams(NamedTuple):
     """Asperities and film share the load; the film has the laws of the members that are not ``None``."""
 
@@ -78,8 +85,8 @@ class LoadSharingParams(NamedTuple):
     log2_roughness: float  # [log2 m]
     aihara: AiharaParams | None
     eyring: EyringParams | None
-    bair_winer: ShearedFilmParams | None
-    inlet: float | None  # shear of the gap around the contact [N s/m Pa^0.5/N^0.5 m^0.5]
+    bair_winer: BairWinerParams | None
+    inlet: Any  # shear of the gap around a contact with a film of 1 m, [ring, spring], [log2 N s/m m^0.5]
 
 
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
@@ -146,21 +153,30 @@ def aihara_params(
 
 def _load_sharing_params(scene: Scene, traction: LoadSharingTraction) -> LoadSharingParams:
     kind = traction.film_traction
+    laminae = lamina_table(scene)
     return LoadSharingParams(
         friction=traction.boundary_friction,
         slope=traction.boundary_slope,
         log2_roughness=math.log2(scene.bearing.raceway_roughness),
-        aihara=aihara_params(scene.lubricant, scene.temperature, traction.largest_slide, lamina_table(scene))
+        aihara=aihara_params(scene.lubricant, scene.temperature, traction.largest_slide, laminae)
         if kind == "aihara"
         else None,
         eyring=EyringParams(traction.eyring_stress) if kind == "eyring" else None,
-        bair_winer=ShearedFilmParams(traction.limiting_shear) if kind != "eyring" else None,
-        inlet=_inlet_factor(scene) if traction.inlet_shear else None,
+        bair_winer=_bair_winer_params(scene, traction, laminae) if kind != "eyring" else None,
+        inlet=_inlet_table(scene, laminae) if traction.inlet_shear else None,
     )
 
 
-def _inlet_factor(scene: Scene) -> float:
-    """Compute the inlet shear of a lamina: eta l sqrt(2 R/h) (pi/2 + atan 0.4751) = factor/sqrt(c h).
+def _bair_winer_params(
+    scene: Scene, traction: LoadSharingTraction, laminae: NDArray[np.float64]
+) -> BairWinerParams:
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    mean = np.sqrt(laminae[LAMINA_PRESSURE : LAMINA_PRESSURE + 2])
+    return BairWinerParams(traction.limiting_shear, for_springs(np.log2(viscosity / mean)))
+
+
+def _inlet_table(scene: Scene, laminae: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Tabulate the inlet shear of a lamina: eta l sqrt(2 R/h) (pi/2 + atan 0.4751) = factor/sqrt(c h).
 
     c is the lamina's `LAMINA_PRESSURE`, pi E'/(32 R l), which holds the radius.
     """
@@ -168,4 +184,5 @@ def _inlet_factor(scene: Scene) -> float:
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
     modulus = scene.bearing.material.contact_modulus
     reach = math.sqrt(2.0) * (0.5 * math.pi + math.atan(REYNOLDS_EXIT))
-    return viscosity * reach * math.sqrt(math.pi / 32.0 * modulus * length)
+    factor = viscosity * reach * math.sqrt(math.pi / 32.0 * modulus * length)
+    return for_springs(np.log2(factor / np.sqrt(laminae[LAMINA_PRESSURE : LAMINA_PRESSURE + 2])))

@@ -73,10 +73,9 @@ and 1.00 in two runs, and code that lies elsewhere in memory makes 5 % either wa
 What makes the time step fast, measured by leaving it out, in turns with the step as it is. Two levers are
 in the length of the step instead: the implicit solve, which takes steps of 13 us where [explicit
 ones](step.md) need 0.1 to 5 us, and contact damping of the middle of the step with the least stable share
-of the springs, which needs 3 steps for each sample where damping of its end needs 5. Film, cages and rings
-are advanced at every step: doing so at every second one would save at most half of their shares in the
-table above. Uniform laminae are kept: `python benchmarks/levers.py laminae` has them beside Gauss points,
-which pay on straight rollers only.
+of the springs, which needs 3 steps for each sample where damping of its end needs 5. A third lever is
+[friction that is held](model.md#what-was-tried-on-the-step) for three steps. Uniform laminae are kept:
+`python benchmarks/levers.py laminae` has them beside Gauss points, which pay on straight rollers only.
 
 """,
     "laminae": """## Laminae

@@ -1,12 +1,13 @@
-"""Write docs/trial.md from the trial.json of a trial: ``python -m evidence.trial.page FOLDER``.
+"""Write docs/trial.md from the trial.json of trials: ``python -m evidence.trial.page FOLDER [FOLDER ...]``.
 
-The folder is that of ``beardyn trial -o FOLDER``; its trial.png becomes docs/pictures/trial.png.
+Folders are those of ``beardyn trial -o FOLDER``; trial.png of the first becomes docs/pictures/trial.png.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,7 @@ noise has such a sum anywhere. A part is not called when a rival has more: a com
 order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
 whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
 measured, and must strike with {deep:g} of it. [monitor_measured.md](monitor_measured.md) has what the chain
-says of measured bearings. The scores in the tables above are of the chain before whitening.
+says of measured bearings.
 
 The formula of BSF is that of the mean diameters, with the common apex of a tapered bearing exactly the
 speed of pure rolling. In `roller_spall` spin against cage over BSF is 1.000 in the fast tiers. In the
@@ -97,9 +98,8 @@ LIMITS = """
 - **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
   pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
   sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
-- **Fast tiers** had no cage slip and no skid when these runs were made (`quasistatic` has them now), so
-  their lines are sharper than those of the full tier; the
-  check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
+- **The tier `quasistatic`** finds some spalls of middling size that `full` hides, and the other way round:
+  the check says by how much scores and verdicts differ. [ladder.md](ladder.md) has the errors of the tiers.
 - **A flat can hide a spall on the cone**, also a large one: the sectors in which the wheel strikes and rings
   are left out, and with them the cone's part of the load zone.
 """
@@ -108,15 +108,15 @@ LIMITS = """
 def main() -> None:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, help="of `beardyn trial -o`")
-    folder = parser.parse_args().folder
-    found = json.loads((folder / "trial.json").read_text(encoding="utf-8"))
-    PAGE.write_text(page(found), encoding="utf-8")
-    save_small(folder / "trial.png", PICTURE, COLOURS)
+    parser.add_argument("folder", type=Path, nargs="+", help="of `beardyn trial -o`, that of `default` first")
+    folders = parser.parse_args().folder
+    found, *others = (json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders)
+    PAGE.write_text(page(found, others), encoding="utf-8")
+    save_small(folders[0] / "trial.png", PICTURE, COLOURS)
 
 
-def page(found: dict[str, Any]) -> str:
-    """Write the page of a trial's JSON object."""
+def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = ()) -> str:
+    """Write the page of a trial's JSON object, and of others in short."""
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,
@@ -149,6 +149,41 @@ def page(found: dict[str, Any]) -> str:
         "",
         "## What it finds",
         "",
+        *_sizes(found),
+        "## Where, and false alarms",
+        "",
+        "A run counts as found when most of its analyses name the part; a healthy run is a false alarm when "
+        "a single one of them calls a fault.",
+        "",
+        *_slices(found),
+        _analyses(found),
+        *_check(found),
+        *_invalid(found),
+        *(line for other in others for line in _in_short(other)),
+    ]
+    return "\n".join(lines) + "\n" + about + LIMITS
+
+
+def _in_short(found: dict[str, Any]) -> list[str]:
+    """List what another trial found."""
+    return [
+        "",
+        f"## `{found['trial']}`",
+        "",
+        f"{found['purpose']} {found['run_count']} runs, `{found['tier']}`, "
+        f"[config/trials/{found['trial']}.yaml](../config/trials/{found['trial']}.yaml).",
+        "",
+        *_sizes(found),
+        *_slices(found),
+        _analyses(found),
+        *_invalid(found),
+    ]
+
+
+def _sizes(found: dict[str, Any]) -> list[str]:
+    if not found["sizes"]:
+        return []
+    return [
         "| spall on | width mm | found and named right | another part named | score dB, median (range) |",
         "|---|--:|---|--:|---|",
         *(_size_row(row) for row in found["sizes"]),
@@ -157,11 +192,11 @@ def page(found: dict[str, Any]) -> str:
         "",
         *(f"- {_smallest(row)}" for row in found["smallest"]),
         "",
-        "## Where, and false alarms",
-        "",
-        "A run counts as found when most of its analyses name the part; a healthy run is a false alarm when "
-        "a single one of them calls a fault.",
-        "",
+    ]
+
+
+def _slices(found: dict[str, Any]) -> list[str]:
+    return [
         "| | found | healthy runs with a false alarm |",
         "|---|---|---|",
         *(
@@ -169,11 +204,7 @@ def page(found: dict[str, Any]) -> str:
             for row in found["slices"]
         ),
         "",
-        _analyses(found),
-        *_check(found),
-        *_invalid(found),
     ]
-    return "\n".join(lines) + "\n" + about + LIMITS
 
 
 def _rate(rate: dict[str, Any]) -> str:

@@ -31,6 +31,8 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     assert "- cup: 6 mm (6 mm to beyond the largest)" in text
     assert "## `quasistatic` against `full`" in text
     assert "did not come to their end" not in text
+    assert "## `quick`" not in text
+    assert page(found, [found]).count("| cup | 6 | 3/3, 100 % (29 to 100) | 0 |") == 2
 
 
 def test_a_spall_adds_its_own_power() -> None:

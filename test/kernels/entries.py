@@ -11,6 +11,7 @@ from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.kernels.generator_line import generator_line, line_slip
+from beardyn_core.kernels.held import Held
 from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
 from beardyn_core.kernels.laminae import Raceway, lamina_sums
 from beardyn_core.kernels.lane_math import (
@@ -129,10 +130,11 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         slip = line_slip(line, centre, body, view)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         instant = (1e-12, 0.0)  # in so short a step no contact begins or ends
-        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant)
+        held = Held(lanes, None, 0, False)
+        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant, held)
         sums = lamina_sums(shared, line, slip, log2_speed, False, None)
         level = Wrench((zero, zero, zero), (zero, zero, zero))
-        contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None)
+        contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None, held)
         wrench = push_raceway(contact, p.effects.damping)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)

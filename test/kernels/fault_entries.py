@@ -87,7 +87,7 @@ def cup_contact(lanes: Any, cases: Any, case: Any, velocity: Any, rates: Any, p:
     body = Body(place, axis, velocity, scale(rates[1], axis), rates[0])
     azimuths = (lanes.load(cases, case, 0), lanes.load(cases, case, 1))
     ring = Ring(0, p.cup, faults_of_cup(p.effects.faults), view)
-    return prepare_raceway(lanes, 0, ring, body, zero, azimuths, p)
+    return prepare_raceway(lanes, 0, ring, body, zero, azimuths, True, p)
 
 
 @entry

@@ -21,7 +21,7 @@ TIME = np.arange(STEPS)
 def watched(lanes: Any, friction: Any, rollers: Any, capacity: Any) -> None:
     """Feed the monitor of the cup contact of one block; friction [step, 1, lane], capacity alike."""
     one = lanes.constant(1.0)
-    here = Here(lanes, 0, rollers, rollers, one, one, one)
+    here = Here(lanes, 0, rollers, rollers, one, one, one, True)
     for step in range(friction.shape[0]):
         watch_chatter(here, 0, lanes.load(friction, step, 0), lanes.load(capacity, step, 0))
 
