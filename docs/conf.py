@@ -18,8 +18,8 @@ from beardyn_core.api import making  # noqa: E402
 beardyn_core.bearing, beardyn_core.scene = making.bearing, making.scene
 
 project = "beardyn"
-author = "The beardyn authors"
-copyright = "The beardyn authors, Apache-2.0"
+author = "beardyn developers"
+copyright = "beardyn developers, Apache-2.0"
 version = release = re.search(r'version="([^"]+)"', (ROOT / "setup.py").read_text(encoding="utf-8"))[1]
 
 extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_nb"]
@@ -47,15 +47,15 @@ OUTSIDE |= {"SECURITY.md": "security.md"}
 
 def whole_pages(app: Any, name: str, source: list[str]) -> None:
     """Put the pages of the repository's first folder in, and let links to them stay in the site."""
-    text = re.sub(
-        r"^<!-- the text of (\S+) -->\n",
-        lambda found: (ROOT / found[1]).read_text(encoding="utf-8").replace("](docs/", "]("),
-        source[0],
-        flags=re.MULTILINE,
-    )
+
+    def whole(found: re.Match[str]) -> str:
+        page = (ROOT / found[1]).read_text(encoding="utf-8")
+        return re.sub(r"\]\((?!#|docs/|[a-z]+:)", "](../", page).replace("](docs/", "](")
+
+    text = re.sub(r"^<!-- the text of (\S+) -->\n", whole, source[0], flags=re.MULTILINE)
     for file, page in OUTSIDE.items():
-        text = text.replace(f"](../{file}", f"]({page}").replace(f"]({file}", f"]({page}")
-    source[0] = re.sub(r"\[(`?config`?/?`?)\]\((\.\./)?config/?\)", r"\1", text)  # a folder is no page
+        text = text.replace(f"](../{file}", f"]({page}")
+    source[0] = text
 
 
 def words_of_fields(app: Any, what: str, name: str, found: Any, options: Any, lines: list[str]) -> None:
