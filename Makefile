@@ -94,9 +94,9 @@ lint: $(VENV)/.ready-dev ## style, types and the direction of imports
 	done; \
 	test -z "$$failed" || { echo "lint failed:$${failed#,}"; exit 1; }
 
-docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/index.html
-	@$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -d $(VENV)/doctrees docs docs/site $(ARGS)
-	@echo "docs/site/index.html is written"
+docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/html/index.html
+	@$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -d $(VENV)/doctrees docs docs/site/html $(ARGS)
+	@echo "docs/site/html/index.html is written"
 
 links: $(VENV)/.ready-docs ## set up, then try the links of the pages to the world outside
 	@$(BIN)/sphinx-build -b linkcheck --quiet -d $(VENV)/doctrees docs docs/site/links $(ARGS)

@@ -23,7 +23,7 @@ copyright = "beardyn developers, Apache-2.0"
 version = release = re.search(r'version="([^"]+)"', (ROOT / "setup.py").read_text(encoding="utf-8"))[1]
 
 extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_nb"]
-exclude_patterns = ["paper/*"]
+exclude_patterns = ["paper/*", "site"]
 html_theme = "furo"
 html_title = f"beardyn {version}"
 html_copy_source = False

@@ -110,8 +110,8 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
         "--keep-going",
         "--quiet",
         str(DOCS),
-        str(tmp_path),
+        str(tmp_path / "html"),
     ]
     done = subprocess.run(words, capture_output=True, text=True, timeout=1200, check=False)
     assert done.returncode == 0, done.stderr
-    assert (tmp_path / "searchindex.js").stat().st_size > 100_000
+    assert (tmp_path / "html" / "searchindex.js").stat().st_size > 100_000
