@@ -21,6 +21,7 @@ BLOCK = re.compile(r"```(bash|python|yaml)\n(.*?)```\n(\n```text\n.*?```\n)?", r
 FILE = re.compile(r"# (\w+\.(?:py|yaml))\b")
 COMMAND = f'beardyn() {{ "{sys.executable}" -m beardyn_core.cli.main "$@"; }}\nset -e\n'
 LONGEST_ANSWER = 40  # lines
+ONCE = re.compile(r"beardyn: (compiling the kernels|kernels ready|choosing effects)")  # of a first run only
 
 
 def run(kind: str, text: str, folder: Path) -> str:
@@ -53,7 +54,7 @@ def answered(page: str, folder: Path) -> str:
 
     def block(found: re.Match[str]) -> str:
         kind, text, answer = found.groups()
-        said = run(kind, text, folder).rstrip().splitlines()
+        said = [line for line in run(kind, text, folder).rstrip().splitlines() if not ONCE.match(line)]
         if not answer:
             return found[0]
         shown = said[:LONGEST_ANSWER] + ["..."] * (len(said) > LONGEST_ANSWER)
