@@ -94,7 +94,7 @@ def test_a_key_that_no_run_has_is_a_mistake() -> None:
 def test_signals_of_different_lengths_and_runs_of_one_bearing_are_refused() -> None:
     with pytest.raises(InputError, match="duration_s is"):
         planned(vary=[*TINY["vary"], {"key": "duration_s", "kind": "choice", "one_of": [0.2, 0.4]}])
-    without = {key: value for key, value in TINY["set"].items() if key != "scatter"}
+    without = {**TINY["set"], "scatter": {"grade": "none"}}
     with pytest.raises(InputError, match="one and the same bearing"):
         planned(set=without, vary=TINY["vary"][3:])
 
