@@ -213,7 +213,7 @@ def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Gr
     assert [name for name in names if not graph.messages[name]] == []
     clock = [header_stamp(cdr) for cdr in graph.messages["/clock"]]
     assert clock == [20_000_000 * (k + 1) for k in range(50)]
-    assert 0.0 < float(graph.statuses("twin")[-1].value("pace")) < 1.15  # a busy machine is slower
+    assert float(graph.statuses("twin")[-1].value("pace")) == pytest.approx(1.0, abs=0.15)
 
 
 def test_two_twins_under_other_namespaces_do_not_hear_each_other(graph: Graph) -> None:
@@ -240,15 +240,15 @@ def test_two_twins_under_other_namespaces_do_not_hear_each_other(graph: Graph) -
 
 def test_live_mode_holds_the_last_load_and_stops_when_it_is_too_old(graph: Graph) -> None:
     graph.listen("force", "vibration")
-    graph.fake_twin(mode="live", speed_factor=1.0, max_age=3.0)
+    graph.fake_twin(mode="live", speed_factor=1.0, max_age=0.4)
     graph.fake_load(mode="live", duration=60.0)
     graph.until(lambda: len(graph.messages["vibration"]) > 10, "blocks under live load")
     age = float(graph.statuses("twin")[-1].value("load_age"))
-    assert age < 3.0
+    assert age < 0.4
     graph.processes.signal("load", signal.SIGKILL)
     assert graph.exit_code("twin") == 4
     last = graph.statuses("twin")[-1]
-    assert "more than max_age = 3 s" in last.message
+    assert "more than max_age = 0.4 s" in last.message
 
 
 def test_live_mode_alone_runs_in_real_time_and_says_how_far_it_lags(graph: Graph) -> None:
@@ -260,7 +260,7 @@ def test_live_mode_alone_runs_in_real_time_and_says_how_far_it_lags(graph: Graph
     assert last.value("state") == "finished"
     assert last.value("speed_factor") == "1"
     lag = float(last.value("lag"))
-    assert lag > 0.2
+    assert lag > 0.5
     assert float(last.value("worst_lag")) >= lag - 0.001
     assert last.level == 1
     simulated = float(last.value("simulated_time"))
