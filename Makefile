@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint format clean
+.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -35,7 +35,7 @@ test: $(VENV)/.ready-test ## set up, then the tests, on JOBS processes (one more
 same: $(VENV)/.ready-test ## short runs of every tier beside those of commit BASE (default: the last one): same to the bit, or where not
 	@$(BIN)/python -m test.golden.same $(BASE) $(ARGS)
 
-slow: $(VENV)/.ready-test ## set up, then the long tests as well
+slow: $(VENV)/.ready-test $(VENV)/.ready-docs ## set up, then the long tests as well
 	@$(BIN)/python -m pytest -m "slow or not slow" $(PARALLEL) $(ARGS)
 
 hard: $(VENV)/.ready-test ## set up, then the battery of hard cases side by side: table, hard.json; goes on where it was interrupted
@@ -94,13 +94,27 @@ lint: $(VENV)/.ready-dev ## style, types and the direction of imports
 	done; \
 	test -z "$$failed" || { echo "lint failed:$${failed#,}"; exit 1; }
 
+docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/html/index.html
+	@$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -d $(VENV)/doctrees docs docs/site/html $(ARGS)
+	@echo "docs/site/html/index.html is written"
+
+links: $(VENV)/.ready-docs ## set up, then try the links of the pages to the world outside
+	@$(BIN)/sphinx-build -b linkcheck --quiet -d $(VENV)/doctrees docs docs/site/links $(ARGS)
+
+dist: $(VENV)/.ready-release ## set up, then wheel and sdist in dist/, tried in a new environment
+	@$(BIN)/python release/try_release.py $(ARGS)
+
+sbom: $(VENV)/.ready-release ## set up, then what an installation consists of: sbom.json (CycloneDX)
+	@$(BIN)/cyclonedx-py environment --output-file sbom.json $(VENV)
+	@echo "sbom.json is written"
+
 format: $(VENV)/.ready-dev ## write the style instead of checking it
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
 clean: ## remove the environment and everything that was built
 	rm -rf $(VENV) build install log dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis \
-		.import_linter_cache .coverage htmlcov
+		.import_linter_cache .coverage htmlcov docs/site
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # Editable, so that an edit is seen at once. pip leaves out the data files of an editable install, by which ROS 2
@@ -125,6 +139,14 @@ $(VENV)/.ready-test: $(METADATA) | $(BIN)/python
 $(VENV)/.ready-dev: $(METADATA) | $(BIN)/python
 	$(call install,$(call extras,test dev))
 	@touch $(VENV)/.ready $(VENV)/.ready-test
+
+$(VENV)/.ready-release: $(METADATA) | $(BIN)/python
+	$(call install,$(call extras,release))
+	@touch $(VENV)/.ready
+
+$(VENV)/.ready-docs: $(METADATA) | $(BIN)/python
+	$(call install,$(call extras,docs sweep))
+	@touch $(VENV)/.ready
 
 $(BIN)/python:
 	@command -v $(PYTHON) >/dev/null || { \

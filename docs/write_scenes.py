@@ -46,8 +46,7 @@ excitation of a run is part of its truth (topic `truth`, key `excitation`): the 
 strikes of a flat, joints passed, each with time and distance.
 
 Bearings of the railway scenes are as made, grade G1 of
-[manufacturing scatter](model.md#manufacturing-scatter), but for that of `smooth_run`, a reference for other
-runs; those under a constant load are as drawn.
+[manufacturing scatter](model.md#manufacturing-scatter); those under a constant load are as drawn.
 
 ## Railway scenes
 """

@@ -7,12 +7,11 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.config import read_sweep
 from beardyn_core.engine import Cluster, EngineError, Tls
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import folder_problems
+from beardyn_core.population.asked import asked
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.plan import plan_of
 from beardyn_core.population.sweeping import Progress, conduct
 
 _TOLD_EVERY_S = 10.0
@@ -67,9 +66,7 @@ def sweep(
     cluster = cluster_of(workers, scheduler, tls, memory_GB)
     problems = cluster.problems() + folder_problems("output", Path(output))
     try:
-        found, label = read_sweep(dict(sweep) if isinstance(sweep, Mapping) else sweep, **changes)
-        if not problems:
-            plan = plan_of(found, label, _say)
+        plan = asked(sweep, _say, **changes)
     except InputError as error:
         problems += error.problems
     if problems:

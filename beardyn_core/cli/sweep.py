@@ -78,9 +78,8 @@ def run(args: argparse.Namespace) -> int:
     if args.sweep is None:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
     from beardyn_core.api.sweeping import Lines, cluster_of
-    from beardyn_core.config import read_sweep
     from beardyn_core.engine import EngineError
-    from beardyn_core.population.plan import plan_of
+    from beardyn_core.population.asked import asked
     from beardyn_core.population.sweeping import conduct
 
     tls = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
@@ -88,11 +87,12 @@ def run(args: argparse.Namespace) -> int:
         args.workers, args.scheduler, {k: v for k, v in tls.items() if v is not None}, args.memory
     )
     with checked(lambda inputs: option_problems(args, cluster, inputs)):
-        sweep, label = read_sweep(args.sweep, runs=args.runs, seed=args.seed, hours=args.hours)
-        plan = plan_of(sweep, label, _say)
-    bar = _Bar(sweep.run_count) if sys.stderr.isatty() else Lines()
+        plan = asked(args.sweep, _say, runs=args.runs, seed=args.seed, hours=args.hours)
+    bar = _Bar(plan.sweep.run_count) if sys.stderr.isatty() else Lines()
     try:
-        with last_words(lambda: f"{bar.done} of {sweep.run_count} runs are done; the same command goes on"):
+        with last_words(
+            lambda: f"{bar.done} of {plan.sweep.run_count} runs are done; the same command goes on"
+        ):
             swept = conduct(plan, args.output, cluster, force=args.force, report=bar, say=_say)
     except EngineError as error:
         raise InputError(str(error)) from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -76,6 +75,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import load_trial
     from beardyn_core.choice.trial import leaves_open
+    from beardyn_core.engine.cluster import core_count
     from beardyn_core.study.trial import conduct, plan_of, warm
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult
@@ -91,7 +91,7 @@ def run(args: argparse.Namespace) -> int:
     plan = plan_of(trial, args.monitor, folder, force=args.force)
     if folder is not None:
         folder.mkdir(exist_ok=True)
-    jobs = args.jobs or len(os.sched_getaffinity(0))
+    jobs = args.jobs or core_count()
     if plan.kept:
         print(f"beardyn: {len(plan.kept)} of {len(trial.cells())} runs were done before", file=sys.stderr)
     if plan.outdated:

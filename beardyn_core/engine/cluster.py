@@ -148,7 +148,10 @@ class LocalCluster:
     def close(self) -> None:
         """End all its processes at once: what they have given back is here, the rest is not wanted."""
         with suppress(ProcessLookupError, PermissionError):
-            os.killpg(self._process.pid, signal.SIGKILL)
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            else:  # Windows: workers end when their scheduler is gone
+                self._process.kill()
         for pipe in (self._process.stdin, self._process.stdout, self._log):
             if pipe is not None:
                 with suppress(OSError):

@@ -6,6 +6,7 @@ module       responsibility, in the order of the data
 places       key paths of a scene, and a value set at one
 draw         what each run has at the keys that are varied, from the seed alone
 plan         the scene of each run, made and checked before anything runs
+asked        the plan of what a user asks for, or every mistake in it
 features     what a monitor works out of a run, and levels of bands
 batch        several runs in one process of a worker
 store        signals in Zarr

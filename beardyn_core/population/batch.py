@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import resource
+import platform
 import sys
 import time
 from dataclasses import dataclass
@@ -27,6 +27,11 @@ from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.code_digest import simulator_digest
 from beardyn_core.study.compiling import warm_once
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
 
 DONE, FAILED = "complete", "failed"
 _WIDE = ("angle",)  # grows without end: of eight bytes, the others of four
@@ -78,12 +83,14 @@ def run_batch(rows: tuple[Row, ...], plan: Plan) -> Batch:
                 for name, each in arrays.items()
             }
             times = when
-    process = f"{os.uname().nodename}:{os.getpid()}"
+    process = f"{platform.node()}:{os.getpid()}"
     return Batch(tuple(made), shapes, times, code_digest(), process, most_memory())
 
 
 def most_memory() -> int:
-    """Tell the most memory that this process has held at a time, [byte]."""
+    """Tell the most memory that this process has held at a time, [byte]; 0 where the system does not say."""
+    if resource is None:
+        return 0
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return most if sys.platform == "darwin" else 1024 * most
 

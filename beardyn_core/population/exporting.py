@@ -83,7 +83,7 @@ def _about(runs: LabelledSet) -> dict[str, str]:
 
 
 def _hdf5(runs: LabelledSet, path: Path, names: Sequence[str]) -> None:
-    h5py = library("h5py", "a set in HDF5", "data")
+    h5py = library("h5py", "a set in HDF5", "sweep")
     with h5py.File(path, "w") as file:
         file.attrs.update(_about(runs))
         for name in names:

@@ -5,7 +5,7 @@ All of them can be had of a measured axlebox too: one accelerometer, the shaft, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, nan
 
 import numpy as np
@@ -13,14 +13,26 @@ from scipy.fft import rfft
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorResult, MonitorSettings, Stretch
+from beardyn_core.observe.chain.fault_lines import comb_score
+from beardyn_core.observe.chain.kurtogram import by_kurtogram
+from beardyn_core.observe.chain.tracking import by_angle
+from beardyn_core.observe.monitoring import Monitor, MonitorInput
 from beardyn_core.record.run import Run
 
 PARTS = FAULTS
-_ONCE = MonitorSettings(interval=1e9)  # one analysis, of the last revolutions
+# one analysis, of the last revolutions; runs are short, and a learner sees what few revolutions are worth
+_ONCE = MonitorSettings(interval=1e9, least_revolutions=6.0)
 _BANDS = (250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)  # middles of octaves, [Hz]
 _RESULT = ("score", "strongest_level", "rms", "kurtosis", "crest", "shaft_frequency")
+_IN_BAND = {
+    **{f"band_score_{part}": "dB" for part in PARTS},
+    "band_strongest_level": "dB",
+    "band_strongest_order": "",
+    "band_kurtosis": "",
+    "band_middle": "Hz",
+    "band_width": "Hz",
+}
 UNITS = {
     **{f"score_{part}": "dB" for part in PARTS},
     "score": "dB",
@@ -28,8 +40,7 @@ UNITS = {
     "lead": "dB",
     "strongest_level": "dB",
     "strongest_order": "",
-    "band_middle": "Hz",
-    "band_width": "Hz",
+    **_IN_BAND,
     "rms": "m/s^2",
     "kurtosis": "",
     "crest": "",
@@ -55,13 +66,46 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
     sensor : str
         Accelerometer; by default the first.
     """
-    monitor = Monitor(orders, roller_count, settings=_ONCE)
-    for part in run.monitor_inputs(sensor):
-        monitor.take(part)
-    result = monitor.result()
     signal = run.sensors[sensor] if sensor else run.vibration
-    values = signal.values[:, np.isfinite(signal.values).all(axis=0)]
-    found = {**_of_result(result), **_levels(np.asarray(values, np.float64), signal.rate)}
+    return features_from(run.monitor_inputs(sensor), signal.values, signal.rate, orders, roller_count)
+
+
+def features_from(
+    inputs: Iterable[MonitorInput], values: Float, rate: float, orders: FaultFrequencies, roller_count: int
+) -> dict[str, float]:
+    """Work out the features of signals that stand in arrays.
+
+    Parameters
+    ----------
+    inputs : iterable of MonitorInput
+        What a monitor hears of the run.
+    values : array, shape [sample, axis]
+        The acceleration, NaN on axes that were not measured, [m/s^2].
+    rate : float
+        Of the acceleration, [Hz].
+
+    Notes
+    -----
+    The monitor whitens the signal and takes the logarithm of its envelope: no loud machine misleads it, and
+    each strike counts once. What that costs is the loudness of strikes in the band where they ring. So
+    the lines are looked for there as well, as measured: in the squared envelope of the band with the
+    largest spectral kurtosis.
+    """
+    in_band = dict.fromkeys(_IN_BAND, nan)
+
+    def both(
+        stretch: Stretch, orders: FaultFrequencies, count: int, settings: MonitorSettings
+    ) -> MonitorResult:
+        result = REFERENCE(stretch, orders, count, settings)
+        if isfinite(result.threshold):
+            in_band.update(_heard_in_band(stretch, orders, count, settings))
+        return result
+
+    monitor = Monitor(orders, roller_count, settings=_ONCE, algorithm=both)
+    for part in inputs:
+        monitor.take(part)
+    known = values[:, np.isfinite(values).all(axis=0)]
+    found = {**_of_result(monitor.result()), **in_band, **_levels(np.asarray(known, np.float64), rate)}
     return {name: found[name] for name in NAMES}
 
 
@@ -69,15 +113,29 @@ def _of_result(result: MonitorResult) -> dict[str, float]:
     known = isfinite(result.threshold)
     scores: Sequence[float] = result.scores if known else (nan,) * len(PARTS)
     ordered = sorted(scores)
-    low, high = result.band
     return {
         **{f"score_{part}": float(score) for part, score in zip(PARTS, scores, strict=True)},
         "threshold_margin": result.score - result.threshold if known else nan,
         "lead": ordered[-1] - ordered[-2],
         "strongest_order": result.strongest_order,
-        "band_middle": 0.5 * (low + high),
-        "band_width": high - low,
         **{name: float(getattr(result, name)) if known else nan for name in _RESULT},
+    }
+
+
+def _heard_in_band(
+    stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
+) -> dict[str, float]:
+    """Look for the lines of faults in the band of the largest spectral kurtosis."""
+    band = by_kurtogram(stretch, settings)
+    tracked = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
+    found = comb_score(tracked, orders, roller_count, stretch.shaft_frequency, settings)
+    return {
+        **{f"band_score_{part}": each.score for part, each in zip(PARTS, found.candidates, strict=True)},
+        "band_strongest_level": found.strongest_level,
+        "band_strongest_order": found.strongest_order,
+        "band_kurtosis": band.kurtosis,
+        "band_middle": 0.5 * (band.low + band.high),
+        "band_width": band.high - band.low,
     }
 
 

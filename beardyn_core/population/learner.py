@@ -25,6 +25,8 @@ WIDTH = "fault_width_m"
 TRANSFERABLE = (
     *("score_cup", "score_cone", "score_roller", "score", "threshold_margin", "lead"),
     *("strongest_level", "strongest_order", "kurtosis", "crest"),
+    *("band_score_cup", "band_score_cone", "band_score_roller"),
+    *("band_strongest_level", "band_strongest_order", "band_kurtosis"),
 )
 _TREES = 300
 
@@ -58,8 +60,17 @@ class Learner:
         self._classes: Any = None
         self._widths: Any = None
 
-    def fit(self, runs: LabelledSet, part: str | None = TRAIN) -> Learner:
+    def fit(
+        self, runs: LabelledSet, part: str | None = TRAIN, only: NDArray[np.int64] | None = None
+    ) -> Learner:
         """Learn from the complete runs of a part.
+
+        Parameters
+        ----------
+        part : str or None
+            Of the set; ``None``: all.
+        only : int array, optional
+            Numbers of the runs, where not all of the part.
 
         Raises
         ------
@@ -69,7 +80,7 @@ class Learner:
         library("sklearn.ensemble", "the baseline", "sweep")
         from sklearn.ensemble import RandomForestClassifier, RandomForestRegressor
 
-        chosen = runs.runs_of(part)
+        chosen = runs.runs_of(part) if only is None else only
         known = runs.labels_of(chosen, ["condition", *self.names])
         conditions = known["condition"].astype(str)
         if len(set(conditions)) < 2 or len(chosen) < 10:

@@ -38,9 +38,14 @@ def place_of(path: str) -> Place:
     InputError
         It is none.
     """
-    if not _PATH.fullmatch(path):
+    if not is_place(path):
         raise InputError(f"{path!r} is no key path; write it as in `operation.speed_profile[0].speed_kmh`")
     return tuple(word or int(number) for word, number in _PART.findall(path))
+
+
+def is_place(path: str) -> bool:
+    """Tell whether a text is a key path."""
+    return _PATH.fullmatch(path) is not None
 
 
 def with_value(data: dict[str, Any], place: Place, value: Any, folder: Path) -> dict[str, Any]:

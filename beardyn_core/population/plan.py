@@ -19,14 +19,15 @@ from beardyn_core.config.yaml_text import read_file
 from beardyn_core.edge import written
 from beardyn_core.errors import InputError
 from beardyn_core.population.draw import Row, rows_of, scaled_value
-from beardyn_core.population.places import AbsentError, Place, place_of, with_value
+from beardyn_core.population.places import AbsentError, Place, is_place, place_of, with_value
 from beardyn_core.record.tables import SIGNALS, VIBRATION
 from beardyn_core.scene.scene import Free, Scene
-from beardyn_core.scene.sweep import Choice, Scaled, Sweep
+from beardyn_core.scene.sweep import Choice, Scaled, Sweep, Variable
 from beardyn_core.scene.tier import TIER_NAMES
 
 CHECKED_HERE = 256  # runs whose scenes are made before the workers are started, which make the others
 _SHOWN = 20  # sentences about rows
+_LOOKED_AT = 32  # runs of a sweep that is wrong already
 _NAME = "scene"
 
 
@@ -131,18 +132,54 @@ def plan_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: Non
     InputError
         With every mistake in the sweep, in its scene, and in the scenes of its runs.
     """
-    plan, opened = _begun(sweep, label)
-    if problems := _unknown_signals(plan, opened.scene):
-        raise InputError(problems)
+    try:
+        plan, opened = _begun(sweep, label)
+    except InputError:
+        raise InputError(mistakes_of(sweep, label)) from None
     rows = rows_of(sweep)
     extremes = _extremes(rows)
-    few = rows if len(rows) <= CHECKED_HERE else [*extremes, *rows[:: len(rows) // CHECKED_HERE]]
-    problems = check_rows(plan, few)
-    if problems:
+    few = rows if len(rows) <= CHECKED_HERE else _once([*extremes, *rows[:: len(rows) // CHECKED_HERE]])
+    if problems := [*_unknown_signals(plan, opened.scene), *check_rows(plan, few)]:
         raise InputError(problems)
     plan = _settled(plan, opened, extremes, say)
     frame = Frame.of(plan.scene(rows[0]))
     return replace(plan, frame=frame)
+
+
+def mistakes_of(sweep: Sweep, label: str) -> list[str]:
+    """List the mistakes of a sweep, also those in runs of a scene that itself has some.
+
+    Keys that are wrong by themselves are told, and left out of the scenes that the others are looked at in.
+    """
+    try:
+        plan, opened = _begun(sweep, label)
+    except InputError as error:
+        changes = {key: each for key, each in sweep.changes.items() if _alone(sweep, label, {key: each})}
+        vary: list[Variable] = []
+        for variable in sweep.vary:
+            follows = isinstance(variable, Scaled) and variable.by not in [each.key for each in vary]
+            if is_place(variable.key) and not follows:
+                vary.append(variable)
+        rest = replace(sweep, changes=changes, vary=tuple(vary))
+        less = len(changes) < len(sweep.changes) or len(vary) < len(sweep.vary)
+        return [*error.problems, *(mistakes_of(rest, label) if less else ())]
+    rows = rows_of(sweep)
+    few = _once([*_extremes(rows), *rows[:_LOOKED_AT]]) if sweep.vary else []
+    return [*_unknown_signals(plan, opened.scene), *_wrong(plan, few)]
+
+
+def _once(rows: Iterable[Row]) -> list[Row]:
+    """Leave out what has been there before."""
+    return list({row.run: row for row in rows}.values())
+
+
+def _alone(sweep: Sweep, label: str, changes: dict[str, Any]) -> bool:
+    """Tell whether a scene takes one change by itself."""
+    try:
+        _begun(replace(sweep, changes=changes, vary=()), label)
+    except InputError:
+        return False
+    return True
 
 
 def _begun(sweep: Sweep, label: str) -> tuple[Plan, OpenScene]:
@@ -204,28 +241,17 @@ def _extremes(rows: Sequence[Row]) -> list[Row]:
 
 def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
     """List what is wrong with the scenes of runs: each kind of mistake once, with how many runs have it."""
-    found: dict[str, list[str]] = {}
-    frames: dict[Frame, int] = {}
-    used: set[str] = set()
-    names: set[str] = set()
     rows = list(rows)
-    for row in rows:
-        try:
-            used |= {key for key, value in plan.keys(row)[1].items() if value is not None}
-            scene = plan.opened(row).scene
-        except InputError as error:
-            for problem in error.problems:
-                found.setdefault(_kind_of(problem, row), []).append(problem)
-            continue
+    frames: dict[Frame, int] = {}
+    names: set[str] = set()
+
+    def look(row: Row, scene: Scene) -> None:
         frames.setdefault(Frame.of(scene), row.run)
         names.add(bearing_name(scene))
-    problems = [
-        f"{sentences[0]}{f' (and {len(sentences) - 1} more runs like it)' if len(sentences) > 1 else ''}"
-        for sentences in found.values()
-    ]
-    problems += _unused(plan, rows, used, bool(found))
-    problems += _unlike(plan, frames)
-    if len(names) == 1 and len(rows) > 1 and not found:
+
+    wrong = _wrong(plan, rows, look)
+    problems = [*wrong, *([] if wrong else _unused(plan, rows)), *_unlike(plan, frames)]
+    if len(names) == 1 and len(rows) > 1 and not wrong:
         problems.append(
             f"{plan.label}: all {len(rows)} runs are of one and the same bearing, so that no part of the set "
             "could be without it: give its lot a grade (set: {scatter: {grade: G1}}), or vary bearing keys"
@@ -233,14 +259,30 @@ def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
     return problems[:_SHOWN]
 
 
+def _wrong(
+    plan: Plan, rows: Iterable[Row], look: Callable[[Row, Scene], None] = lambda *_: None
+) -> list[str]:
+    """List what is wrong with the scenes of runs, each kind of mistake once; look at those that are right."""
+    found: dict[str, list[str]] = {}
+    for row in rows:
+        try:
+            look(row, plan.opened(row).scene)
+        except InputError as error:
+            for problem in error.problems:
+                found.setdefault(_kind_of(problem, row), []).append(problem)
+    return [
+        f"{sentences[0]}{f' (and {len(sentences) - 1} more runs like it)' if len(sentences) > 1 else ''}"
+        for sentences in found.values()
+    ]
+
+
 def _kind_of(problem: str, row: Row) -> str:
     """Take out of a sentence what differs from run to run."""
     return problem.replace(f": run {row.run}:", ":").partition(" is ")[0]
 
 
-def _unused(plan: Plan, rows: Sequence[Row], used: set[str], wrong: bool) -> list[str]:
-    if wrong or not rows:
-        return []
+def _unused(plan: Plan, rows: Sequence[Row]) -> list[str]:
+    used = {key for row in rows for key, value in plan.keys(row)[1].items() if value is not None}
     return [
         f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
         "scene is shorter"

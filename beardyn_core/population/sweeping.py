@@ -29,6 +29,7 @@ from beardyn_core.population.folder import (
 from beardyn_core.population.plan import CHECKED_HERE, Plan
 from beardyn_core.population.store import SignalStore
 from beardyn_core.study.code_digest import simulator_digest
+from beardyn_core.study.compiling import is_compiled
 
 _CHECKED_AT_ONCE = 256
 
@@ -119,6 +120,11 @@ def conduct(
         here = _Go(plan, folder, journal, about, done, report)
         if missing:
             store = SignalStore(folder, len(rows), plan.sweep.runs_per_task)
+            first = missing[: plan.sweep.runs_per_task]
+            if not cluster.scheduler and not all(is_compiled(plan.scene(row)) for row in first):
+                say(
+                    "the kernels of these runs are compiled first, once on this machine: a minute, or several"
+                )
             with held_back(), Engine(cluster, say) as engine:
                 _check(engine, plan, rows)
                 here.run(engine, store, missing)

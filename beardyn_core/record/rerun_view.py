@@ -19,7 +19,7 @@ from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
 from beardyn_core.record.rerun_plots import bounds, log_plots
 from beardyn_core.record.run import Run
-from beardyn_core.record.viewer import require_display, web_viewer
+from beardyn_core.record.viewer import require_display, waiting_window, web_viewer
 
 APPLICATION = "beardyn"
 _SHOWN = 200  # of a line of the scene
@@ -56,7 +56,7 @@ def live_stream(target: str, path: Path | None = None, port: int = 0) -> Iterato
         where = "a window"
         if target == "window":
             require_display()
-            stream.spawn()
+            stream.connect_grpc(waiting_window())
         elif target == "web":
             page = stack.enter_context(web_viewer(port=port))
             stream.connect_grpc(page.stream_url)

@@ -21,6 +21,7 @@ from beardyn_core.errors import InputError
 SOFTWARE_DRIVERS = ("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", "/usr/share/vulkan/icd.d/lvp_icd.json")
 PICTURE_SECONDS = 120.0
 START_SECONDS = 30.0
+THIS_MACHINE = ("--bind", "127.0.0.1")  # else the viewer takes streams from the whole network
 
 
 def viewer_executable() -> str:
@@ -69,7 +70,26 @@ def require_display() -> None:
 def open_window(recording: Path) -> int:
     """Open a recording in a window, wait until it is closed, return the viewer's exit code."""
     require_display()
-    return subprocess.run([viewer_executable(), str(recording)], check=False).returncode
+    return subprocess.run([viewer_executable(), str(recording), *THIS_MACHINE], check=False).returncode
+
+
+def waiting_window() -> str:
+    """Open a window that waits for a recording stream, and return where the stream connects.
+
+    Raises
+    ------
+    InputError
+        The viewer did not start.
+    """
+    port = _free_port()
+    process = subprocess.Popen(
+        [viewer_executable(), "--port", str(port), *THIS_MACHINE],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,  # it stays when this process ends, and after a Ctrl-C
+    )
+    _wait_for(process, port)
+    return f"rerun+http://127.0.0.1:{port}/proxy"
 
 
 @dataclass(frozen=True)
@@ -101,7 +121,7 @@ def web_viewer(recording: Path | None = None, port: int | None = None) -> Iterat
         raise InputError(f"port {port} is in use; choose another, or none for a free one")
     page, data = port or _free_port(), _free_port()
     command = [viewer_executable(), *([str(recording)] if recording else []), "--serve-web"]
-    command += ["--port", str(data), "--web-viewer-port", str(page), "--bind", "127.0.0.1"]
+    command += ["--port", str(data), "--web-viewer-port", str(page), *THIS_MACHINE]
     # In a session of its own a Ctrl-C in the terminal does not reach it before it is ended here.
     process = subprocess.Popen(
         command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
@@ -152,7 +172,7 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
     problem = picture_problem()
     if problem is not None:
         raise InputError(problem)
-    command = [viewer_executable(), str(recording), "--port", "auto"]
+    command = [viewer_executable(), str(recording), "--port", "auto", *THIS_MACHINE]
     command += ["--window-size", f"{size[0]}x{size[1]}", "--screenshot-to", str(target)]
     environment = dict(os.environ)
     if not has_display():
@@ -190,6 +210,10 @@ def _is_free(port: int) -> bool:
 
 
 def _end_session(process: subprocess.Popen[bytes]) -> None:
+    if not hasattr(os, "killpg"):  # Windows
+        process.kill()
+        process.wait()
+        return
     for number in (signal.SIGTERM, signal.SIGKILL):
         with suppress(ProcessLookupError):
             os.killpg(process.pid, number)
@@ -202,8 +226,8 @@ def _wait_for(process: subprocess.Popen[bytes], port: int) -> None:
     deadline = time.monotonic() + START_SECONDS
     while time.monotonic() < deadline:
         if process.poll() is not None:
-            raise InputError(f"the web viewer ended with code {process.returncode} before it could serve")
+            raise InputError(f"the viewer ended with code {process.returncode} before it could serve")
         if not _is_free(port):
             return
         time.sleep(0.05)
-    raise InputError(f"the web viewer did not answer on port {port} within {START_SECONDS:.0f} s")
+    raise InputError(f"the viewer did not answer on port {port} within {START_SECONDS:.0f} s")

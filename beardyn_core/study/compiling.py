@@ -40,12 +40,11 @@ def warm_once(scene: Scene, kind: Hashable = None) -> None:
     compiles others.
     """
     if kind is None:
-        faults = sorted({type(each).__name__ for each in scene.faults})
-        kind = (scene.tier, repr(scene.effects), scene.effect_names, *faults)
+        kind = _kind_of(scene)
     with _readying:
         if kind in _ready:
             return
-        known = _KINDS / hashlib.sha256(repr(kind).encode()).hexdigest()[:16]
+        known = _known(kind)
         if known.exists():
             Twin(scene).warm()
         else:
@@ -55,6 +54,20 @@ def warm_once(scene: Scene, kind: Hashable = None) -> None:
                 known.parent.mkdir(parents=True, exist_ok=True)
                 known.touch()
         _ready.add(kind)
+
+
+def is_compiled(scene: Scene) -> bool:
+    """Tell whether `warm_once` has compiled the kernels of a scene on this machine."""
+    return _known(_kind_of(scene)).exists()
+
+
+def _kind_of(scene: Scene) -> Hashable:
+    faults = sorted({type(each).__name__ for each in scene.faults})
+    return (scene.tier, repr(scene.effects), scene.effect_names, *faults)
+
+
+def _known(kind: Hashable) -> Path:
+    return _KINDS / hashlib.sha256(repr(kind).encode()).hexdigest()[:16]
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-# monitor: the reference chain with a band selection of one's own
+# my_monitor.py: the reference chain with a band selection of one's own
 import numpy as np
 
 from beardyn_core.observe.chain import Band, Chain

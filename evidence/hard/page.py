@@ -1,4 +1,4 @@
-"""Write docs/hard.md from what `make hard` wrote: ``python -m evidence.hard.page hard.json``."""
+"""Write docs/hard.md from what `make hard` wrote: ``python -m evidence.hard.page hard.json``, or several."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION
 from evidence.hard.case import RUN_AS
+from evidence.hard.catalogue import CASES
 from evidence.hard.report import cells, outcome_from
 from evidence.hard.run import STARTS, WITHOUT_STARTS
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
@@ -80,9 +81,22 @@ to step. A log of every second step shows a calm run. The twin's monitor looks a
 def main() -> None:
     """Read and write."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("numbers", type=Path, metavar="JSON")
-    data = json.loads(parser.parse_args().numbers.read_text(encoding="utf-8"))
-    PAGE.write_text(page(data), encoding="utf-8")
+    parser.add_argument(
+        "numbers", type=Path, nargs="+", metavar="JSON", help="one run, or parts of it; of a case the last"
+    )
+    parts = [json.loads(path.read_text(encoding="utf-8")) for path in parser.parse_args().numbers]
+    PAGE.write_text(page(joined(parts)), encoding="utf-8")
+
+
+def joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
+    """Join parts of the battery that were run apart, in the order of the catalogue."""
+    found = {case["name"]: case for part in parts for case in part["cases"]}
+    kernels = max(part["kernels"] for part in parts)
+    return {
+        **parts[-1],
+        "kernels": kernels,
+        "cases": [found[case.name] for case in CASES if case.name in found],
+    }
 
 
 def page(data: dict[str, Any]) -> str:
@@ -128,7 +142,10 @@ def known(cases: list[dict[str, Any]]) -> list[str]:
         for case in cases
         if case["outcome"]["starts"] < STARTS and case["run_as"] not in WITHOUT_STARTS
     ]
+    names = {case["name"] for case in cases}
+    left = ", ".join(f"`{case.name}`" for case in CASES if case.name not in names)
     return [
+        *(["## Not run\n\n", f"Of this state of the code: {left}.\n\n"] if left else []),
         *(["## What does not pass\n\n", *lines, "\n"] if lines else []),
         *(["## Fewer starts\n\n", *fewer, "\n"] if fewer else []),
     ]

@@ -66,12 +66,12 @@ def test_interrupted_long_case_goes_on_from_its_checkpoint(
     monkeypatch.setattr(run, "CHECKPOINT_EVERY_S", 0.0)
     advance, advanced = Twin.advance, 0
 
-    def interrupted(twin: Twin) -> Block:
+    def interrupted(twin: Twin, blocks: int = 1) -> Block:
         nonlocal advanced
         advanced += 1
         if advanced == 6:
             raise KeyboardInterrupt
-        return advance(twin)
+        return advance(twin, blocks)
 
     monkeypatch.setattr(Twin, "advance", interrupted)
     with pytest.raises(KeyboardInterrupt):

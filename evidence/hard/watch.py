@@ -121,25 +121,24 @@ class Watch:
 
     scene: Scene
     rows: list[list[float]] = field(default_factory=list)
+    end_ns: int = 0
     largest: dict[str, float] = field(default_factory=dict)
     status: int = 0
     finite: bool = True
     audit: tuple[float, float] | None = None  # residual, share of the numerical dissipation
 
-    @property
-    def blocks(self) -> int:
-        """Blocks seen."""
-        return len(self.rows)
-
-    def see(self, twin: Twin, block: Block, before: Snapshot) -> None:
-        """Take in a block and the state after it."""
+    def see(self, twin: Twin, block: Block, before: Snapshot | None) -> None:
+        """Take in a block and the state after it; that before it is asked for in tier `full` alone."""
         after = twin.snapshot()
+        self.end_ns = block.end_ns
         scene = self.scene
         self.status |= block.status
         self.finite &= all(bool(np.isfinite(getattr(block, name)).all()) for name in _CHANNELS)
         size = np.linalg.norm(block.force_waveform[:, :3], axis=1)
         loads = np.linalg.norm(block.contacts[:, :, :, 0, 3:6], axis=-1).max(axis=(1, 2))
-        signals = twin.step_signals
+        steps = len(twin.step_signals) // twin.blocks_at_once
+        steps *= round((block.end_ns - block.start_ns) / twin.block_ns)
+        signals = twin.step_signals[:steps]
         torque, bodies = signals[:, SIGNAL_TORQUE], after.state.bodies
         self.rows.append(
             [size.mean(), size.var(), torque.mean(), bodies[CAGE_BODY:, RATE].mean(), loads.mean(),
@@ -155,6 +154,7 @@ class Watch:
         self._most("tilt", _relative_tilt(poses))
         if scene.tier != "full":
             return
+        assert before is not None
         self._most("penetration", float(after.state.rollers[:, PENETRATION].max()))
         self._most("chatter_index", float(chatter_index(after.state, len(signals)).max()))
         self._most("momentum_residual", _momentum_residual(scene, twin, before, after, signals))
@@ -187,7 +187,7 @@ class Watch:
         if self.audit is not None:
             known["energy_residual"], known["numerical_share"] = self.audit
         return Measures(
-            simulated=len(rows) * Twin.block_ns * 1e-9,
+            simulated=self.end_ns * 1e-9,
             status=self.status,
             finite=self.finite,
             mean_force=float(np.linalg.norm(late[:, 8:11].mean(axis=0))),

@@ -1,7 +1,8 @@
-"""Write docs/light.md and its picture: ``python -m evidence.light.page``."""
+"""Write docs/light.md and its picture: ``python -m evidence.light.page``; with sets as arguments of these."""
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -9,24 +10,38 @@ import matplotlib.pyplot as plt
 
 from beardyn_core.bearing.life import dynamic_rating
 from beardyn_core.choice import load_scene
-from evidence.light.grid import LARGEST_RATIO, LOADS_KN, SETS, SPEEDS_RPM, Point, run_automatic, run_grid
+from evidence.light.grid import (
+    AUTO,
+    FAST,
+    FAST_TURNS,
+    LARGEST_RATIO,
+    LOADS_KN,
+    SETS,
+    SPEEDS_RPM,
+    Point,
+    run_automatic,
+    run_grid,
+)
 from evidence.pages import DOCS, PICTURES, save_small
 
 PAGE = DOCS / "light.md"
 PICTURE = PICTURES / "light.png"
 MINIMUM_SHARE = 0.02
+TOLD_FROM = 1.01
 COLOURS = 32
 
 HEAD = """# Light loads
 
 Written by `python -m evidence.light.page`. Speed of the cages over that of pure rolling, mean of the last 0.5
-of 1.2 s: `{bearing}` without play, cup held, 70 °C, grease {supply}; {count} runs.
+of 1.2 s, in tier `quasistatic` of {turns:g} turns of the shaft at least: `{bearing}` without play, cup held,
+70 °C, grease {supply}; {count} runs.
 
 ![Slip of the cages against load]({picture})
 
 Catalogues ask for a load of at least {minimum_share:g} C on a roller bearing so that it does not skid (SKF,
 2018, Rolling bearings, "Minimum load"): {minimum:.0f} kN here. Above it no set slips by more than
-{above:.1%}; below it `full` does at high speed. {verdict}
+{above:.1%}; below it `full` does at high speed, and `quasistatic`, with the same effects, does not: its
+rollers move in their pockets, and do not skid. {verdict}
 """
 AHEAD = """
 Ahead of rolling by more than {limit:.1%}:
@@ -38,7 +53,7 @@ CHOSEN = """
 ## Effects that are chosen
 
 What a scene gets that names no effects, chosen for each point, where most is left out: {rows}. From
-1165 rpm on the rib is always lubricated, so nothing of `dry` is among them. The fast tiers roll without slip.
+1165 rpm on the rib is always lubricated, so nothing of `dry` is among them. Tier `lumped` rolls without slip.
 """
 MEASURED = """
 ## Beside measured slip
@@ -69,6 +84,7 @@ def write(points: list[Point], chosen: list[Point]) -> None:
         minimum_share=MINIMUM_SHARE,
         minimum=minimum,
         above=above,
+        turns=FAST_TURNS,
         verdict=f"None runs back{'' if ahead else f', none ahead by more than {LARGEST_RATIO - 1.0:.1%}'}.",
     )
     listed = ",\n".join(
@@ -85,7 +101,7 @@ def tables(points: list[Point]) -> str:
     """Write one table for each set, speeds against loads."""
     found = {(each.effects, each.speed_rpm, each.load_kn): each for each in points}
     lines = []
-    for effects in SETS:
+    for effects in (*SETS, FAST):
         lines += [f"\n## `{effects}`\n", "| rpm | " + " | ".join(f"{q:g} kN" for q in LOADS_KN) + " |"]
         lines.append("|---" * (len(LOADS_KN) + 1) + "|")
         for speed in SPEEDS_RPM:
@@ -96,8 +112,9 @@ def tables(points: list[Point]) -> str:
 
 def draw(points: list[Point], minimum: float, target: Path) -> None:
     """Draw the slip against the load."""
-    figure, axes = plt.subplots(1, len(SETS), figsize=(11.0, 3.6), sharey=True, layout="constrained")
-    for axis, effects in zip(axes, SETS, strict=True):
+    shown = (*SETS, FAST)
+    figure, axes = plt.subplots(1, len(shown), figsize=(12.0, 3.6), sharey=True, layout="constrained")
+    for axis, effects in zip(axes, shown, strict=True):
         for speed in SPEEDS_RPM:
             line = [each for each in points if (each.effects, each.speed_rpm) == (effects, speed)]
             slip = [100.0 * (1.0 - each.ratio) for each in line]
@@ -113,10 +130,12 @@ def draw(points: list[Point], minimum: float, target: Path) -> None:
     save_small(target, target, COLOURS)
 
 
-def main() -> int:
-    """Run the grid and write the page."""
-    points, chosen = [], list(run_automatic())
-    for point in run_grid():
+def main(sets: list[str]) -> int:
+    """Run the grid and write the page; of named sets alone, the others as they stand on the page."""
+    anew = tuple(sets) or (*SETS, FAST)
+    points = [] if not sets else [each for each in on_page() if each.effects not in anew]
+    chosen = chosen_on_page() if sets else list(run_automatic())
+    for point in run_grid(anew):
         points.append(point)
         name = f"{point.effects:9} {point.load_kn:6g} kN {point.speed_rpm:6g} rpm"
         print(f"{name} {point.ratio:.4f} {point.told}", flush=True)
@@ -124,5 +143,25 @@ def main() -> int:
     return 0
 
 
+def on_page() -> list[Point]:
+    """Read the points of the page; none of them may be one of which the status tells."""
+    points, effects = [], ""
+    for line in PAGE.read_text(encoding="utf-8").splitlines():
+        if line.startswith("## `"):
+            effects = line[4:-1]
+        elif effects and re.match(r"\| \d", line):
+            speed, *ratios = (float(cell) for cell in line.strip("| ").split("|"))
+            points += [Point(effects, q, speed, each, 0) for q, each in zip(LOADS_KN, ratios, strict=True)]
+    if any(each.ratio > TOLD_FROM for each in points):
+        raise SystemExit("the page has cages of which the status tells: run the whole grid")
+    return points
+
+
+def chosen_on_page() -> list[Point]:
+    """Read the points whose effects were chosen."""
+    found = re.findall(r"(\d\.\d+) at ([\d.]+) kN and (\d+) rpm(?=[;.])", PAGE.read_text(encoding="utf-8"))
+    return [Point(AUTO, float(load), float(speed), float(ratio), 0) for ratio, load, speed in found]
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

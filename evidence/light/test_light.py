@@ -11,6 +11,7 @@ from beardyn_core.integrate.status import Status
 from evidence.light.grid import (
     AUTO,
     AUTO_POINTS,
+    FAST,
     LARGEST_RATIO,
     LOADS_KN,
     SETS,
@@ -42,7 +43,7 @@ def test_five_kilonewtons_slip_by_less_than_one_percent() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("speed_rpm", SPEEDS_RPM)
-@pytest.mark.parametrize("effects", SETS)
+@pytest.mark.parametrize("effects", [*SETS, FAST])
 def test_whole_grid(effects: str, speed_rpm: float) -> None:
     """Nothing runs back; what runs ahead is dry, and above 1 % the status tells."""
     for load in LOADS_KN:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -137,6 +139,7 @@ def core_scaling() -> list[dict[str, float]]:
             before, own, began = _processor(engine), time.process_time(), time.perf_counter()
             batches = [ended.value for ended in engine.run(run_batch, tasks[half:], plan)]
             wall = time.perf_counter() - began
+            load = os.getloadavg()[0]
             spent = _processor(engine) - before + time.process_time() - own
         runs = [made for batch in batches for made in batch.made]
         inside = sum(made.processor for made in runs)
@@ -145,6 +148,7 @@ def core_scaling() -> list[dict[str, float]]:
                 "workers": workers,
                 "runs": len(runs),
                 "wall_s": wall,
+                "load": load,
                 "processor_s": inside / len(runs),
                 "besides_s": (spent - inside) / len(runs),
                 "bytes": max(batch.memory for batch in batches),
@@ -176,9 +180,13 @@ def made(runs: LabelledSet) -> dict[str, Any]:
     }
 
 
-def measure(runs: LabelledSet) -> dict[str, Any]:
-    """Measure everything."""
-    return {"engine": engine_scaling(), "cores": core_scaling(), "formats": formats(runs), "made": made(runs)}
+PARTS: dict[str, Callable[[LabelledSet], Any]] = {
+    "made": made,
+    "engine": lambda _: engine_scaling(),
+    "cores": lambda _: core_scaling(),
+    "formats": formats,
+}
+"""What is measured, by the name of its part of the page."""
 
 
 def write(found: dict[str, Any], path: Path) -> None:

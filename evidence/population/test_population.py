@@ -51,17 +51,26 @@ def found() -> dict[str, Any]:
         {
             "workers": 2,
             "runs": 48,
-            "wall_s": 10.0,
+            "wall_s": 12.5,
+            "load": 3.2,
             "processor_s": 0.35,
             "besides_s": 0.02,
             "busy": 0.9,
             "bytes": 4e8,
         },
     ]
+    causes = {
+        "lines": {"whitened": 0.66, "both": 0.78},
+        "sizes": {"1400": 0.78, "700": 0.7},
+        "widths": [
+            {"low": 1.0, "high": 2.0, "runs": 44, "right": 0.31},
+            {"low": 0.0, "high": 0.0, "runs": 92, "right": 0.9},
+        ],
+    }
     formats = [{"format": "Zarr", "bytes_a_run": 4e5, "share": 0.6, "read_s": 0.1}]
     return {
         "gap": gap, "trained": 1400, "tier": "lumped", "made": made, "engine": engine, "cores": cores,
-        "formats": formats,
+        "formats": formats, "causes": causes,
     }  # fmt: skip
 
 
@@ -71,10 +80,16 @@ def test_the_page_says_what_was_measured() -> None:
     assert "| measured: CWRU | 8 | 50 % (90 %) | 50 % (90 %) | - |" in text
     assert "| cup | 1 | 3 |" in text
     assert "| all features | 88 % | **38 points** |" in text
-    assert "2000 runs of 2 s, 3 failed" in text
+    assert "whitened: 66 %, both: 78 %. With fewer runs to learn from: 78 % of 1400 runs, 70 % of 700" in text
+    assert "| 1 to 2 mm | 44 | 31 % |" in text
+    assert "| sound | 92 | 90 % |" in text
+    assert "A sweep of 2000 runs of 2 s, 3 failed" in text
     assert "busy with them for 20 min each" in text
     # 3600 s x 90 % / (0.35 + 0.02) s
-    assert "| 2 | 48 | 0.350 s | 0.020 s | 90 % | 8757 | 400 MB |" in text
+    assert "| 2 | 48 | 0.350 s | 0.020 s | 90 % | 8757 | 400 MB | 12 s | 3 |" in text
+    # 3600 x 0.9 / 0.37 over 3600 x 0.95 / 0.36, and twice the runs in 12.5 s in place of 10
+    assert "92 % of the runs an hour of each core" in text
+    assert "by the clock 80 %" in text
     # 1e4 runs of 0.36 s at 90 % are 1.1 h, 1e6 are 111 h and 400 GB
     assert "| 10 000 | 1.1 h |" in text
     assert "| 1 000 000 | 111 h | 14 h | 5.6 h | 400 GB | 20 MB/s |" in text  # the scheduler's 0.02 s a run

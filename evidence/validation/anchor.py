@@ -63,6 +63,16 @@ def falls(values: Sequence[float]) -> bool:
     return rises(values[::-1])
 
 
+def turns(values: Sequence[float]) -> bool:
+    """Tell whether some value lies above, or below, one before and one after it by more than `HOLDS_FROM`."""
+    inner = [(values[:at], value, values[at + 1 :]) for at, value in enumerate(values)][1:-1]
+    return any(
+        value > (1.0 + HOLDS_FROM) * max(min(before), min(after))
+        or (1.0 + HOLDS_FROM) * value < min(max(before), max(after))
+        for before, value, after in inner
+    )
+
+
 @dataclass(frozen=True)
 class Trend:
     """A published qualitative claim and the study that checks it; all of them are dynamic runs."""

@@ -17,6 +17,7 @@ from evidence.validation import (
     spalls,
     statics,
     trends,
+    wheel_waves,
     wheelset,
     whirl,
 )
@@ -44,6 +45,7 @@ TRENDS: tuple[Trend, ...] = (
     *whirl.TRENDS,
     *skid.TRENDS,
     *heat.TRENDS,
+    *wheel_waves.TRENDS,
     *wheelset.TRENDS,
     *spalls.TRENDS,
 )
@@ -74,8 +76,8 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "Hou et al. 2024, Rail. Eng. Sci. 32, 444, roller loads of an axlebox bearing in service",
-        "its figures were not at hand; from the same method the number of loaded rollers is compared, "
-        "Zhao et al. 2026",
+        "its figures and tables were not at hand; the relations of its abstract are among the trends, and "
+        "from the same method the number of loaded rollers is compared, Zhao et al. 2026",
     ),
     (
         "cage slip measured on rigs in per cent (Smith 1962, Harris 1966, Guo and Keller 2020, Dawoud 2022)",

@@ -10,7 +10,8 @@ from evidence.heat.cases import HEALTHY, SUMMER, State, torque_point
 from evidence.impact.cases import healthy
 from evidence.impact.study import heard
 from evidence.measured.levels import SHALLOW, ours_over_load, ratio
-from evidence.validation import wheelset
+from evidence.validation import wheel_waves, wheelset
+from evidence.validation.anchor import turns
 from evidence.validation.heat import FLEET, SERVICE_TOLERANCE, SKF_TOLERANCE, grease_celsius, in_train
 from evidence.validation.losses import LAYER, loss_under, torque_32216, unpressed
 from evidence.validation.rigs import (
@@ -157,6 +158,25 @@ def test_smooth_rails_bring_the_level_on_a_chinese_line_to_the_measured_one(
     smooth = replace(run.operation.irregularity, short_waves=None)
     monkeypatch.setitem(wheelset.RUNS, 0, replace(run, operation=replace(run.operation, irregularity=smooth)))
     assert wheelset.level_in_china(0) == pytest.approx(8.8, rel=wheelset.CHINA_TOLERANCE)
+
+
+def test_a_sensor_is_moved_sideways_by_the_end_of_the_axle_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the rail model, whose level with a sensor at its height is 10 m/s^2."""
+    usual = wheelset.level(300, True)
+    monkeypatch.setitem(wheelset.RUNS, 0, wheelset.RUNS[300])
+    monkeypatch.setattr(wheelset, "SENSOR_HEIGHT", 0.0)
+    assert wheelset.level(0, True) < 0.05 * usual
+
+
+def test_a_force_along_the_axle_tells_the_rows_apart() -> None:
+    loaded, largest = wheel_waves.pushed_along()
+    assert wheel_waves.differ(loaded)
+    assert wheel_waves.differ(largest)
+
+
+@pytest.mark.slow
+def test_high_waves_turn_the_mean_of_the_roller_loads() -> None:
+    assert all(turns(row) for row in wheel_waves.mean_loads(wheel_waves.HIGHER))
 
 
 @pytest.mark.slow

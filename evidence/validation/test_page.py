@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from evidence.validation.anchor import HOLDS_FROM, Anchor, Trend, falls, rises
+from evidence.validation.anchor import HOLDS_FROM, Anchor, Trend, falls, rises, turns
 from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
 from evidence.validation.page import OTHERS, reference_cells, trends_anew, unreached_line
 
@@ -84,6 +84,22 @@ def test_a_change_below_the_threshold_is_none(values: tuple[float, ...], rising:
     assert HOLDS_FROM == 0.03
     assert rises(values) is rising
     assert falls(values) is falling
+
+
+@pytest.mark.parametrize(
+    ("values", "turning"),
+    [
+        ((1.0, 1.02, 1.04, 1.06), False),
+        ((1.0, 1.05, 1.0), True),
+        ((1.0, 0.95, 1.0), True),
+        ((1.0, 1.02, 1.04, 1.02, 1.0), True),
+        ((1.0, 1.02, 1.0), False),
+        ((1.1, 1.0, 0.9, 0.92), False),
+    ],
+)
+def test_what_goes_up_and_down_turns(values: tuple[float, ...], turning: bool) -> None:
+    assert turns(values) is turning
+    assert turns(values[::-1]) is turning
 
 
 def test_writing_no_topic_anew_leaves_the_trends_as_they_are() -> None:

@@ -4,8 +4,9 @@ Vehicles, smooth tracks and tolerances were chosen before the first run: the shi
 line of ERRI B176 from 200 km/h on, else on the worse one, all with the rail roughness of ISO 3095. The worn
 line, with a corrugation of its own, was chosen after the levels on smooth rails had been seen, the Chinese
 line before its run. Levels are those of a sensor 170 mm above the bearing's centre, 10 to 500 Hz, as the rail
-model moves box and journal. Upright the twin's sensor reads the same; sideways it does not, for the shipped
-scenes hold the journal's tilt, so those rows are not counted, but two that the twin itself makes are.
+model moves box and journal. Upright the twin's sensor reads the same; sideways it does not where a scene
+holds the tilt of a journal whose axle does not bend in the twin, so those rows are not counted, but four that
+the twin itself makes are: the published level is met as soon as the end of the axle may turn.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from beardyn_core.run import blocks
 from beardyn_core.scene.excitation import Corrugation, Irregularity
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend
 
 Float = NDArray[np.float64]
@@ -63,8 +65,9 @@ CHINA_MISSES = (
     "300 Hz alone 8.9"
 )
 TILT_HELD = (
-    "shipped scenes hold the tilt of the journal, by which a box with a sensor above the bearing moves "
-    "sideways: free, it is the row below"
+    "the end of the axle cannot turn, which moves a sensor above the bearing sideways: with a journal that "
+    "is free, and with an axle that bends in the twin, it is the rows below; smooth rails move the box "
+    "itself by 0.2 m/s2"
 )
 SENSOR_HEIGHT = 0.17
 SECONDS, SETTLED = 4.0, 0.5
@@ -236,26 +239,34 @@ def level_in_china(speed_kmh: int = 300) -> float:
     return float(np.sqrt(up[(frequency >= 10.0) & (frequency < 500.0)].sum()))
 
 
-@cache
-def heard_sideways(tilt: str) -> float:
-    """Return what the sensor of the twin hears sideways at 300 km/h, 10 to 500 Hz, no noise, [m/s^2].
-
-    In tier `quasistatic`, with the tilt of the journal ``locked`` or ``free``.
-    """
-    run = RUNS[300]
-    scene = load_scene("smooth_run", tier="quasistatic", effects="standard", duration=SECONDS + SETTLED)
-    scene = replace(
-        scene,
-        operation=run.operation,
-        mounting=replace(run.mounting, cup="suspended", journal_tilt=tilt),
-        sensors=tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors),
-    )
-    sensor = scene.sensors[0]
+def sideways(scene: Scene, seconds: float = SECONDS) -> float:
+    """Return what the first sensor of a scene hears sideways, 10 to 500 Hz, without its noise, [m/s^2]."""
+    sensor = replace(scene.sensors[0], noise_density=0.0)
+    scene = replace(scene, sensors=(sensor,), duration=seconds + SETTLED)
     heard = np.concatenate([block.vibration[0].acceleration[:, 1] for block in blocks(scene, scene.duration)])
     heard = heard[int(SETTLED * sensor.rate) :]
     squares = 2.0 * np.abs(np.fft.rfft(heard - heard.mean())) ** 2 / len(heard) ** 2
     frequency = np.fft.rfftfreq(len(heard), 1.0 / sensor.rate)
     return float(np.sqrt(squares[(frequency >= 10.0) & (frequency < 500.0)].sum()))
+
+
+@cache
+def heard_sideways(tilt: str, wheelset: str = "elastic") -> float:
+    """Return what the sensor of the twin hears sideways at 300 km/h, 10 to 500 Hz, no noise, [m/s^2].
+
+    In tier `quasistatic`, with the tilt of the journal ``locked`` or ``free``. A ``coupled`` wheelset has no
+    sideways motion of its own.
+    """
+    run = RUNS[300]
+    scene = load_scene("smooth_run", tier="quasistatic", effects="standard", duration=SECONDS + SETTLED)
+    operation = replace(run.operation, wheelset=wheelset, lateral=wheelset != "coupled")
+    mounting = replace(run.mounting, cup="suspended", journal_tilt=tilt)
+    return sideways(replace(scene, operation=operation, mounting=mounting))
+
+
+def heard_in_service() -> float:
+    """Return the same of `service_high_speed` as shipped, 200 km/h, but the tier `quasistatic`, [m/s^2]."""
+    return sideways(load_scene("service_high_speed", tier="quasistatic", duration=SECONDS + SETTLED))
 
 
 MODES = (
@@ -332,17 +343,22 @@ ANCHORS = (
     *(
         Anchor(
             "axlebox vibration",
-            f"sideways at 300 km/h in the sensor of the twin, 10 to 500 Hz, tilt of the journal {tilt}",
+            f"sideways at {run} in the sensor of the twin, 10 to 500 Hz, {held}",
             20.0,
             "m/s2",
             IEC,
-            partial(heard_sideways, tilt),
+            ours,
             absolute=14.0,
             misses=misses,
             slow=True,
             measured=True,
         )
-        for tilt, misses in (("locked", TILT_HELD), ("free", ""))
+        for run, held, ours, misses in (
+            ("300 km/h", "tilt of the journal locked", partial(heard_sideways, "locked"), TILT_HELD),
+            ("300 km/h", "tilt of the journal free", partial(heard_sideways, "free"), ""),
+            ("300 km/h", "axle that bends in the twin", partial(heard_sideways, "locked", "coupled"), ""),
+            ("200 km/h", "service_high_speed as shipped", heard_in_service, ""),
+        )
     ),
     Anchor(
         "axlebox vibration",

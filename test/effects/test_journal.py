@@ -65,14 +65,18 @@ numerics: {steps_per_sample: 0.5}
 
 @cache
 def scene_on(wheelset: str, tier: str = "full") -> Scene:
-    """The smooth run, its wheelset as said, without what a step does not need."""
+    """The smooth run, its wheelset as said, its bearing as drawn, without what a step does not need."""
     scene = load_scene("smooth_run", tier=tier)
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
     steps = max(scene.numerics.steps_per_sample, 1)  # a coupled wheelset is refused longer ones
     numerics = replace(scene.numerics, steps_per_sample=steps)
     return replace(
-        scene, effects=EffectSet(), operation=replace(operation, wheelset=wheelset), numerics=numerics
+        scene,
+        effects=EffectSet(),
+        operation=replace(operation, wheelset=wheelset),
+        numerics=numerics,
+        scatter=None,
     )
 
 

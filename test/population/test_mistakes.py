@@ -33,6 +33,37 @@ def test_mistakes_name_the_file_and_the_key_and_how_many_runs_have_them(tmp_path
     assert not (tmp_path / "set").exists()
 
 
+def test_mistakes_of_file_scene_and_runs_are_told_together(tmp_path: Path) -> None:
+    """Whoever mends one must not find the next one only then."""
+    file = {"samplng": "sobol", "runs": 0}
+    wrong_draws = [
+        {"key": "temperature_C", "kind": "gauss", "mean": 60},
+        {"key": "operation..x", "kind": "uniform", "low": 1, "high": 2},
+        {"key": "end_play_mm", "kind": "uniform", "low": 1, "high": 3},
+        {"key": "sensors[0].noise_densty", "kind": "uniform", "low": 1, "high": 2},
+    ]
+    changes = {
+        "set": {**TINY["set"], "tier": "lumpd", "lubricnt": "L055"},
+        "vary": [*TINY["vary"], *wrong_draws],
+    }
+    scene_and_runs = (
+        "set.tier is 'lumpd'",
+        "set.lubricnt: unknown key",
+        "'operation..x' is no key path",
+        "end_play_mm is ",
+        "sensors[0].noise_densty: unknown key",
+    )
+    for given, expected in (
+        ({**TINY, **changes, **file}, ("samplng: unknown key", "runs is 0", "vary[4].kind is 'gauss'")),
+        ({**TINY, **changes, "vary": [*TINY["vary"], *wrong_draws[1:]]}, ()),
+    ):
+        with pytest.raises(InputError) as refused:
+            bd.sweep(given, tmp_path / "set")
+        for mistake in (*expected, *scene_and_runs):
+            assert [mistake in each for each in refused.value.problems].count(True) == 1
+    assert not (tmp_path / "set").exists()
+
+
 def test_mistakes_in_what_is_set_are_those_of_the_sweep() -> None:
     for key, value, mistake in (
         ("tier", "lumpd", "sweep: set.tier is 'lumpd'"),
@@ -63,7 +94,7 @@ def test_a_key_that_no_run_has_is_a_mistake() -> None:
 def test_signals_of_different_lengths_and_runs_of_one_bearing_are_refused() -> None:
     with pytest.raises(InputError, match="duration_s is"):
         planned(vary=[*TINY["vary"], {"key": "duration_s", "kind": "choice", "one_of": [0.2, 0.4]}])
-    without = {key: value for key, value in TINY["set"].items() if key != "scatter"}
+    without = {**TINY["set"], "scatter": {"grade": "none"}}
     with pytest.raises(InputError, match="one and the same bearing"):
         planned(set=without, vary=TINY["vary"][3:])
 

@@ -148,7 +148,7 @@ def test_a_killed_scheduler_costs_nothing_that_was_finished(
     swept = conduct(planned(), tmp_path / "set", Cluster(workers=2), report=kill, say=said.append)
     assert swept.complete
     assert len(started) == 2
-    assert "the scheduler has died" in said[0]
+    assert any("the scheduler has died" in each for each in said)
     assert content(tmp_path / "set") == content(made[0])
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.study import compiling
-from beardyn_core.study.compiling import alone_on_this_machine, warm_once
+from beardyn_core.study.compiling import alone_on_this_machine, is_compiled, warm_once
 from beardyn_core.twin import Twin
 
 
@@ -26,8 +26,10 @@ def warmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
 
 def test_of_each_kind_of_kernels_it_is_done_once_in_a_process(warmed: list[str]) -> None:
     lumped, other = load_scene("static_5kN", tier="lumped"), load_scene("static_5kN", tier="quasistatic")
+    assert not is_compiled(lumped)
     for scene in (lumped, other, lumped, other):
         warm_once(scene)
+        assert is_compiled(scene)
     assert warmed == ["lumped", "quasistatic"]
 
 

@@ -1,4 +1,4 @@
-"""The example of a monitor of one's own: it runs, finds a fault, and is what the README shows."""
+"""The example of a monitor of one's own: it runs, finds a fault, and is what the tutorial shows."""
 
 from __future__ import annotations
 
@@ -24,8 +24,7 @@ def test_the_example_finds_faults(fault: str) -> None:
     assert result.band[1] - result.band[0] == pytest.approx(2000.0)
 
 
-def test_the_readme_shows_the_example_as_it_runs() -> None:
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    if "# monitor:" in readme:
-        assert f"```python\n{EXAMPLE.read_text(encoding='utf-8')}```" in readme
+def test_the_tutorial_shows_the_example_as_it_runs() -> None:
+    page = (ROOT / "docs" / "tutorial" / "own_monitor.md").read_text(encoding="utf-8")
+    assert f"```python\n{EXAMPLE.read_text(encoding='utf-8')}```" in page
     assert len(EXAMPLE.read_text(encoding="utf-8").splitlines()) <= 20

@@ -68,14 +68,20 @@ def test_every_run_has_another_bearing_of_the_lot(quick: Trial) -> None:
     scatters = [trial_scene(quick, cell).scatter for cell in quick.cells() if not cell.checks]
     assert {scatter.grade for scatter in scatters if scatter} == {"G1"}
     assert len({scatter.seed for scatter in scatters if scatter}) == len(scatters)
-    own = replace(quick, scatter=None)
-    assert trial_scene(own, own.cells()[0]).scatter is None
-    lot = replace(own, scene="healthy_300")
+    lot = replace(quick, scatter=None)
     first, second = (trial_scene(lot, cell).scatter for cell in lot.cells()[:2])
     assert first is not None
     assert second is not None
     assert first.grade == second.grade == "G1"
     assert first.seed != second.seed
+
+
+def test_bearings_as_drawn_stay_so(quick: Trial, tmp_path: Path) -> None:
+    lines = (config_folder() / "scenes" / "smooth_run.yaml").read_text(encoding="utf-8").splitlines()
+    drawn = tmp_path / "drawn.yaml"
+    drawn.write_text("\n".join(line for line in lines if not line.startswith("scatter")), encoding="utf-8")
+    own = replace(quick, scatter=None, scene=str(drawn))
+    assert trial_scene(own, own.cells()[0]).scatter is None
 
 
 def test_the_shipped_trials_have_flats_and_polygons_with_every_fault_and_without() -> None:

@@ -1,0 +1,80 @@
+"""Settings of the documentation site: ``make docs`` builds it from the pages of this folder."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT))
+
+import beardyn_core  # noqa: E402
+from beardyn_core.api import making  # noqa: E402
+
+# Rooms that are called like functions: the site describes the functions.
+beardyn_core.bearing, beardyn_core.scene = making.bearing, making.scene
+
+project = "beardyn"
+author = "beardyn developers"
+copyright = "beardyn developers, Apache-2.0"
+version = release = re.search(r'version="([^"]+)"', (ROOT / "setup.py").read_text(encoding="utf-8"))[1]
+
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_nb"]
+exclude_patterns = ["paper/*", "site"]
+html_theme = "furo"
+html_title = f"beardyn {version}"
+html_copy_source = False
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+nb_execution_mode = "off"  # outputs are those that `python docs/write_notebook.py --run` has kept
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+add_module_names = False
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+
+linkcheck_anchors = False
+
+
+OUTSIDE = {"README.md": "readme.md", "CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md"}
+OUTSIDE |= {"SECURITY.md": "security.md"}
+
+
+def whole_pages(app: Any, name: str, source: list[str]) -> None:
+    """Put the pages of the repository's first folder in, and let links to them stay in the site."""
+
+    def whole(found: re.Match[str]) -> str:
+        page = (ROOT / found[1]).read_text(encoding="utf-8")
+        return re.sub(r"\]\((?!#|docs/|[a-z]+:)", "](../", page).replace("](docs/", "](")
+
+    text = re.sub(r"^<!-- the text of (\S+) -->\n", whole, source[0], flags=re.MULTILINE)
+    for file, page in OUTSIDE.items():
+        text = text.replace(f"](../{file}", f"]({page}")
+    source[0] = text
+
+
+def words_of_fields(app: Any, what: str, name: str, found: Any, options: Any, lines: list[str]) -> None:
+    """List the fields of a dataclass with the words of their annotations, where no docstring has them."""
+    if what != "class" or not is_dataclass(found) or any(line.strip() == "Attributes" for line in lines):
+        return
+    hints = get_type_hints(found, include_extras=True)
+    words = {
+        field.name: next((each for each in get_args(hints[field.name])[1:] if isinstance(each, str)), "")
+        for field in fields(found)
+        if get_origin(hints[field.name]) is Annotated
+    }
+    if words:
+        lines += ["", "Attributes", "----------"]
+        for field, text in words.items():
+            lines += [field, f"    {text[:1].upper()}{text[1:]}."]
+
+
+def setup(app: Any) -> None:
+    """Connect what is above; words of fields before napoleon reads the docstring."""
+    app.connect("source-read", whole_pages)
+    app.connect("autodoc-process-docstring", words_of_fields, priority=100)

@@ -1,0 +1,1 @@
+"""Pages, layouts, and what a release holds."""

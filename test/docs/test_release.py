@@ -1,0 +1,97 @@
+"""What a release holds says the same version, licence and requirements everywhere."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+OTHER_NAMES = {"matplotlib": "matplotlib-base"}  # of conda-forge
+
+
+def setup_words() -> dict[str, Any]:
+    """What setup.py gives to setuptools, as far as it is written out there."""
+    tree = ast.parse((ROOT / "setup.py").read_text(encoding="utf-8"))
+    (call,) = (
+        node for node in ast.walk(tree) if isinstance(node, ast.Call) and ast.unparse(node.func) == "setup"
+    )
+    words = {}
+    for keyword in call.keywords:
+        try:
+            words[str(keyword.arg)] = ast.literal_eval(keyword.value)
+        except ValueError:
+            continue
+    return words
+
+
+SETUP = setup_words()
+
+
+def requirements(lines: list[str]) -> dict[str, str]:
+    """Packages, and which versions."""
+    found = (re.fullmatch(r"([\w.-]+) ?(.*)", line) for line in lines)
+    return {match[1]: match[2].replace(" ", "") for match in found if match}
+
+
+def recipe() -> dict[str, Any]:
+    loaded: dict[str, Any] = yaml.safe_load((ROOT / "release/conda/recipe.yaml").read_text(encoding="utf-8"))
+    return loaded
+
+
+def test_versions_are_one() -> None:
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == SETUP["version"]
+    assert recipe()["context"]["version"] == SETUP["version"]
+    assert citation["license"] == recipe()["about"]["license"] == SETUP["license"] == "Apache-2.0"
+    assert citation["authors"] == [{"name": "beardyn developers"}]
+
+
+def test_the_conda_recipe_asks_for_what_setup_asks_for() -> None:
+    wanted = requirements(SETUP["install_requires"])
+    given = requirements(recipe()["requirements"]["run"])
+    assert given.pop("python") == SETUP["python_requires"]
+    assert given == {OTHER_NAMES.get(name, name): versions for name, versions in wanted.items()}
+
+
+def test_the_pixi_environment_allows_what_setup_asks_for() -> None:
+    whole = tomllib.loads((ROOT / "release/pixi.toml").read_text(encoding="utf-8"))
+    wanted = requirements(SETUP["install_requires"])
+    names = {other: name for name, other in OTHER_NAMES.items()}
+    for package, versions in whole["dependencies"].items():
+        if package not in ("python", "pip"):
+            assert versions == wanted[names.get(package, package)], package
+    assert (ROOT / "release" / whole["pypi-dependencies"]["beardyn"]["path"] / "setup.py").is_file()
+
+
+def test_the_container_installs_extras_that_there_are_and_is_no_root() -> None:
+    text = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    (extras,) = re.findall(r'"/source\[([\w,]+)\]"', text)
+    known = re.search(r"extras_require=\{(.*?)\}", (ROOT / "setup.py").read_text(encoding="utf-8"), re.DOTALL)
+    assert known is not None
+    for extra in extras.split(","):
+        assert f'"{extra}":' in known[1], extra
+    assert re.search(r"^USER \d+$", text, re.MULTILINE)
+
+
+def test_the_dev_container_is_set_up_by_a_target_of_the_makefile() -> None:
+    settings = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text(encoding="utf-8"))
+    (target,) = re.findall(r"make (\S+)", settings["postCreateCommand"].replace("make xvfb", ""))
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert re.search(rf"^{re.escape(target.replace('.venv', '$(VENV)'))}:", makefile, re.MULTILINE)
+
+
+@pytest.mark.parametrize("extra", ["docs", "release"])
+def test_the_makefile_sets_up_what_the_site_and_a_release_need(extra: str) -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert re.search(
+        rf"^\$\(VENV\)/\.ready-{extra}:.*\n\t\$\(call install,\$\(call extras,{extra}\b",
+        makefile,
+        re.MULTILINE,
+    )
