@@ -115,10 +115,13 @@ def trained(
         values, inside = _known(quantity, train)
         if inside.sum() < _FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
-        learnt, explained = _learnt(standard[inside], values[inside], train.bearings[inside])
+        bearings = train.bearings[inside]
+        learnt, errors = _learnt(standard[inside], values[inside], bearings)
+        explained = 1.0 - float(np.mean(errors**2) / np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
         ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
-        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges}
+        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
+                               "shared": shared_of(errors, bearings)}  # fmt: skip
         if explained >= LEAST_EXPLAINED:
             regressions[quantity.name] = learnt
     farthest = farthest_of(standard @ usual.T / sizes)
@@ -288,8 +291,18 @@ def _principal(standard: Float) -> tuple[Float, Float]:
     return size[:count] / np.sqrt(len(standard)), turn[:count]
 
 
-def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, float]:
-    """Learn a number; gives with it the share of its variance that is explained on other bearings."""
+def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
+    """Find the share of the errors' variance that runs of one bearing and box have in common, 0 to 1.
+
+    It is their correlation from run to run; two runs of a bearing differ in load, speed, track and fault.
+    """
+    together = [errors[bearings == each] for each in set(bearings.tolist())]
+    pairs = [(each.sum() ** 2 - (each**2).sum()) / (len(each) * (len(each) - 1)) for each in together if len(each) > 1]  # fmt: skip
+    return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 1.0
+
+
+def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, Float]:
+    """Learn a number; gives with it the errors on bearings that are left out."""
     library("sklearn.cross_decomposition", "training", "sweep")
     from sklearn.model_selection import GroupKFold
 
@@ -306,7 +319,7 @@ def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Reg
             if (square := float(np.mean(missed**2))) < best:
                 best, errors, screen, chosen = square, missed, kept, setting
     learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
-    return _doubting(learnt, standard, errors, float(np.std(values))), 1.0 - best / float(np.var(values))
+    return _doubting(learnt, standard, errors, float(np.std(values))), errors
 
 
 def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:
