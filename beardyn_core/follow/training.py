@@ -297,7 +297,8 @@ def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
     It is their correlation from run to run; two runs of a bearing differ in load, speed, track and fault.
     """
     together = [errors[bearings == each] for each in set(bearings.tolist())]
-    pairs = [(each.sum() ** 2 - (each**2).sum()) / (len(each) * (len(each) - 1)) for each in together if len(each) > 1]  # fmt: skip
+    several = [each for each in together if len(each) > 1]
+    pairs = [(each.sum() ** 2 - each @ each) / (len(each) * (len(each) - 1)) for each in several]
     return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 1.0
 
 
