@@ -12,6 +12,7 @@ listening    what an estimator makes of a run
 shipped      estimators that are shipped, found by the bearing
 growth       how a spall grows with mileage, with its scatter
 forecast     mileage until a spall is too wide, share of the rating life that is used
+labelled     runs of a set of labelled runs as an estimator sees them
 training     an estimator of a set of runs, judged on bearings that it has not seen
 ============ ==================================================================
 

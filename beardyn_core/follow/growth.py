@@ -45,6 +45,12 @@ class GrowthLaw:
         fast = np.maximum(end - np.maximum(begin, self.critical_area), 0.0)
         return np.asarray((slow + fast) / rate, np.float64)
 
+    def grown(self, begin: Float, rate: Float, distance: float) -> Float:
+        """Compute the areas to which areas grow over a distance at their rates, [m^2]."""
+        slow = self.slow_share * rate
+        crawled = np.minimum(distance, np.maximum(self.critical_area - begin, 0.0) / slow)
+        return np.asarray(begin + crawled * slow + (distance - crawled) * rate, np.float64)
+
     def rates(self, count: int, random: np.random.Generator) -> Float:
         """Draw rates of bearings, lognormal, shape [count], [m^2/m]."""
         return self.rate * np.exp(random.normal(0.0, log(self.rate_spread) / NORMAL_90, count))

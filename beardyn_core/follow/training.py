@@ -11,36 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
-from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
-from beardyn_core.follow.descriptors import AXES, describe, names_of
+from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator, farthest_of
+from beardyn_core.follow.labelled import Described, described, joined, plate_of, taken
 from beardyn_core.follow.part import PartRule, least_of
-from beardyn_core.follow.quantities import QUANTITIES, Quantity
-from beardyn_core.follow.regression import LEVELS, Regression, reach_of
-from beardyn_core.observe.chain import Stretch
+from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
+from beardyn_core.follow.regression import LEVELS, Guess, Regression, reach_of
 from beardyn_core.optional import library
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 _FEWEST = 40  # runs to learn a number from
 _FOLDS = 5
+_CROSSWISE = 10  # parts of a calibration set, each judged by the others
 # what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
 _DOUBT_RIDGE = 3.0
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way")  # descriptors that tell the parts apart
 _USUAL = 20  # principal directions that strangeness looks along
-
-
-class Described(NamedTuple):
-    """Runs of a set as an estimator sees them."""
-
-    descriptors: Float  # shape [run, descriptor]
-    truth: dict[str, Float]  # by quantity, SI, shape [run]; NaN where a run has none
-    bearings: NDArray[Any]  # shape [run], names
-    conditions: NDArray[Any]  # shape [run]
 
 
 class Score(NamedTuple):
@@ -51,53 +42,6 @@ class Score(NamedTuple):
     error: float  # median, relative or in SI
     bias: float  # median, the same
     coverage: tuple[float, ...]  # share of runs whose truth lies inside of the intervals of 50 and 90 %
-
-
-def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Described:
-    """Work out the descriptors of the complete runs of a part of a set, of all parts with `None`."""
-    chosen = runs.runs_of(part)
-    columns = [each.label for each in QUANTITIES if each.label in runs.table]
-    known = runs.labels_of(chosen, [*columns, "bearing_id", "condition"])
-    plate = plate_of(runs)
-    orders = frequencies(plate.roller_count, plate.pitch_diameter, plate.roller_diameter, plate.contact_angle)
-    kept = [AXES.index(axis) for axis in axes]
-    rows = np.full((len(chosen), len(names_of(axes))), np.nan)
-    signals = runs.signals
-    time, turned = np.asarray(signals.time_vibration), np.asarray(signals.time_shaft)
-    rate = (len(time) - 1) / float(time[-1] - time[0])
-    for k, run in enumerate(chosen):
-        heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
-        angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
-        rows[k] = describe(Stretch(rate, heard, angle, np.nan, 0), orders, plate, axes)
-    truth = {
-        each.name: np.asarray(known[each.label], np.float64)
-        if each.label in columns
-        else np.full(len(chosen), np.nan)
-        for each in QUANTITIES
-    }
-    return Described(
-        rows, truth, *(np.asarray(known[name]).astype(str) for name in ("bearing_id", "condition"))
-    )
-
-
-def plate_of(runs: LabelledSet) -> NamePlate:
-    """Take the name plate of the bearings of a set.
-
-    Raises
-    ------
-    InputError
-        They are of several drawings.
-    """
-    keys = {"roller_count": "roller_count", "roller_diameter": "roller_diameter_m",
-            "pitch_diameter": "pitch_diameter_m", "contact_angle": "contact_angle_rad"}  # fmt: skip
-    several = runs.table["bearing"].nunique() > 1
-    if several:
-        names = ", ".join(sorted(runs.table["bearing"].unique()))
-        raise InputError(f"{runs.folder}: has the bearings {names}; an estimator is for one")
-    usual = runs.table.median(numeric_only=True)
-    numbers: dict[str, Any] = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
-    numbers["roller_count"] = round(numbers["roller_count"])
-    return NamePlate(name=str(runs.table["bearing"].iloc[0]), **numbers)
 
 
 def trained(
@@ -134,30 +78,50 @@ def trained(
 def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
     """Set the widths of the intervals by runs that were not learnt from.
 
-    With `straightened` numbers are first put on the line that fits those runs, which takes out what a tier
-    that learns has too much or too little of; the errors that remain are those of each run by a line through
-    the others.
+    With `straightened` those runs are of a truer tier, and they have more to say. Each number is put on the
+    line that fits them, which takes out what a tier that learns has too much or too little of, or learnt from
+    them alone where that errs less on bearings left out; one that neither explains is not told any more.
     """
     standard = estimator.standardised(runs.descriptors)
-    found = {}
+    found, card = {}, {name: dict(each) for name, each in estimator.card["quantities"].items()}
     for quantity in QUANTITIES:
-        if quantity.name in estimator.regressions:
-            each = estimator.regressions[quantity.name]
-            values, inside = _known(quantity, runs)
+        if quantity.name not in card:
+            continue
+        values, inside = _known(quantity, runs)
+        each, errors = estimator.regressions.get(quantity.name), None
+        if each is not None:
             given = each.value(standard[inside])
             errors = values[inside] - given
             if straightened:
                 each, errors = _straightened(each, given, values[inside])
-            found[quantity.name] = replace(
-                each, reach=reach_of(errors, each.expected_error(standard[inside]))
-            )
+        if straightened:
+            each, errors = _truer(each, errors, standard[inside], values[inside], runs.bearings[inside])
+            variance = float(np.var(values[inside])) if inside.any() else 0.0
+            explained = 0.0 if errors is None or not variance else 1.0 - float(np.mean(errors**2)) / variance
+            card[quantity.name]["explained"] = explained
+            if explained < LEAST_EXPLAINED:
+                continue
+        if each is not None and errors is not None:
+            expected = each.expected_error(standard[inside])
+            found[quantity.name] = replace(each, reach=reach_of(errors, expected))
     part = estimator.part
     if part is not None:
         inside = np.isin(runs.conditions, part.conditions)
         places = [part.conditions.index(each) for each in runs.conditions[inside]]
         truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
         part = replace(part, least=least_of(truth))
-    return replace(estimator, regressions=found, part=part)
+    return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
+
+
+def _truer(
+    learnt: Regression | None, errors: Float | None, standard: Float, values: Float, bearings: NDArray[Any]
+) -> tuple[Regression | None, Float | None]:
+    """Learn a number from runs of a truer tier alone, where that errs less than what is there."""
+    if len(values) < _FEWEST or np.ptp(values) < 1e-12:
+        return learnt, errors
+    alone, left_out = _learnt(standard, values, bearings)
+    better = errors is None or float(np.mean(left_out**2)) < float(np.mean(errors**2))
+    return (alone, left_out) if better else (learnt, errors)
 
 
 def _straightened(learnt: Regression, given: Float, values: Float) -> tuple[Regression, Float]:
@@ -171,26 +135,53 @@ def _straightened(learnt: Regression, given: Float, values: Float) -> tuple[Regr
 
 def scores(estimator: Estimator, runs: Described) -> dict[str, Score]:
     """Judge an estimator by runs that it has neither learnt from nor been calibrated with."""
+    guessed = _guessed(estimator, runs)
+    return {name: _score(BY_NAME[name], [each]) for name, each in guessed.items() if len(each[1]) > 1}
+
+
+def _guessed(estimator: Estimator, runs: Described) -> dict[str, tuple[Guess, Float]]:
+    """Guess every number of runs that have one, with the truth, by quantity."""
     standard = estimator.standardised(runs.descriptors)
     found = {}
-    for quantity in QUANTITIES:
-        values, inside = _known(quantity, runs)
-        if quantity.name not in estimator.regressions or inside.sum() < 2:
-            continue
-        guess = estimator.regressions[quantity.name].guess(standard[inside])
-        truth = values[inside]
-        missed = quantity.restored(guess.value) - quantity.restored(truth)
-        if quantity.relative:
-            missed = missed / quantity.restored(truth)
-        held = (guess.low <= truth) & (truth <= guess.high)
-        found[quantity.name] = Score(
-            int(inside.sum()),
-            1.0 - float(np.mean((guess.value - truth) ** 2) / np.var(truth)),
-            float(np.median(np.abs(missed))),
-            float(np.median(missed)),
-            tuple(held.mean(axis=1).tolist()),
-        )
+    for name, each in estimator.regressions.items():
+        values, inside = _known(BY_NAME[name], runs)
+        if inside.any():
+            found[name] = (each.guess(standard[inside]), values[inside])
     return found
+
+
+def _score(quantity: Quantity, guessed: Sequence[tuple[Guess, Float]]) -> Score:
+    """Judge guesses by the truth."""
+    value, low, high = (
+        np.concatenate([each[0][k] for each in guessed], axis=-1) for k in range(len(Guess._fields))
+    )
+    truth = np.concatenate([each[1] for each in guessed])
+    missed = quantity.restored(value) - quantity.restored(truth)
+    if quantity.relative:
+        missed = missed / quantity.restored(truth)
+    held = (low <= truth) & (truth <= high)
+    return Score(
+        len(truth),
+        1.0 - float(np.mean((value - truth) ** 2) / np.var(truth)),
+        float(np.median(np.abs(missed))),
+        float(np.median(missed)),
+        tuple(held.mean(axis=1).tolist()),
+    )
+
+
+def crosswise(estimator: Estimator, runs: Described) -> dict[str, Score]:
+    """Judge by the runs that calibrate: a tenth of their bearings at a time, by the rest of them."""
+    names = sorted(set(runs.bearings.tolist()))
+    pieces = []
+    for k in range(min(_CROSSWISE, len(names))):
+        inside = np.isin(runs.bearings, names[k::_CROSSWISE])
+        by = calibrated(estimator, taken(runs, ~inside), straightened=True)
+        pieces.append(_guessed(by, taken(runs, inside)))
+    return {
+        name: _score(BY_NAME[name], [each[name] for each in pieces if name in each])
+        for name in BY_NAME
+        if any(name in each for each in pieces)
+    }
 
 
 def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
@@ -227,7 +218,7 @@ def train(
         Sets by which the widths of the intervals are set, such as one in a truer tier; by default the
         validation part of `runs`.
     test : LabelledSet, optional
-        All of it judges the estimator; by default the test part of `runs`.
+        All of it judges the estimator; by default `calibration` crosswise, or the test part of `runs`.
     axes : tuple of str
         Of the accelerometer.
 
@@ -237,7 +228,7 @@ def train(
         There are too few runs, or bearings of several drawings.
     """
     about = runs.about
-    seen = _joined(
+    seen = joined(
         [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
     )
     if len(seen.bearings) < _FEWEST:
@@ -248,12 +239,18 @@ def train(
     seconds = float(time[-1] - time[0])
     found = trained(seen, plate_of(runs), axes, (len(time) - 1) / seconds, seconds)
     held_back = [described(each, None, axes) for each in calibration] or [described(runs, VALIDATION, axes)]
-    found = calibrated(found, _joined(held_back), straightened=bool(calibration))
-    others = described(runs, TEST, axes) if test is None else described(test, None, axes)
-    judged = scores(found, others)
+    learnt, held = found, joined(held_back)
+    found = calibrated(learnt, held, straightened=bool(calibration))
+    across = bool(calibration) and test is None
+    others = (
+        held if across else described(runs if test is None else test, TEST if test is None else None, axes)
+    )
+    judged = crosswise(learnt, held) if across else scores(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.items():
-        quantities[name]["test"] = each._asdict()
+        if name in found.regressions:
+            quantities[name]["test"] = each._asdict()
+    own = f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"]
     card = {
         "condition": part_score(found, others),
         "quantities": dict(quantities),
@@ -261,21 +258,12 @@ def train(
         "runs": len(seen.bearings),
         "bearings": len(set(seen.bearings)),
         "calibration": [each.about["sweep"] for each in calibration] or [f"{about['sweep']}, {VALIDATION}"],
-        "test": f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"],
+        "test": "calibration, crosswise" if across else own,
         "levels": LEVELS,
         "code": about["code"],
         "licence": about["licence"],
     }
     return replace(found, card=card)
-
-
-def _joined(parts: Sequence[Described]) -> Described:
-    return Described(
-        np.concatenate([each.descriptors for each in parts]),
-        {name: np.concatenate([each.truth[name] for each in parts]) for name in parts[0].truth},
-        np.concatenate([each.bearings for each in parts]),
-        np.concatenate([each.conditions for each in parts]),
-    )
 
 
 def _known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:

@@ -8,8 +8,9 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.quantities import QUANTITIES
-from beardyn_core.follow.training import Described, calibrated, trained
+from beardyn_core.follow.training import calibrated, trained
 
 PLATE = load_plate("HS130x230")
 NAMES = names_of(AXES)

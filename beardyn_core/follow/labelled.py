@@ -1,0 +1,90 @@
+"""Runs of a set of labelled runs as an estimator sees them: descriptors, and the truth to learn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.kinematics import frequencies
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.errors import InputError
+from beardyn_core.follow.descriptors import AXES, describe, names_of
+from beardyn_core.follow.quantities import QUANTITIES
+from beardyn_core.observe.chain import Stretch
+from beardyn_core.population.labelled_set import LabelledSet
+
+
+class Described(NamedTuple):
+    """Runs of a set as an estimator sees them."""
+
+    descriptors: Float  # shape [run, descriptor]
+    truth: dict[str, Float]  # by quantity, SI, shape [run]; NaN where a run has none
+    bearings: NDArray[Any]  # shape [run], names
+    conditions: NDArray[Any]  # shape [run]
+
+
+def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Described:
+    """Work out the descriptors of the complete runs of a part of a set, of all parts with `None`."""
+    chosen = runs.runs_of(part)
+    columns = [each.label for each in QUANTITIES if each.label in runs.table]
+    known = runs.labels_of(chosen, [*columns, "bearing_id", "condition"])
+    plate = plate_of(runs)
+    orders = frequencies(plate.roller_count, plate.pitch_diameter, plate.roller_diameter, plate.contact_angle)
+    kept = [AXES.index(axis) for axis in axes]
+    rows = np.full((len(chosen), len(names_of(axes))), np.nan)
+    signals = runs.signals
+    time, turned = np.asarray(signals.time_vibration), np.asarray(signals.time_shaft)
+    rate = (len(time) - 1) / float(time[-1] - time[0])
+    for k, run in enumerate(chosen):
+        heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
+        angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
+        rows[k] = describe(Stretch(rate, heard, angle, np.nan, 0), orders, plate, axes)
+    truth = {
+        each.name: np.asarray(known[each.label], np.float64)
+        if each.label in columns
+        else np.full(len(chosen), np.nan)
+        for each in QUANTITIES
+    }
+    return Described(
+        rows, truth, *(np.asarray(known[name]).astype(str) for name in ("bearing_id", "condition"))
+    )
+
+
+def plate_of(runs: LabelledSet) -> NamePlate:
+    """Take the name plate of the bearings of a set.
+
+    Raises
+    ------
+    InputError
+        They are of several drawings.
+    """
+    keys = {"roller_count": "roller_count", "roller_diameter": "roller_diameter_m",
+            "pitch_diameter": "pitch_diameter_m", "contact_angle": "contact_angle_rad"}  # fmt: skip
+    several = runs.table["bearing"].nunique() > 1
+    if several:
+        names = ", ".join(sorted(runs.table["bearing"].unique()))
+        raise InputError(f"{runs.folder}: has the bearings {names}; an estimator is for one")
+    usual = runs.table.median(numeric_only=True)
+    numbers: dict[str, Any] = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
+    numbers["roller_count"] = round(numbers["roller_count"])
+    return NamePlate(name=str(runs.table["bearing"].iloc[0]), **numbers)
+
+
+def taken(runs: Described, inside: NDArray[np.bool_]) -> Described:
+    """Take some of the runs."""
+    truth = {name: values[inside] for name, values in runs.truth.items()}
+    return Described(runs.descriptors[inside], truth, runs.bearings[inside], runs.conditions[inside])
+
+
+def joined(parts: Sequence[Described]) -> Described:
+    """Put runs of several sets together."""
+    return Described(
+        np.concatenate([each.descriptors for each in parts]),
+        {name: np.concatenate([each.truth[name] for each in parts]) for name in parts[0].truth},
+        np.concatenate([each.bearings for each in parts]),
+        np.concatenate([each.conditions for each in parts]),
+    )
