@@ -56,6 +56,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beardyn_core.api.estimating import estimate, forecast, train
+    from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
@@ -93,13 +94,15 @@ else:
 __all__ = ["Bearing", "Block", "Chain", "EffectSet", "Estimates", "Estimator", "Forecast"]
 __all__ += ["GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
 __all__ += ["Run", "RunSummary", "Scene", "Service", "Twin", "ValidityError", "bearing", "blocks"]
-__all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "forecast", "import_measured"]
+__all__ += ["Following", "equilibrium", "estimate", "fault_frequencies", "film", "follow"]
+__all__ += ["forecast", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
 __all__ += ["torque", "train", "trend"]
 
 _MODULES = {
     "api.estimating": ("estimate", "forecast", "train"),
+    "api.following": ("Following", "follow"),
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),

@@ -10,6 +10,7 @@ measuring   read measured files, make recordings of them
 statics     stiffness, torque, life, film and load distribution, no run needed
 sweeping    sets of labelled runs over a population of bearings
 estimating  load, end play and spall from a run, what remains; training
+following   the same over many stretches and runs, with a twin beside
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================
 

@@ -27,6 +27,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "identifiable is told. Measured files become a recording with `beardyn import`.",
     )
     parser.add_argument("recording", metavar="run.mcap", help="recording to estimate from")
+    add_hearing(parser)
+    add_box(parser)
+    add_service(parser)
+    add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def add_hearing(parser: argparse.ArgumentParser) -> None:
+    """Declare what is heard, and by which estimator."""
     parser.add_argument(
         "--estimator",
         metavar="FILE.npz",
@@ -37,7 +46,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--bearing", metavar="NAME", help="name plate of the bearing; default that of the recording"
     )
     parser.add_argument("--sensor", metavar="NAME", default="", help="accelerometer; default the first")
-    add_box(parser)
+
+
+def add_service(parser: argparse.ArgumentParser) -> None:
+    """Declare what a forecast must be told."""
     group = parser.add_argument_group("forecast", "what remains, with --mileage-km")
     group.add_argument("--mileage-km", metavar="KM", type=float, help="so far; default no forecast")
     group.add_argument(
@@ -57,8 +69,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="growth of a spall in 1000 km, mm2, beyond 250 mm2, median of the fleet; default 100, assumed",
     )
     group.add_argument("--lubricant", metavar="NAME", default="L055", help="of the rating life; default L055")
-    add_json(parser)
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -66,14 +76,14 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.api.estimating import estimate
     from beardyn_core.record.reading import read_run
 
-    service, law = _service_of(args)
+    service, law = service_of(args)
     heard = read_run(args.recording, args.box)
     found = estimate(heard, args.estimator, bearing=args.bearing, sensor=args.sensor)
     remains = None if service is None else _forecast(args, heard, found, service, law)
     if args.json:
         content = {"recording": args.recording, **json_object(found)}
         content["forecast"] = (
-            None if remains is None else {"mileage_m": args.mileage_km * 1e3, **_object(remains)}
+            None if remains is None else {"mileage_m": args.mileage_km * 1e3, **remains_object(remains)}
         )
         print(json_text("estimate", content))
     else:
@@ -81,7 +91,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _service_of(args: argparse.Namespace) -> tuple[Service | None, GrowthLaw]:
+def service_of(args: argparse.Namespace) -> tuple[Service | None, GrowthLaw]:
     """Read the options of the forecast; `None` without a mileage."""
     from beardyn_core.follow.forecast import Service
     from beardyn_core.follow.growth import GrowthLaw
@@ -115,7 +125,8 @@ def _forecast(
     return forecast(found, heard, service, law, bearing=args.bearing, lubricant=args.lubricant)
 
 
-def _object(remains: Forecast) -> dict[str, Any]:
+def remains_object(remains: Forecast) -> dict[str, Any]:
+    """Give what `--json` prints of a forecast."""
     return {
         "widest_m": remains.widest,
         "remaining_m": remains.remaining,

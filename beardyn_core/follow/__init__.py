@@ -13,6 +13,10 @@ shipped      estimators that are shipped, found by the bearing
 growth       how a spall grows with mileage, with its scatter
 forecast     mileage until a spall is too wide, share of the rating life that is used
 labelled     runs of a set of labelled runs as an estimator sees them
+belief       means and covariances, carried on and corrected
+condition    which part is spalled, believed over many stretches
+following    the filter of one bearing: load, end play, spall as they change
+residual     what is heard beside a twin at the state that is known
 training     an estimator of a set of runs, judged on bearings that it has not seen
 ============ ==================================================================
 

@@ -14,9 +14,7 @@ from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stret
 from beardyn_core.observe.severity import severity_of
 
 AXES = ("x", "y", "z")
-_THIRDS = tuple(
-    1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11)
-)  # middles of third octaves, 25 Hz to 10 kHz
+THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
 _TWELFTHS = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
 _FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
 _PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
@@ -32,7 +30,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *(f"score_{part}" for part in FAULTS),
         *("score", "kurtosis", "crest", "strongest_level"),
         *(f"way_{part}" for part in ("cup", "cone")),
-        *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in _THIRDS),
+        *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
         *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
     )
@@ -63,7 +61,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     }
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
-        for name, middles, share in (("band", _THIRDS, 3), ("fine", _TWELFTHS, 12)):
+        for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):
             levels = _bands(heard, stretch.rate, middles, share)
             found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
         found |= {f"{name}_{axis}": value for name, value in _lines(heard, stretch, orders).items()}

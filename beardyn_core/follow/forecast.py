@@ -18,7 +18,7 @@ from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_lif
 _DRAWS, _SEED = 4000, 1
 _QUANTILES = (0.05, 0.5, 0.95)
 _USUAL_TEMPERATURE, _USUAL_END_PLAY = 333.15, 1.0e-4
-_NOW = 1.0e6  # [m], below which a forecast counts as now
+SOON = 1.0e6  # [m], below which a forecast counts as now
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Forecast:
         lines = []
         if isfinite(self.remaining[1]):
             low, middle, high = (f"{each / 1e3:,.0f}" for each in self.remaining)
-            when = "take it out now" if self.remaining[0] < _NOW else "by then it must come out"
+            when = "take it out now" if self.remaining[0] < SOON else "by then it must come out"
             lines.append(
                 f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, {low} to "
                 f"{high} km in 90 of 100; {when}"

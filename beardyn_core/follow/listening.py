@@ -77,6 +77,7 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
                 f"{run.label}: axis {axis} is not measured; the estimator hears {', '.join(estimator.axes)}: "
                 "train one with --axes"
             )
+    begin_ns = int(signal.time_ns[inside][0]) if inside.any() else 0
     angle = np.interp(signal.time_ns[inside], run.shaft.time_ns, np.unwrap(run.shaft.angle))
     heard, angle = _resampled(run, heard, angle, signal.rate, estimator.rate)
     length = round(estimator.stretch * estimator.rate) + 1
@@ -87,7 +88,8 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
         whole = len(angle[part]) >= _LEAST_LENGTH * length and np.isfinite(heard[part]).all()
         one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
         if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= _FEWEST_TURNS * 2.0 * np.pi:
-            yield Stretch(estimator.rate, heard[part], angle[part], np.nan, 0)
+            end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
+            yield Stretch(estimator.rate, heard[part], angle[part], np.nan, end_ns)
 
 
 def _resampled(run: Run, heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:

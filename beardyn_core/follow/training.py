@@ -282,12 +282,13 @@ def _principal(standard: Float) -> tuple[Float, Float]:
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
     """Find the share of the errors' variance that runs of one bearing and box have in common, 0 to 1.
 
-    It is their correlation from run to run; two runs of a bearing differ in load, speed, track and fault.
+    It is their correlation from run to run, half where no bearing has two; two runs of a bearing differ in
+    load, speed, track and fault.
     """
     together = [errors[bearings == each] for each in set(bearings.tolist())]
     several = [each for each in together if len(each) > 1]
     pairs = [(each.sum() ** 2 - each @ each) / (len(each) * (len(each) - 1)) for each in several]
-    return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 1.0
+    return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 0.5
 
 
 def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, Float]:

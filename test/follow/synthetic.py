@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, names_of
@@ -23,10 +25,25 @@ def drawn(count: int, seed: int, shift: float = 0.0, noise: float = 1.0) -> Desc
     load = np.exp(random.uniform(np.log(3e4), np.log(9e4), count))
     play = random.uniform(0.0, 2.5e-4, count)
     condition = random.choice(["healthy", "cup", "cone"], count)
-    width = np.where(
-        condition == "healthy", np.nan, np.exp(random.uniform(np.log(2e-3), np.log(16e-3), count))
-    )
-    depth = np.where(condition == "healthy", np.nan, random.uniform(5e-5, 2.5e-4, count))
+    width = np.exp(random.uniform(np.log(2e-3), np.log(16e-3), count))
+    return heard(random, load, play, condition, width, shift, noise)
+
+
+def heard(
+    random: np.random.Generator,
+    load: Float,
+    play: Float,
+    condition: NDArray[np.str_],
+    width: Float,
+    shift: float = 0.0,
+    noise: float = 1.0,
+    length: Float | None = None,
+) -> Described:
+    """Hear runs whose truth is given."""
+    count, sound = len(load), condition == "healthy"
+    width = np.where(sound, np.nan, width)
+    length = np.where(sound, np.nan, random.uniform(10e-3, 40e-3, count) if length is None else length)
+    depth = np.where(sound, np.nan, random.uniform(5e-5, 2.5e-4, count))
     rows = random.normal(0.0, 1.0, (count, len(NAMES)))
     wide = 1e3 * np.nan_to_num(width)
     law = {
@@ -37,11 +54,12 @@ def drawn(count: int, seed: int, shift: float = 0.0, noise: float = 1.0) -> Desc
         "score_cup": np.where(condition == "cup", 10.0, 0.0),
         "score_cone": np.where(condition == "cone", 10.0, 0.0),
         "kurtosis": wide,
+        "crest": 1e3 * np.nan_to_num(length),
     }
     for name, values in law.items():
         rows[:, NAMES.index(name)] = values + 0.5 * noise * random.normal(size=count)
     truth = {each.name: np.full(count, np.nan) for each in QUANTITIES}
-    truth |= {"vertical_load": load, "end_play": play, "width": width, "depth": depth}
+    truth |= {"vertical_load": load, "end_play": play, "width": width, "length": length, "depth": depth}
     return Described(rows, truth, np.array([f"b{k}" for k in range(count)]), condition)
 
 

@@ -1,0 +1,262 @@
+"""Follow one bearing: what each stretch says, put together with what was known, as it changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import isfinite, log
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.follow.belief import Belief, carried, corrected
+from beardyn_core.follow.condition import ConditionBelief
+from beardyn_core.follow.estimator import Estimate, Estimates, Estimator
+from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
+from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
+from beardyn_core.follow.quantities import BY_NAME
+from beardyn_core.observe.labels import HEALTHY
+
+SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"
+HEALTHS = (WAITING, SOUND, SPALLED, TAKE_OUT, UNEXPLAINED)
+NORMAL_50 = 0.6745
+_MINUTE, _HOUR, _YEAR = 60.0, 3600.0, 3.2e7
+# how long a number takes to wander over the range learnt from, [s]; a spall grows by its law alone
+_WANDERS = {"vertical_load": _MINUTE, "lateral_load": _MINUTE, "temperature": _HOUR, "end_play": _HOUR}
+_LEAST_SHARED = 0.5  # of the error: stretches of one run have load, speed and track in common too; assumed
+_LEAST_OWN = 0.5  # of the error's variance, that is every stretch's own
+_JUMP, _JUMP_STRETCHES = 3.0, 2  # standard deviations, and stretches in a row on one side: a step
+_KEPT = 0.8  # of the surprise so far, at each stretch
+_SURPRISING = 4.0  # mean square miss from which what is heard does not fit what was known
+_FEWEST = 2  # stretches before anything is said
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """What is known of a bearing after a stretch."""
+
+    time: A[float, "end of the stretch, [s]"]
+    distance: A[float, "since the first one, [m]"]
+    estimates: A[Estimates, "of the filter"]
+    heard: A[Estimates, "of this stretch alone"]
+    names: A[tuple[str, ...], "of the numbers of the covariance"]
+    covariance: A[Float, "shape [number, number], on the scales of learning; see `Quantity.scaled`"]
+    rate: A[tuple[float, float], "growth of the spall: median, and factor that holds 90 %, [m^2/m]; NaN"]
+    surprise: A[float, "mean square of the misses of late, in variances of what was expected; 1 is usual"]
+    changed: A[tuple[str, ...], "numbers that have made a step"]
+    remains: A[Forecast | None, "of a whole bearing; none of a name plate"]
+    health: A[str, "one of `HEALTHS`"]
+    doubts: A[tuple[str, ...], "what the model does not explain, in sentences"]
+
+    @property
+    def sentence(self) -> str:
+        """Say it in a line."""
+        part = self.estimates.part
+        words = [f"{self.time:9.2f} s  {self.health:11}"]
+        if part is not None:
+            words.append(f"{part.condition} {100 * part.probability:3.0f} %")
+        for each in self.estimates.quantities:
+            if isfinite(each.value):
+                show, (low, high) = each.quantity.text, each.intervals[-1]
+                words.append(f"{each.quantity.name} {show(each.value)} ({show(low)} to {show(high)})")
+        words += [f"{BY_NAME[name].words} has changed" for name in self.changed]
+        return "; ".join([*words, *self.doubts])
+
+
+@dataclass
+class Follower:
+    """Filter on the slow numbers of one bearing.
+
+    Notes
+    -----
+    Each stretch is an observation of every number that the estimator tells, as wide as its interval. Part of
+    its error stays with the bearing, the box and the run: it is a number of its own in the filter, which no
+    repetition takes away, so that the intervals do not shrink to nothing. Loads, end play and temperature
+    wander; the width of a spall grows by `GrowthLaw` with a rate that is learnt. A number that is missed by
+    three standard deviations twice in a row on one side has made a step, and is learnt anew.
+    The filter is written out here: prediction by cubature points, correction in closed form, as every
+    observation is linear. A library (filterpy) would have brought the same two functions without missing
+    observations.
+    """
+
+    estimator: Estimator
+    bearing: A[Bearing | None, "for what remains; none of a name plate"] = None
+    lubricant: A[Lubricant | None, "of the rating life"] = None
+    service: A[Service, "mileage at the first stretch, wheel"] = field(default_factory=Service)
+    law: A[GrowthLaw, "of spalls"] = field(default_factory=GrowthLaw)
+    stretches: A[int, "so far"] = 0
+
+    def __post_init__(self) -> None:
+        known = self.estimator.card["quantities"]
+        self.names = tuple(name for name in BY_NAME if name in self.estimator.regressions)
+        ends = [BY_NAME[name].scaled(np.array(known[name]["ranges"][-1])) for name in self.names]
+        self._middle = np.array([each.mean() for each in ends])
+        self._spread = np.array([np.ptp(each) / (2.0 * NORMAL_90) for each in ends])
+        unexplained = np.array([1.0 - known[name]["explained"] for name in self.names])
+        shared = np.array([known[name].get("shared", _LEAST_SHARED) for name in self.names])
+        self._common = np.clip(shared, _LEAST_SHARED, 1.0) * unexplained * self._spread**2
+        self._grows = {"width", "length"} <= set(self.names)
+        rate = [(log(self.law.rate), log(self.law.rate_spread) / NORMAL_90)] if self._grows else []
+        mean = np.concatenate([self._middle, np.zeros(len(self.names)), [each[0] for each in rate]])
+        variance = np.concatenate([self._spread**2, self._common, [each[1] ** 2 for each in rate]])
+        self.belief = Belief(mean, np.diag(variance))
+        rule = self.estimator.part
+        self.condition = None if rule is None else ConditionBelief(rule.conditions)
+        self._aside = np.zeros(len(self.names))  # stretches in a row that missed, with their side
+        self._surprise, self._time, self._distance = 1.0, 0.0, 0.0
+
+    def take(self, descriptors: Float, time: float, distance: float = 0.0) -> Followed:
+        """Take a stretch.
+
+        Parameters
+        ----------
+        descriptors : float64 array, shape [descriptor]
+        time : float
+            Of its end, [s].
+        distance : float
+            That the wheel has run since the first stretch, [m].
+        """
+        heard = self.estimator.estimates(descriptors[None])
+        self._carry(
+            max(time - self._time, 0.0) if self.stretches else 0.0, max(distance - self._distance, 0.0)
+        )
+        self._time, self._distance = time, distance
+        if self.condition is not None and self.estimator.part is not None:
+            chances = self.estimator.part.probabilities(self.estimator.standardised(descriptors[None]))[0]
+            self.condition.take(dict(zip(self.condition.conditions, chances.tolist(), strict=True)))
+        changed = self._correct(heard)
+        self.stretches += 1
+        known = self._estimates(heard)
+        service = replace(self.service, mileage=self.service.mileage + distance)
+        law = self._law()
+        remains = (
+            None
+            if self.bearing is None or self.lubricant is None
+            else forecast(known, self.bearing, self.lubricant, service, law)
+        )
+        doubts = self._doubts(heard)
+        count = len(self.names)
+        return Followed(
+            time, distance, known, heard, self.names, self.belief.covariance[:count, :count].copy(),
+            (law.rate, law.rate_spread) if self._grows else (np.nan, np.nan),
+            self._surprise, changed, remains, self._health(known, remains, doubts), doubts,
+        )  # fmt: skip
+
+    def _carry(self, seconds: float, metres: float) -> None:
+        """Let the numbers wander for a time, and the spall grow over a distance."""
+        count = len(self.names)
+        noise = np.zeros(len(self.belief.mean))
+        noise[:count] = self._spread**2 * [seconds / _WANDERS.get(name, _YEAR) for name in self.names]
+        # what stays with box and run is forgotten as slowly as it may be another run by then
+        if not (self._grows and metres and self._spalled):
+            self.belief = Belief(self.belief.mean, self.belief.covariance + np.diag(noise))
+            return
+        wide, across = self.names.index("width"), self.names.index("length")
+
+        def grown(points: Float) -> Float:
+            area = np.exp(points[:, wide] + points[:, across])
+            after = points.copy()
+            after[:, wide] = np.log(self.law.grown(area, np.exp(points[:, -1]), metres)) - points[:, across]
+            return after
+
+        self.belief = carried(self.belief, grown, noise)
+
+    @property
+    def _spalled(self) -> bool:
+        return self.condition is None or self.condition.estimate.condition != HEALTHY
+
+    def _correct(self, heard: Estimates) -> tuple[str, ...]:
+        """Correct the belief by what a stretch says; gives the numbers that have made a step."""
+        told = [
+            k for k, name in enumerate(self.names) if isfinite(heard[name].value) and self._fits(heard, name)
+        ]
+        if not told:
+            return ()
+        count = len(self.names)
+        rows, observed, variance = np.zeros((len(told), len(self.belief.mean))), [], []
+        for row, k in zip(rows, told, strict=True):
+            row[k] = row[count + k] = 1.0
+            each = heard[self.names[k]]
+            low, high = each.quantity.scaled(np.array(each.intervals[-1]))
+            whole = ((high - low) / (2.0 * NORMAL_90) * max(heard.strangeness, 1.0)) ** 2
+            observed.append(float(each.quantity.scaled(np.array(each.value))))
+            variance.append(max(whole - self._common[k], _LEAST_OWN * whole))
+        seen, errors = np.array(observed), np.array(variance)
+        ready = corrected(self.belief, rows, seen, errors)
+        stepped = self._stepped(told, ready.misses)
+        if stepped:  # learnt anew, from this stretch on
+            opened = self.belief.covariance.copy()
+            for k in stepped:
+                opened[k, k] += self._spread[k] ** 2
+            ready = corrected(self.belief._replace(covariance=opened), rows, seen, errors)
+        self.belief = ready.belief
+        self._surprise = _KEPT * self._surprise + (1.0 - _KEPT) * float(np.mean(ready.misses**2))
+        return tuple(self.names[k] for k in stepped)
+
+    def _fits(self, heard: Estimates, name: str) -> bool:
+        """Say whether a number is of the part that is believed to be spalled, or of none."""
+        if not BY_NAME[name].of_fault or self.condition is None or heard.part is None:
+            return True
+        return heard.part.condition == self.condition.estimate.condition
+
+    def _stepped(self, told: list[int], misses: Float) -> list[int]:
+        """Find the numbers that have been missed on one side often enough."""
+        found = []
+        for k, miss in zip(told, misses, strict=True):
+            side = np.sign(miss) if abs(miss) > _JUMP else 0.0
+            self._aside[k] = self._aside[k] + side if side and side * self._aside[k] >= 0.0 else side
+            if abs(self._aside[k]) >= _JUMP_STRETCHES:
+                self._aside[k] = 0.0
+                found.append(k)
+        return found
+
+    def _law(self) -> GrowthLaw:
+        """Give the law with the rate that is known by now."""
+        if not self._grows:
+            return self.law
+        rate, spread = float(self.belief.mean[-1]), float(self.belief.deviation[-1])
+        factor = min(max(float(np.exp(NORMAL_90 * spread)), 1.0), 100.0)
+        return replace(self.law, rate=float(np.exp(rate)), rate_spread=factor)
+
+    def _estimates(self, heard: Estimates) -> Estimates:
+        """Give the belief in the words of an estimate."""
+        part = None if self.condition is None else self.condition.estimate
+        return replace(
+            heard,
+            part=part,
+            stretches=self.stretches,
+            quantities=tuple(self._estimate(each) for each in heard.quantities),
+        )
+
+    def _estimate(self, heard: Estimate) -> Estimate:
+        quantity = heard.quantity
+        if quantity.name not in self.names:
+            return heard
+        if quantity.of_fault and not self._spalled:
+            return Estimate(quantity, np.nan, (), "no part is called spalled")
+        k = self.names.index(quantity.name)
+        middle, spread = self.belief.mean[k], self.belief.deviation[k]
+        ends = [quantity.restored(middle + spread * np.array([-by, by])) for by in (NORMAL_50, NORMAL_90)]
+        value = float(quantity.restored(np.array(middle)))
+        return Estimate(quantity, value, tuple((float(low), float(high)) for low, high in ends))
+
+    def _doubts(self, heard: Estimates) -> tuple[str, ...]:
+        """Say what the model does not explain."""
+        found = []
+        if heard.strangeness > 1.0:
+            found.append(f"the signal is {heard.strangeness:.1f} times as far as any learnt from")
+        if self._surprise > _SURPRISING:
+            found.append(f"what is heard misses what was known, {self._surprise:.1f} times the usual square")
+        return tuple(found)
+
+    def _health(self, known: Estimates, remains: Forecast | None, doubts: tuple[str, ...]) -> str:
+        if self.stretches < _FEWEST:
+            return WAITING
+        if doubts:
+            return UNEXPLAINED
+        if known.part is None or known.part.condition == HEALTHY:
+            return SOUND
+        near = remains is not None and isfinite(remains.remaining[0]) and remains.remaining[0] < SOON
+        return TAKE_OUT if near else SPALLED

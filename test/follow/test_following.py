@@ -1,0 +1,130 @@
+"""The filter on signals of a known law: it follows steps, growth and faults, and doubts what is strange."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from beardyn_core.arrays import Float
+from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.follow.belief import Belief, carried, corrected
+from beardyn_core.follow.condition import ConditionBelief
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.following import (
+    SOUND,
+    SPALLED,
+    TAKE_OUT,
+    UNEXPLAINED,
+    WAITING,
+    Followed,
+    Follower,
+)
+from beardyn_core.follow.forecast import Service
+from beardyn_core.follow.growth import GrowthLaw
+from test.follow.synthetic import drawn, heard, taught
+
+
+@pytest.fixture(scope="module")
+def estimator() -> Estimator:
+    return taught(drawn(200, 2))
+
+
+def stretches(
+    seed: int, condition: str, count: int, load: float = 5e4, width: float = 6e-3, play: float = 1e-4
+) -> Float:
+    """Hear stretches of one bearing."""
+    random, ones = np.random.default_rng(seed), np.ones(count)
+    numbers = (load * ones, play * ones, np.repeat(condition, count), width * ones)
+    return heard(random, *numbers, length=20e-3 * ones).descriptors
+
+
+def followed(estimator: Estimator, rows: Float, metres: float = 80.0) -> list[Followed]:
+    follower = Follower(estimator, load_bearing("HS130x230"), load_lubricant("L055"), Service(mileage=1e8))
+    return [follower.take(row, (k + 1) * 1.5, (k + 1) * metres) for k, row in enumerate(rows)]
+
+
+def test_a_linear_law_is_carried_exactly_and_a_correction_is_that_of_gauss() -> None:
+    belief = Belief(np.array([1.0, -2.0]), np.array([[2.0, 0.5], [0.5, 1.0]]))
+    turn = np.array([[1.0, 0.3], [-0.2, 0.9]])
+    after = carried(belief, lambda points: points @ turn.T, np.array([0.1, 0.2]))
+    np.testing.assert_allclose(after.mean, turn @ belief.mean, rtol=1e-9)
+    expected = turn @ belief.covariance @ turn.T + np.diag([0.1, 0.2])
+    np.testing.assert_allclose(after.covariance, expected, rtol=1e-9)
+    row = np.array([[1.0, 1.0]])
+    seen = corrected(belief, row, np.array([0.0]), np.array([0.5]))
+    information = np.linalg.inv(belief.covariance) + row.T @ row / 0.5
+    np.testing.assert_allclose(seen.belief.covariance, np.linalg.inv(information), rtol=1e-9)
+    mean = np.linalg.solve(information, np.linalg.inv(belief.covariance) @ belief.mean)
+    np.testing.assert_allclose(seen.belief.mean, mean, rtol=1e-9)
+
+
+def test_an_area_grows_in_the_distance_that_its_growth_takes() -> None:
+    law = GrowthLaw()
+    begin, rate = np.array([50e-6, 200e-6, 400e-6]), np.array([1e-10, 3e-10, 2e-10])
+    for distance in (1e5, 3e6, 2e7):
+        end = law.grown(begin, rate, distance)
+        np.testing.assert_allclose(law.distance(begin, end, rate), distance, rtol=1e-9)
+
+
+def test_no_single_stretch_makes_a_spall_and_three_clear_ones_do() -> None:
+    belief = ConditionBelief(("cone", "cup", "healthy"))
+    for _ in range(10):
+        belief.take({"cone": 0.05, "cup": 0.05, "healthy": 0.9})
+    said = []
+    for _ in range(4):
+        belief.take({"cone": 0.0, "cup": 1.0, "healthy": 0.0})
+        said.append(belief.estimate.condition)
+    assert said[0] == "healthy"
+    assert said[-1] == "cup"
+    assert "cup" in belief.estimate.sets[0]
+
+
+def test_sound_and_spalled_bearings_are_told_apart(estimator: Estimator) -> None:
+    sound = followed(estimator, stretches(5, "healthy", 12))
+    assert sound[0].health == WAITING
+    assert {each.health for each in sound[1:]} == {SOUND}
+    spalled = followed(estimator, stretches(5, "cup", 8))
+    assert spalled[-1].health in (SPALLED, TAKE_OUT)
+    assert spalled[-1].estimates["width"].value == pytest.approx(6e-3, rel=0.2)
+
+
+def test_intervals_narrow_with_stretches_and_not_to_nothing(estimator: Estimator) -> None:
+    steps = followed(estimator, stretches(6, "healthy", 20))
+    width = [np.ptp(np.log(each.estimates["vertical_load"].intervals[-1])) for each in steps]
+    assert width[-1] < width[0]
+    assert width[-1] > 0.3 * width[0]  # what stays with the bearing does not go away by repetition
+
+
+def test_a_step_of_the_load_is_followed_within_three_stretches(estimator: Estimator) -> None:
+    rows = np.concatenate([stretches(7, "healthy", 10, load=4e4), stretches(8, "healthy", 6, load=8e4)])
+    steps = followed(estimator, rows)
+    assert not any("vertical_load" in each.changed for each in steps[:10])
+    assert steps[9].estimates["vertical_load"].value == pytest.approx(4e4, rel=0.15)
+    assert steps[12].estimates["vertical_load"].value == pytest.approx(8e4, rel=0.2)
+
+
+@pytest.mark.parametrize("rate", [0.3e-10, 3e-10])
+def test_width_and_rate_of_a_growing_spall_are_followed(estimator: Estimator, rate: float) -> None:
+    law, length, metres, count = GrowthLaw(), 40e-3, 5e4, 15
+    area = np.full(count, 260e-6)
+    for k in range(1, count):
+        area[k] = law.grown(area[k - 1 : k], np.array([rate]), metres)[0]
+    ones = np.ones(count)
+    rows = heard(
+        np.random.default_rng(12), 5e4 * ones, 1e-4 * ones, np.repeat("cup", count), area / length,
+        length=length * ones,
+    ).descriptors  # fmt: skip
+    last = followed(estimator, rows, metres)[-1]
+    assert last.estimates["width"].value == pytest.approx(area[-1] / length, rel=0.2)
+    # half a millimetre of growth is less than what stretches differ by: then it is only called slow
+    assert last.rate[0] < law.rate if rate < law.rate else 0.5 < last.rate[0] / rate < 2.0
+    assert last.rate[1] < law.rate_spread  # more is known of it than at first
+
+
+def test_a_signal_unlike_all_that_was_learnt_from_is_unexplained(estimator: Estimator) -> None:
+    rows = stretches(9, "healthy", 6)
+    strange = rows[-1:] + 60.0 * (np.arange(rows.shape[1]) % 2)
+    steps = followed(estimator, np.concatenate([rows, strange]))
+    assert steps[-2].health == SOUND
+    assert steps[-1].health == UNEXPLAINED
+    assert "learnt from" in steps[-1].doubts[0]
