@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
+.PHONY: help demo follow test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -28,6 +28,9 @@ help: ## what there is to make
 
 demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
+
+follow: $(VENV)/.ready-test ## set up, then a train played in full, followed from vibration and shaft alone: follow.png (again: ARGS=--force)
+	@$(BIN)/python -m evidence.follow.demo $(ARGS)
 
 test: $(VENV)/.ready-test ## set up, then the tests, on JOBS processes (one more than cores)
 	@$(BIN)/python -m pytest $(PARALLEL) $(ARGS)

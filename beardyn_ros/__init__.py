@@ -44,6 +44,7 @@ twin_watch            is the twin there, has it ended, how
 recording             messages into files, one a run, with proof of what was lost
 recorder_node         every topic into a crash-safe MCAP file
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
+follower_node         load, end play and spall from vibration and shaft, as they change
 viewer_node           live view in rerun
 car                   the axleboxes of a car by name and place; one process for the nodes of all
 car_scenario          one scenario as the loads of all boxes, each wheel over the same track later

@@ -16,6 +16,7 @@ PROGRAMS = {
     "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
     "viewer": ("viewer_node", "live view in rerun"),
     "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
+    "follower": ("follower_node", "load, end play and spall from vibration and shaft, with a twin beside"),
     "car_twin": ("car_twin", "the twins of all axleboxes of a car in one process"),
     "car_load": ("car_load", "the load of every axlebox of a car from one scenario, all in step"),
     "car_recorder": ("car_recorder", "record every axlebox of a car, a file each"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -11,7 +12,7 @@ from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, encode_diagnostics
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
 from beardyn_core.record.published import MissingMessages, missing_sentence
 from beardyn_core.record.topics import TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
@@ -30,8 +31,9 @@ REPORT_PERIOD_S = 0.5
 TAIL_TIMEOUT_S = 8.0
 GONE_TIMEOUT_S = 1.0
 COUNTS_TIMEOUT_S = 2.0
-MONITOR_TIMEOUT_S = 20.0
+JUDGES_TIMEOUT_S = 20.0
 OLD_RUN_TIMEOUT_S = 1.0
+JUDGES = ("monitor/result", "follower/estimate")  # whose last word comes after the end of the twin
 TWIN_TOPICS = (
     "truth",
     "force",
@@ -108,7 +110,7 @@ class RecorderNode(Node):
         )
         self._ended_at: float | None = None
         self._lacking = (0, 0.0)
-        self._monitor_done = False
+        self._judged: set[str] = set()  # topics that have had their last word
         self._reported_at = 0.0
         self._announced_ready = False
         wall_timer(self, TICK_S, self._tick)
@@ -168,8 +170,10 @@ class RecorderNode(Node):
             elif entry.name == "truth":
                 self._on_truth(cdr)
             elif entry.name == "monitor/result":
-                statuses = decode_diagnostics(cdr)[1]
-                self._monitor_done = any(status.value("final") == "true" for status in statuses)
+                if any(status.value("final") == "true" for status in decode_diagnostics(cdr)[1]):
+                    self._judged.add(entry.name)
+            elif entry.name == "follower/estimate" and json.loads(decode_string(cdr)).get("final"):
+                self._judged.add(entry.name)
 
         return take
 
@@ -180,7 +184,8 @@ class RecorderNode(Node):
                 self._recording.hear(status)
 
     def _on_truth(self, cdr: bytes) -> None:
-        self._ended_at, self._monitor_done = None, False
+        self._ended_at = None
+        self._judged.clear()
         current = self._recording.current
         self._watch.begin_run("" if current is None else current.run_id)
         run = None if current is None else current.description
@@ -244,8 +249,9 @@ class RecorderNode(Node):
         self._ended_at = self._ended_at or now
         if self._waits_for_tail(now):
             return
-        monitored = self.count_publishers(topic("monitor/result").path(self.get_namespace())) > 0
-        if monitored and not self._monitor_done and now - self._ended_at < MONITOR_TIMEOUT_S:
+        namespace = self.get_namespace()
+        judges = [each for each in JUDGES if self.count_publishers(topic(each).path(namespace)) > 0]
+        if not self._judged.issuperset(judges) and now - self._ended_at < JUDGES_TIMEOUT_S:
             return
         self._end(self._watch.end_sentence)
 

@@ -13,7 +13,7 @@ from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
-NODES = ("twin", "load", "recorder", "monitor", "viewer", "car_twin", "car_load", "car_recorder")
+NODES = ("twin", "load", "recorder", "monitor", "follower", "viewer", "car_twin", "car_load", "car_recorder")
 
 HEAD = """# Nodes
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
@@ -74,6 +74,7 @@ def add_service(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.api.estimating import estimate
+    from beardyn_core.follow.told import estimates_object, forecast_object
     from beardyn_core.record.reading import read_run
 
     service, law = service_of(args)
@@ -81,9 +82,9 @@ def run(args: argparse.Namespace) -> int:
     found = estimate(heard, args.estimator, bearing=args.bearing, sensor=args.sensor)
     remains = None if service is None else _forecast(args, heard, found, service, law)
     if args.json:
-        content = {"recording": args.recording, **json_object(found)}
+        content = {"recording": args.recording, **estimates_object(found)}
         content["forecast"] = (
-            None if remains is None else {"mileage_m": args.mileage_km * 1e3, **remains_object(remains)}
+            None if remains is None else {"mileage_m": args.mileage_km * 1e3, **forecast_object(remains)}
         )
         print(json_text("estimate", content))
     else:
@@ -123,46 +124,3 @@ def _forecast(
     from beardyn_core.api.estimating import forecast
 
     return forecast(found, heard, service, law, bearing=args.bearing, lubricant=args.lubricant)
-
-
-def remains_object(remains: Forecast) -> dict[str, Any]:
-    """Give what `--json` prints of a forecast."""
-    return {
-        "widest_m": remains.widest,
-        "remaining_m": remains.remaining,
-        "equivalent_load_N": remains.equivalent_load,
-        "life_m": remains.life,
-        "reference_life_m": remains.reference_life,
-        "used": remains.used,
-    }
-
-
-def json_object(found: Estimates) -> dict[str, Any]:
-    """Give what `--json` prints of the estimates."""
-    from beardyn_core.follow.regression import LEVELS
-
-    names = [f"{100 * level:.0f}" for level in LEVELS]
-    part = found.part
-    return {
-        "condition": None
-        if part is None
-        else {
-            "name": part.condition,
-            "probability": part.probability,
-            **{f"set_{name}": each for name, each in zip(names, part.sets, strict=True)},
-        },
-        "estimates": {
-            f"{each.quantity.name}_{each.quantity.unit}": {
-                "value": each.value,
-                **{
-                    f"interval_{name}": each.intervals[k] if each.intervals else None
-                    for k, name in enumerate(names)
-                },
-                "reason": each.reason,
-            }
-            for each in found.quantities
-        },
-        "strangeness": found.strangeness,
-        "stretches": found.stretches,
-        "shaft_frequency_Hz": found.shaft_frequency,
-    }

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from beardyn_core.cli.estimate import add_hearing, add_service, json_object, remains_object, service_of
+from beardyn_core.cli.estimate import add_hearing, add_service, service_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
-    from beardyn_core.follow.following import Followed
-    from beardyn_core.follow.residual import Residual
+    pass
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -60,6 +59,7 @@ def run(args: argparse.Namespace) -> int:
 
     from beardyn_core.api.following import follow
     from beardyn_core.follow.forecast import Service
+    from beardyn_core.follow.told import residual_object, step_object
     from beardyn_core.record.reading import read_run
 
     service, law = service_of(args)
@@ -94,34 +94,3 @@ def run(args: argparse.Namespace) -> int:
     else:
         print("\n".join(found.sentences))
     return 0
-
-
-def step_object(step: Followed) -> dict[str, Any]:
-    """Give what `--json` prints of one stretch."""
-    return {
-        "time_s": step.time,
-        "distance_m": step.distance,
-        "health": step.health,
-        "doubts": step.doubts,
-        "changed": step.changed,
-        "surprise": step.surprise,
-        **json_object(step.estimates),
-        "growth_m2_per_m": step.rate[0],
-        "growth_factor_90": step.rate[1],
-        "names": step.names,
-        "covariance": step.covariance,
-        "forecast": None if step.remains is None else remains_object(step.remains),
-    }
-
-
-def residual_object(residual: Residual) -> dict[str, Any]:
-    """Give what `--json` prints of heard and twin."""
-    return {
-        "axes": residual.axes,
-        "frequency_Hz": residual.middles,
-        "measured_dB": residual.measured,
-        "twin_dB": residual.twin,
-        "tolerance_dB": residual.tolerance,
-        "explained": residual.explained,
-        "sentences": residual.sentences,
-    }

@@ -17,6 +17,8 @@ belief       means and covariances, carried on and corrected
 condition    which part is spalled, believed over many stretches
 following    the filter of one bearing: load, end play, spall as they change
 residual     what is heard beside a twin at the state that is known
+told         estimates, steps and residuals for JSON
+intake       stretches out of blocks as they come
 training     an estimator of a set of runs, judged on bearings that it has not seen
 ============ ==================================================================
 

@@ -17,7 +17,7 @@ from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.observe.chain import Stretch
 from beardyn_core.record.run import Run
 
-_FEWEST_TURNS = 10.0  # of the shaft in a stretch
+FEWEST_TURNS = 10.0  # of the shaft in a stretch
 _ALIKE = 0.01  # sizes of a bearing that an estimator fits
 _SAME_RATE = 1e-3
 _LEAST_LENGTH = 0.95  # of a stretch
@@ -57,7 +57,7 @@ def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, s
     if not rows:
         raise InputError(
             f"{run.label}: has no {estimator.stretch:.2f} s of whole vibration in which the shaft turns "
-            f"{_FEWEST_TURNS:g} times one way; the estimator hears so much at once"
+            f"{FEWEST_TURNS:g} times one way; the estimator hears so much at once"
         )
     return estimator.estimates(np.stack(rows))
 
@@ -87,7 +87,7 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
         turned = np.diff(angle[part])
         whole = len(angle[part]) >= _LEAST_LENGTH * length and np.isfinite(heard[part]).all()
         one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
-        if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= _FEWEST_TURNS * 2.0 * np.pi:
+        if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= FEWEST_TURNS * 2.0 * np.pi:
             end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
             yield Stretch(estimator.rate, heard[part], angle[part], np.nan, end_ns)
 

@@ -75,6 +75,11 @@ TOPICS: tuple[Topic, ...] = (
     Topic("load/shaft", TWIST, *_RELIABLE, 200, "live", "one shaft speed, twist.angular.y, rad/s"),
     Topic("monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides",
           "verdict, lines and scores"),
+    Topic("follower/estimate", STRING, *_RELIABLE, 50, "every stretch of 1.5 s",
+          "JSON: health, condition, estimates with intervals, covariance, growth and forecast, as steps[] of "
+          "`beardyn follow --json`"),
+    Topic("follower/residual", STRING, *_RELIABLE, 50, "as the follower's twin runs",
+          "JSON: third octaves heard and of the twin beside, as residual of `beardyn follow --json`"),
     Topic("/diagnostics", DIAGNOSTICS, *_RELIABLE, 50, "every 0.2 s",
           "real-time factor, status bits, energy residual, late and lost blocks"),
     Topic("/clock", CLOCK, *_RELIABLE, 10, "every 20 ms", "simulated time"),

@@ -25,7 +25,8 @@ from test.ros.graph import Graph
 
 NO_BODIES = np.zeros(0, dtype=[("sample", "<u4")])
 LIVE_ONLY = ("load/wrench", "load/shaft")
-ABSENT = (*LIVE_ONLY, "temperature")  # the scene has no thermal effect
+# no thermal effect in the scene, no follower beside
+ABSENT = (*LIVE_ONLY, "temperature", "follower/estimate", "follower/residual")
 
 
 def is_connected(graph: Graph, part: str) -> None:

@@ -1,0 +1,85 @@
+"""Stretches out of blocks of vibration and shaft as they come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated as A
+
+import numpy as np
+
+from beardyn_core.arrays import Float, Int
+from beardyn_core.errors import InputError
+from beardyn_core.follow.descriptors import AXES
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.listening import FEWEST_TURNS
+from beardyn_core.observe.chain import Stretch
+
+_SAME_RATE = 1e-3
+_GAP = 1.5  # samples
+
+
+@dataclass
+class StretchIntake:
+    """Gathers vibration and shaft until both cover a stretch; a gap begins a new one."""
+
+    estimator: Estimator
+    gaps: A[int, "in the vibration"] = 0
+    unfit: A[int, "stretches in which the shaft stood, turned back or was too slow"] = 0
+    _times: list[Int] = field(default_factory=list)
+    _heard: list[Float] = field(default_factory=list)
+    _turn_times: list[Int] = field(default_factory=list)
+    _turns: list[Float] = field(default_factory=list)
+
+    def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
+        """Add a block, shape [sample, 3], [m/s^2].
+
+        Raises
+        ------
+        InputError
+            It is not sampled as the estimator hears.
+        """
+        if len(time_ns) < 2:
+            return
+        period = float(time_ns[-1] - time_ns[0]) / (len(time_ns) - 1)
+        if abs(1e9 / period / self.estimator.rate - 1.0) > _SAME_RATE:
+            raise InputError(
+                f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator hears "
+                f"{self.estimator.rate:.0f} Hz"
+            )
+        if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < _GAP * period:
+            self.gaps += 1
+            self._times, self._heard = [], []
+        self._times.append(time_ns)
+        self._heard.append(acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]])
+
+    def push_shaft(self, time_ns: Int, angle: Float) -> None:
+        """Add samples of the tachometer; an angle that wraps is unwrapped."""
+        if self._turn_times and len(time_ns) and time_ns[0] <= self._turn_times[-1][-1]:
+            self._turn_times, self._turns = [], []
+        if len(time_ns):
+            before = self._turns[-1][-1:] if self._turns else np.zeros(0)
+            self._turn_times.append(time_ns)
+            self._turns.append(np.unwrap(np.concatenate([before, angle]))[len(before) :])
+
+    def stretch(self) -> Stretch | None:
+        """Give the next stretch when all of it has come; what is unfit is left out."""
+        length = round(self.estimator.stretch * self.estimator.rate) + 1
+        if sum(map(len, self._times)) < length or not self._turn_times:
+            return None
+        times, heard = np.concatenate(self._times), np.concatenate(self._heard)
+        turn_times, turns = np.concatenate(self._turn_times), np.concatenate(self._turns)
+        if turn_times[-1] < times[length - 1]:
+            return None
+        self._times, self._heard = [times[length:]] if len(times) > length else [], [heard[length:]]
+        if not self._times:
+            self._heard = []
+        kept = max(int(np.searchsorted(turn_times, times[length - 1])) - 1, 0)
+        self._turn_times, self._turns = [turn_times[kept:]], [turns[kept:]]
+        angle = np.interp(times[:length], turn_times, turns)
+        turned = np.diff(angle)
+        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
+        known = turn_times[0] <= times[0] and np.isfinite(heard[:length]).all()
+        if not (known and one_way and abs(angle[-1] - angle[0]) >= FEWEST_TURNS * 2.0 * np.pi):
+            self.unfit += 1
+            return None
+        return Stretch(self.estimator.rate, heard[:length], angle, np.nan, int(times[length - 1]))

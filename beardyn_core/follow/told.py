@@ -1,0 +1,83 @@
+"""What is told of estimates in JSON: the same keys in commands and on topics, explained in docs/json.md."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from beardyn_core.follow.estimator import Estimates
+from beardyn_core.follow.following import Followed
+from beardyn_core.follow.forecast import Forecast
+from beardyn_core.follow.regression import LEVELS
+from beardyn_core.follow.residual import Residual
+
+
+def forecast_object(remains: Forecast) -> dict[str, Any]:
+    """Give what JSON has of a forecast."""
+    return {
+        "widest_m": remains.widest,
+        "remaining_m": remains.remaining,
+        "equivalent_load_N": remains.equivalent_load,
+        "life_m": remains.life,
+        "reference_life_m": remains.reference_life,
+        "used": remains.used,
+    }
+
+
+def estimates_object(found: Estimates) -> dict[str, Any]:
+    """Give what JSON has of the estimates."""
+    names = [f"{100 * level:.0f}" for level in LEVELS]
+    part = found.part
+    return {
+        "condition": None
+        if part is None
+        else {
+            "name": part.condition,
+            "probability": part.probability,
+            **{f"set_{name}": each for name, each in zip(names, part.sets, strict=True)},
+        },
+        "estimates": {
+            f"{each.quantity.name}_{each.quantity.unit}": {
+                "value": each.value,
+                **{
+                    f"interval_{name}": each.intervals[k] if each.intervals else None
+                    for k, name in enumerate(names)
+                },
+                "reason": each.reason,
+            }
+            for each in found.quantities
+        },
+        "strangeness": found.strangeness,
+        "stretches": found.stretches,
+        "shaft_frequency_Hz": found.shaft_frequency,
+    }
+
+
+def step_object(step: Followed) -> dict[str, Any]:
+    """Give what JSON has of one stretch."""
+    return {
+        "time_s": step.time,
+        "distance_m": step.distance,
+        "health": step.health,
+        "doubts": step.doubts,
+        "changed": step.changed,
+        "surprise": step.surprise,
+        **estimates_object(step.estimates),
+        "growth_m2_per_m": step.rate[0],
+        "growth_factor_90": step.rate[1],
+        "names": step.names,
+        "covariance": step.covariance,
+        "forecast": None if step.remains is None else forecast_object(step.remains),
+    }
+
+
+def residual_object(residual: Residual) -> dict[str, Any]:
+    """Give what JSON has of heard and twin."""
+    return {
+        "axes": residual.axes,
+        "frequency_Hz": residual.middles,
+        "measured_dB": residual.measured,
+        "twin_dB": residual.twin,
+        "tolerance_dB": residual.tolerance,
+        "explained": residual.explained,
+        "sentences": residual.sentences,
+    }

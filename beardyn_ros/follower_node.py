@@ -1,0 +1,275 @@
+"""Follow one bearing as a node: load, end play and spall from what a train has.
+
+Inputs are ``vibration``, ``shaft`` and ``temperature`` of the axlebox; those of a real one are remapped:
+``-r vibration:=measured/vibration``. It never reads ``truth``, loads, ``contacts``, ``bodies`` or
+``joint_states``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rclpy.node import Node
+
+from beardyn_core.api.following import follower_of, residual_beside
+from beardyn_core.arrays import Float
+from beardyn_core.config import load_plate
+from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.follow.descriptors import describe
+from beardyn_core.follow.estimator import Estimates
+from beardyn_core.follow.following import SOUND, WAITING, Followed
+from beardyn_core.follow.forecast import Service
+from beardyn_core.follow.intake import StretchIntake
+from beardyn_core.follow.residual import Residual
+from beardyn_core.follow.told import residual_object, step_object
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import cloud_times
+from beardyn_core.record.messages import (
+    Diagnostic,
+    decode,
+    decode_diagnostics,
+    encode_diagnostics,
+    encode_string,
+)
+from beardyn_core.record.reading import run_of_messages
+from beardyn_core.record.topics import TEMPERATURE, topic
+from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.frames import frame_of
+from beardyn_ros.message_guard import MessageGuard
+from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.runtime import run_node, wall_timer
+from beardyn_ros.twin_watch import TwinWatch
+from beardyn_ros.wire import RawIntake, TopicPublishers
+
+FOLLOWER = "follower"
+TICK_S = 0.05
+REPORT_PERIOD_S = 0.5
+KEPT_ROWS = 4  # stretches that are compared with the twin beside
+
+PARAMETERS = (
+    NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
+    NodeParameter("estimator", "", "file of `beardyn train`; empty: the one shipped for the bearing"),
+    NodeParameter("mileage", 0.0, "of the bearing so far", "km", minimum=0.0, maximum=1e8),
+    NodeParameter(
+        "wheel_diameter", 920.0, "running diameter of the wheel", "mm", minimum=300.0, maximum=1500.0
+    ),
+    NodeParameter("twin", "", "sound scene of this axlebox on its track, a twin beside; empty: none"),
+    NodeParameter("twin_tier", "quasistatic", "of the twin beside", choices=("lumped", "quasistatic")),
+    NodeParameter(
+        "twin_period",
+        6.0,
+        "time from one comparison with the twin to the next",
+        "s",
+        minimum=1.0,
+        maximum=1e6,
+    ),
+    NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
+)
+
+
+class FollowerNode(Node):
+    """Shows vibration and shaft to a `Follower` and publishes what it knows."""
+
+    def __init__(self) -> None:
+        super().__init__(FOLLOWER, namespace="axlebox")
+        self.finished = False
+        self.exit_code = 0
+        self._values = ParameterValues(self, PARAMETERS)
+        self._service = Service(1e3 * self._values.mileage, 1e-3 * self._values.wheel_diameter)
+        self._worker = ThreadPoolExecutor(1)
+        self._out = TopicPublishers(self, "follower/estimate", "follower/residual", "/diagnostics")
+        self._intake = RawIntake(self, polled=True)
+        self._guard = MessageGuard(self)
+        self._begin()
+        for name, handler in (
+            ("vibration", self._on_vibration),
+            ("shaft", self._on_shaft),
+            ("temperature", self._on_temperature),
+            ("/diagnostics", self._on_diagnostics),
+        ):
+            entry = topic(name)
+            self._intake.add(entry, self._guard.guarded(entry, handler), keep_all=name != "/diagnostics")
+        self._watch = TwinWatch(
+            diagnostic_name(self.get_namespace(), TWIN),
+            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
+        )
+        self._reported_at = 0.0
+        wall_timer(self, TICK_S, self._tick)
+        known = ", ".join(self._follower.names)
+        self.get_logger().info(f"{self._follower.estimator.plate.name}: follows {known}")
+
+    def _begin(self) -> None:
+        try:
+            plate = load_plate(self._values.bearing)
+        except InputError as error:
+            raise InputError(
+                [f"node follower, parameter 'bearing': {each}" for each in error.problems]
+            ) from None
+        try:
+            self._follower = follower_of(plate, self._values.estimator or None, service=self._service)
+        except InputError as error:
+            problems = [f"node follower, parameter 'estimator': {each}" for each in error.problems]
+            raise InputError(problems) from None
+        self._stretches = StretchIntake(self._follower.estimator)
+        self._shaft: list[bytes] = []
+        self._rows: list[Float] = []
+        self._latest: Followed | None = None
+        self._temperature = math.nan
+        self._last_sample = -1
+        self._way = 0.0
+        self._compared_at = -math.inf
+        self._comparing: Future[Residual] | None = None
+        self._residual: Residual | None = None
+        self._trouble = ""
+        self._summed_up = False
+
+    # --- what a train has --------------------------------------------------------------------------
+
+    def _on_vibration(self, cdr: bytes) -> None:
+        points = cloud_points(cdr)
+        if not len(points):
+            return
+        if int(points["sample"][-1]) <= self._last_sample:
+            self.get_logger().info("the vibration starts again, so does the follower")
+            self._begin()
+        self._last_sample = int(points["sample"][-1])
+        acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
+        try:
+            self._stretches.push_vibration(cloud_times(cdr, points), acceleration)
+        except InputError as error:
+            self._trouble = str(error)
+
+    def _on_shaft(self, cdr: bytes) -> None:
+        self._shaft.append(cdr)
+
+    def _on_temperature(self, cdr: bytes) -> None:
+        message = decode(TEMPERATURE, cdr)
+        if message.header.frame_id.rpartition("/")[2] == "axlebox":
+            self._temperature = float(message.temperature)
+
+    def _on_diagnostics(self, cdr: bytes) -> None:
+        self._watch.take_statuses(decode_diagnostics(cdr)[1])
+
+    # --- what it knows -----------------------------------------------------------------------------
+
+    def _tick(self) -> None:
+        self._intake.sweep()
+        if self._shaft:
+            turning = run_of_messages({"shaft": self._shaft}, None).shaft
+            self._stretches.push_shaft(turning.time_ns, turning.angle)
+            self._shaft = []
+        while (stretch := self._stretches.stretch()) is not None:
+            estimator = self._follower.estimator
+            row = describe(stretch, estimator.orders, estimator.plate, estimator.axes)
+            self._way += abs(stretch.revolutions) * math.pi * self._service.wheel_diameter
+            self._take(row, 1e-9 * stretch.end_ns)
+        self._hear_twin()
+        if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
+            self._report()
+        if self._watch.ended and self._comparing is None and not self._summed_up:
+            self._summed_up = True
+            self._publish(self._latest, final=True)
+            self._report()
+            self._out.wait_until_received("follower/estimate", 1.0)
+        if self._summed_up or self._watch.vanished():
+            self.finished = bool(self._values.exit_when_done)
+
+    def _take(self, row: Float, end: float) -> None:
+        earlier = WAITING if self._latest is None else self._latest.health
+        step = self._latest = self._follower.take(row, end, self._way)
+        self._rows = [*self._rows, row][-KEPT_ROWS:]
+        self._publish(step)
+        if step.health != earlier:
+            say = self.get_logger().info if step.health in (WAITING, SOUND) else self.get_logger().warning
+            say(step.sentence)
+        due = end - self._compared_at >= self._values.twin_period
+        if self._values.twin and due and self._comparing is None and step.health != WAITING:
+            self._compared_at = end
+            known, rows = step.estimates, np.stack(self._rows)
+            self._comparing = self._worker.submit(self._compare, known, rows)
+
+    def _publish(self, step: Followed | None, final: bool = False) -> None:
+        told = {} if step is None else step_object(step)
+        self._out.publish("follower/estimate", _encoded({"final": final, **told}))
+
+    def _compare(self, known: Estimates, rows: Float) -> Residual:
+        """Run the twin beside, in the thread of the worker."""
+        from beardyn_core.api.making import scene
+
+        base = scene(Path(self._values.twin))
+        return residual_beside(self._follower.estimator, rows, known, base, self._values.twin_tier)
+
+    def _hear_twin(self) -> None:
+        """Publish what the twin beside has come to, when it is done."""
+        if self._comparing is None or not self._comparing.done():
+            return
+        done, self._comparing = self._comparing, None
+        try:
+            self._residual = done.result()
+        except (InputError, ValidityError) as error:
+            self._trouble = f"twin beside: {error}"
+            self.get_logger().error(self._trouble, throttle_duration_sec=5.0)
+            return
+        told = {"time_s": self._compared_at, **residual_object(self._residual)}
+        self._out.publish("follower/residual", _encoded(told))
+
+    def _report(self) -> None:
+        self._reported_at = time.monotonic()
+        namespace = self.get_namespace()
+        counts = self._intake.publisher_counts()
+        heard = all(counts.get(topic(name).path(namespace), 0) for name in ("vibration", "shaft"))
+        step = self._latest
+        health = WAITING if step is None else step.health
+        doubts = () if step is None else step.doubts
+        unexplained = () if self._residual is None else self._residual.sentences
+        told = "; ".join([*doubts, *unexplained, *filter(None, [self._trouble])])
+        status = Diagnostic(
+            diagnostic_name(namespace, FOLLOWER),
+            OK if health in (WAITING, SOUND) and not told and not self._guard.total else WARN,
+            f"{health}{': ' if told else ''}{told}",
+            (
+                ("connected", "true" if heard else "false"),
+                ("health", health),
+                ("stretches", str(self._follower.stretches)),
+                ("unfit_stretches", str(self._stretches.unfit)),
+                ("gaps_in_vibration", str(self._stretches.gaps)),
+                ("surprise", "" if step is None else f"{step.surprise:.2f}"),
+                ("temperature", "" if math.isnan(self._temperature) else f"{self._temperature:.1f}"),
+                ("explained_by_twin", "" if self._residual is None else f"{self._residual.explained:.3f}"),
+                *self._guard.values(),
+            ),
+        )
+        stamp = 0 if step is None else round(1e9 * step.time)
+        self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(namespace), [status]))
+
+    def close(self) -> bool:
+        """Wait for the twin beside, which is short."""
+        self._worker.shutdown(wait=True, cancel_futures=True)
+        return False
+
+
+def _encoded(content: Mapping[str, Any]) -> bytes:
+    return encode_string(json.dumps(_plain(content), allow_nan=False))
+
+
+def _plain(value: Any) -> Any:
+    """Convert to what strict JSON can hold: NaN and infinity to null, arrays and tuples to lists."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(each) for key, each in value.items()}
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the node until the twin has ended."""
+    return run_node(FollowerNode, argv)

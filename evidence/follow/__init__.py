@@ -1,0 +1,8 @@
+"""A follower beside a train that is played by the tier `full`: `make follow`.
+
+======== ==================================================================
+module   responsibility
+======== ==================================================================
+demo     hidden truth, what the follower makes of it, picture
+======== ==================================================================
+"""
