@@ -89,12 +89,12 @@ if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
     from beardyn_core.twin import Twin
 else:
-    from beardyn_core import bearing, scene
+    from beardyn_core import bearing, follow, scene
 
-__all__ = ["Bearing", "Block", "Chain", "EffectSet", "Estimates", "Estimator", "Forecast"]
-__all__ += ["GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
+__all__ = ["Bearing", "Block", "Chain", "EffectSet", "Estimates", "Estimator", "Following"]
+__all__ += ["Forecast", "GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
 __all__ += ["Run", "RunSummary", "Scene", "Service", "Twin", "ValidityError", "bearing", "blocks"]
-__all__ += ["Following", "equilibrium", "estimate", "fault_frequencies", "film", "follow"]
+__all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
@@ -102,7 +102,7 @@ __all__ += ["torque", "train", "trend"]
 
 _MODULES = {
     "api.estimating": ("estimate", "forecast", "train"),
-    "api.following": ("Following", "follow"),
+    "api.following": ("Following",),
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
@@ -129,6 +129,8 @@ _MODULES = {
     "scene.scene": ("Scene",),
     "twin": ("Twin",),
 }
+_ROOMS = {"bearing": "api.making", "follow": "api.following", "scene": "api.making"}
+"""Rooms whose name is also that of a function, and where that is."""
 _PLACE = {name: module for module, names in _MODULES.items() for name in names}
 
 
@@ -136,7 +138,7 @@ class _CallableRoom(ModuleType):
     """A room whose name is also that of a function: ``bd.scene("cup_spall")`` makes a scene."""
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
-        """Call the function of `beardyn_core.api.making` with the name of the room."""
+        """Call the function of `beardyn_core.api` with the name of the room."""
         return self._function(*arguments, **options)
 
     @property
@@ -155,11 +157,12 @@ class _CallableRoom(ModuleType):
 
     @property
     def _function(self) -> Any:
-        return getattr(import_module("beardyn_core.api.making"), self.__name__.rpartition(".")[2])
+        name = self.__name__.rpartition(".")[2]
+        return getattr(import_module(f"beardyn_core.{_ROOMS[name]}"), name)
 
 
 if not TYPE_CHECKING:
-    bearing.__class__ = scene.__class__ = _CallableRoom
+    bearing.__class__ = follow.__class__ = scene.__class__ = _CallableRoom
 
     def __getattr__(name: str) -> Any:
         """Import a name of `__all__` when it is first asked for."""

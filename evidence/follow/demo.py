@@ -57,7 +57,8 @@ def table(found: Following) -> str:
         told = each.reason
         if np.isfinite(each.value):
             low, high = each.intervals[-1]
-            told = f"{show(each.value):>10}  {show(low)} to {show(high)}{'' if low <= truth <= high else ', missed'}"
+            missed = "" if low <= truth <= high else ", missed"
+            told = f"{show(each.value):>10}  {show(low)} to {show(high)}{missed}"
         lines.append(f"{name + ' ' + show(truth):32} {told}")
     return "\n".join(lines)
 
@@ -111,9 +112,7 @@ def main(argv: list[str] | None = None) -> int:
     print("\n".join(each.sentence for each in found.steps))
     print("\n" + table(found))
     if found.residual is not None:
-        print(
-            f"{100 * found.residual.explained:.0f} % of the third octaves are within tolerance of the twin beside"
-        )
+        print(f"{100 * found.residual.explained:.0f} % of the third octaves are as those of the twin")
     draw(found, args.output)
     print(f"{args.output} is written, {time.perf_counter() - began:.0f} s in all")
     return 0
