@@ -143,8 +143,8 @@ TAIL = """
 - Most faults of balls are missed, and so are the smallest ones of the fan end's cup away from its load zone;
   BPFO of a 6203 lies 1.8 % over the third multiple of the shaft, and multiples of the shaft are left out.
 - Most records show one bearing in one mounting four times, at four loads: they are no independent samples.
-- Faults of the cage have no pattern here; a cage turns too slowly for a record of 60 revolutions to tell it
-  from the rest.
+- Faults of the cage have no verdict: lines of its speed are there with faults of cup and rollers as well
+  ([trial.md](trial.md#what-it-does-not-say)).
 """
 
 
