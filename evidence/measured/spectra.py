@@ -10,7 +10,8 @@ Coherence is the spectrum over time of the power of each carrier, over its mean,
 bands, the four neighbouring carriers are taken in which a part stands out most (the idea of the IESFOgram;
 Mauricio and others 2020, Mech. Syst. Signal Process. 144). The autogram's band is that of the largest
 kurtosis of the autocorrelation of the squared envelope (Moshrefzadeh, Fasana 2018, Mech. Syst. Signal
-Process. 105).
+Process. 105). Blind deconvolution (`evidence.measured.cycbd`) is aimed at each part in turn; then also at
+orders where no fault is, so that each pattern of the comparison has the filter that favours it.
 """
 
 from __future__ import annotations
@@ -28,11 +29,12 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain import MonitorResult, MonitorSettings, Stretch
-from beardyn_core.observe.chain.fault_lines import FAULTS, fault_patterns
+from beardyn_core.observe.chain.fault_lines import FAULTS, Pattern, fault_patterns
 from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.observe.features import local_background, order_spectrum
 from evidence.measured.cases import CWRU_12_DRIVE, Listening, listenings, records
+from evidence.measured.cycbd import deconvolved
 from evidence.measured.run import verdicts_of
 
 OUT = 6.0  # standard deviations
@@ -40,6 +42,7 @@ GRADES = ("Y1", "Y2")
 SECONDS, INTERVAL = 5.2, 2.0  # of a record, and between its analyses
 FRAME, HOP, TOGETHER, STRIDE = 64, 8, 4, 3  # samples of a carrier's frame; carriers of a band
 BESIDE = np.concatenate([np.linspace(0.78, 0.95, 12), np.linspace(1.05, 1.22, 12)])  # of a fault's order
+AIMED_BESIDE = BESIDE[1::3]  # at which blind deconvolution is aimed as well
 HIGHEST, WIDTH = 1.22, 3.0
 
 
@@ -81,19 +84,52 @@ def standing(spectrum: Spectrum, orders: FaultFrequencies, settings: MonitorSett
     """Lay the pattern of each part at its order and at those beside, each within the tolerance."""
     parts, nulls = [], []
     for pattern in fault_patterns(orders):
-        lines = np.array(pattern.lines(settings.harmonics))
-
-        def best(order: float, lines: Float = lines, sideband: float = pattern.sideband) -> float:
-            half = settings.tolerance * order
-            trial = np.arange(order - half, order + half, 0.25 * spectrum.resolution / settings.harmonics)
-            index = np.rint((trial[:, None] * lines[:, 0] + sideband * lines[:, 1]) / spectrum.step)
-            power = spectrum.power[np.minimum(index.astype(int), len(spectrum.power) - 1)]
-            return float((power.sum(axis=1) - power.max(axis=1)).max())
-
-        null = np.array([best(share * pattern.order) for share in BESIDE])
-        parts.append((best(pattern.order) - null.mean()) / null.std())
+        null = np.array([laid(pattern, spectrum, share * pattern.order, settings) for share in BESIDE])
+        parts.append((laid(pattern, spectrum, pattern.order, settings) - null.mean()) / null.std())
         nulls.append((null.max() - null.mean()) / null.std())
     return Standing(np.array(parts), max(nulls))
+
+
+def laid(pattern: Pattern, spectrum: Spectrum, order: float, settings: MonitorSettings) -> float:
+    """Add the lines of a pattern but the strongest at the best place near an order."""
+    lines = np.array(pattern.lines(settings.harmonics))
+    half = settings.tolerance * order
+    trial = np.arange(order - half, order + half, 0.25 * spectrum.resolution / settings.harmonics)
+    index = np.rint((trial[:, None] * lines[:, 0] + pattern.sideband * lines[:, 1]) / spectrum.step)
+    power = spectrum.power[np.minimum(index.astype(int), len(spectrum.power) - 1)]
+    return float((power.sum(axis=1) - power.max(axis=1)).max())
+
+
+def aimed(
+    stretch: Stretch, orders: FaultFrequencies, settings: MonitorSettings
+) -> Iterator[tuple[str, Standing]]:
+    """Compute how far the parts stand out behind blind deconvolution, aimed at them, and beside them too."""
+    band = whole_band(stretch, settings)
+    highest = settings.harmonics * HIGHEST * max(orders.bpfi, 2.0 * orders.bsf) + 6.0
+
+    def behind(order: float) -> Spectrum:
+        filtered = replace(stretch, acceleration=deconvolved(stretch, order, settings))
+        tracked = by_angle(filtered.squared_envelope((band.low, band.high)), stretch, settings)
+        return tracked_spectrum(tracked, highest, settings)
+
+    patterns = fault_patterns(orders)
+    spectra = [behind(pattern.order) for pattern in patterns]
+    each = [standing(spectrum, orders, settings) for spectrum in spectra]
+    own = np.array([one.parts[index] for index, one in enumerate(each)])
+    yield "CYCBD, aimed at each part", Standing(own, max(one.null for one in each))
+    parts, nulls = [], []
+    for pattern, spectrum in zip(patterns, spectra, strict=True):
+        places = AIMED_BESIDE * pattern.order
+        null = np.array([laid(pattern, behind(place), place, settings) for place in places])
+        parts.append((laid(pattern, spectrum, pattern.order, settings) - null.mean()) / null.std())
+        nulls.append((null.max() - null.mean()) / null.std())
+    yield "CYCBD, aimed beside as well", Standing(np.array(parts), max(nulls))
+
+
+def tracked_spectrum(tracked: Float, highest: float, settings: MonitorSettings) -> Spectrum:
+    """Compute the spectrum of power over equal steps of the shaft angle."""
+    found = order_spectrum(tracked, settings.samples_per_revolution, highest, WIDTH)
+    return over_median(found.amplitude, found.order[1], found.resolution)
 
 
 def carriers(stretch: Stretch, highest: float, settings: MonitorSettings) -> list[Spectrum]:
@@ -141,9 +177,7 @@ def standings(
     highest = settings.harmonics * HIGHEST * max(orders.bpfi, 2.0 * orders.bsf) + 6.0
 
     def of(tracked: Float) -> Standing:
-        found = order_spectrum(tracked, settings.samples_per_revolution, highest, WIDTH)
-        spectrum = over_median(found.amplitude, found.order[1], found.resolution)
-        return standing(spectrum, orders, settings)
+        return standing(tracked_spectrum(tracked, highest, settings), orders, settings)
 
     power = white.squared_envelope((band.low, band.high))
     yield "log envelope, whitened (the chain's)", of(logarithm_by_angle(power, stretch, settings))
@@ -157,6 +191,7 @@ def standings(
         starts = range(0, len(every) - TOGETHER + 1, STRIDE)
         bands = [standing(together(every[k : k + TOGETHER]), orders, settings) for k in starts]
         yield f"{name}, band by fault lines", max(bands, key=lambda each: each.lead)
+    yield from aimed(stretch, orders, settings)
 
 
 def heard_by_all(listening: Listening) -> list[dict[str, Standing]]:

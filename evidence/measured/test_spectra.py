@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from beardyn_core.arrays import Float
 from beardyn_core.config import load_plate
 from beardyn_core.observe.chain import MonitorSettings, Stretch
+from evidence.measured.cycbd import deconvolved, on_harmonics, strongest_near
 from evidence.measured.spectra import standings
 
 RATE, SHAFT, SECONDS = 12_000.0, 30.0, 2.0
@@ -27,6 +29,28 @@ def heard(strike: float) -> Stretch:
 def test_each_finds_a_clear_fault_and_none_in_noise() -> None:
     orders, settings = load_plate("6205").frequencies, MonitorSettings()
     found = {name: each.called for name, each in standings(heard(6.0), orders, settings)}
-    assert len(found) == 6
+    assert len(found) == 8
     assert set(found.values()) == {"cup"}
     assert {each.called for _, each in standings(heard(0.0), orders, settings)} == {""}
+
+
+def test_blind_deconvolution_finds_the_ringing_of_strikes_and_order_in_noise_too() -> None:
+    orders, settings = load_plate("6205").frequencies, MonitorSettings()
+    struck, noise = heard(1.0), heard(0.0)
+
+    def share(signal: Float, stretch: Stretch) -> float:
+        power = signal**2
+        order = strongest_near(power, stretch, orders.bpfo, settings)
+        part = on_harmonics(power, order * stretch.shaft_angle, settings.harmonics)
+        return float(np.mean(part * power) / np.mean(power) ** 2)
+
+    before, after = (
+        share(signal, struck)
+        for signal in (struck.acceleration[:, 0], deconvolved(struck, orders.bpfo, settings))
+    )
+    assert after > 3.0 * before
+    spectrum = np.abs(np.fft.rfft(deconvolved(struck, orders.bpfo, settings)))
+    assert abs(np.fft.rfftfreq(len(struck.shaft_angle), 1.0 / RATE)[spectrum.argmax()] - 3e3) < 500.0
+    assert share(deconvolved(noise, orders.bpfo, settings), noise) > 3.0 * share(
+        noise.acceleration[:, 0], noise
+    )
