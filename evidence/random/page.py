@@ -10,7 +10,7 @@ from pathlib import Path
 from beardyn_core.integrate.status import SENTENCES, Status
 from evidence.pages import DOCS
 from evidence.random.book import last_code, results
-from evidence.random.scenes import KERNELS
+from evidence.random.scenes import BEARINGS, KERNELS
 from evidence.random.trial import ENDS, FAILED, REFUSED, VERDICTS, Tried
 
 PAGE = DOCS / "random.md"
@@ -89,9 +89,9 @@ def page(every: list[Tried]) -> str:
 
 def plain(sentence: str) -> str:
     """Put dots in place of the numbers of a sentence, so that alike ones are counted together."""
-    words = re.sub(r"\[[-\d.e+ ]+\]|(?<![\w])[-+]?\d[\d.]*(e[-+]?\d+)?", "…", " ".join(sentence.split()))
-    names = re.sub(r"\b(AARK_6\.5x9|FR130x230x150|HS130x230|METRO120x220)\b", "the bearing", words)
-    return names.replace("|", "\\|")
+    words = re.sub(rf"\b({'|'.join(map(re.escape, BEARINGS))})\b", "the bearing", " ".join(sentence.split()))
+    plain = re.sub(r"\[[-\d.e+ ]+\]|(?<![\w])[-+]?\d[\d.]*(e[-+]?\d+)?", "…", words)
+    return plain.replace("|", "\\|")
 
 
 if __name__ == "__main__":
