@@ -3,8 +3,8 @@
 Film and traction of a lamina change with its load, the slip and the speed that draws the oil in, all slower
 than a contact's springs bounce. In between a lamina rubs with the coefficient of the last time, friction over
 slip speed and load: the friction still follows its load and the slip of each step, and the step stays
-implicit in it. Rolling resistance is held whole. A contact that has just begun, or is near a patch, is always
-worked out.
+implicit in it. Rolling resistance is held whole. Where a roller of a block has just begun to press, or is
+near a patch, friction is worked out.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
+from beardyn_core.kernels.lane_math import where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.model.layout import HELD_COEFFICIENT, HELD_COUPLE, HELD_FROM
 
@@ -34,18 +35,20 @@ def is_fresh(step, held):
 
 
 @inline
-def hold_contact(lanes, block, ring, fresh, near, held):
-    """Decide whether the friction of a contact is that of the memory: a `Held`."""
-    return Held(lanes, held, 2 * block + ring, _is_recalled(lanes, 2 * block + ring, fresh or near, held))
+def hold_contact(lanes, block, ring, anew, approach, held):
+    """Decide whether friction is that of the memory, at an approach of the middle [m]: a `Held`."""
+    return Held(lanes, held, 2 * block + ring, _is_recalled(lanes, 2 * block + ring, anew, approach, held))
 
 
 @inline
-def _is_recalled(lanes, page, anew, held):
+def _is_recalled(lanes, page, anew, approach, held):
     if held is None:
         return False
     if anew:
         return False
-    return any_positive(lanes.load(held.memory, page, HELD_FROM))
+    pressed = lanes.load(held.memory, page, HELD_FROM)
+    begun = where_greater(approach, 0.0, 1.0 - pressed, 0.0 * pressed)
+    return any_positive(pressed) and not any_positive(begun)
 
 
 @inline
@@ -57,11 +60,11 @@ def forget(held, params):
 
 
 @inline
-def remember(held, params):
-    """Take note that the memory of a contact is filled."""
+def remember(held, load, params):
+    """Take note that the memory of a contact is filled, and which lanes press on their middle, [N]."""
     if params is None:
         return
-    held.lanes.store(params.memory, held.page, HELD_FROM, held.lanes.constant(1.0))
+    held.lanes.store(params.memory, held.page, HELD_FROM, where_greater(load, 0.0, 1.0, 0.0 * load))
 
 
 @inline

@@ -184,7 +184,7 @@ def _friction_sums(raceway, slip, log2_speed, table, damage):
         rate = _friction_rate(contact, held, effects, held.params, damage)
         mark_result(effects.timers, TRACTION, rate)
         friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
-    _remember(held, damage)
+    _remember(held, lanes.load(work, _LOADS, springs // 2), damage)
     return friction
 
 
@@ -205,10 +205,10 @@ def _keep(held, lamina, coefficient, damage):
 
 
 @inline
-def _remember(held, damage):
-    """Take note that the friction of a contact far from every patch is kept."""
+def _remember(held, load, damage):
+    """Take note of the load of the middle, [N], where friction was kept: far from every patch."""
     if damage is None:
-        remember(held, held.params)
+        remember(held, load, held.params)
 
 
 @inline

@@ -95,7 +95,7 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, fresh, p):
     slip = line_slip(line, centre, body, view)
     surfaces = (faults.surface, faults.roller_surface)
     near = find_damage(lanes, block, azimuths, p.laminae.shape[1], surfaces, faults.damage)
-    held = hold_contact(lanes, block, ring.number, fresh, near, p.held)
+    held = hold_contact(lanes, block, ring.number, fresh or near, line.approach[0], p.held)
     log2_speed = _log2_speed(lanes, entrainment_speed(line, centre, body, view), held, p.effects.film)
     reach = p.roller.half_length + abs(p.roller.mass_offset)
     turning = contact_turning(body, view, faults.damage)

@@ -101,7 +101,7 @@ LAMINA_FILM, LAMINA_PRESSURE = 4, 6
 LAMINA_ROWS = 8
 
 # --- friction held of a raceway contact [2 x block + ring, field, lane]
-HELD_FROM = 0  # 1 if the memory is filled
+HELD_FROM = 0  # 1 in the lanes that pressed when the memory was filled
 HELD_COUPLE = 1  # against rolling [N m]
 HELD_COEFFICIENT = 2  # of each lamina: friction over slip speed and load [s/m]
 

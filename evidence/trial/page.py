@@ -13,6 +13,7 @@ from typing import Any
 
 from beardyn_core.observe.chain import MonitorSettings
 from evidence.pages import DOCS, PICTURES, save_small
+from evidence.trial.rivals import EVERY, Judged, table
 
 PAGE = DOCS / "trial.md"
 PICTURE = PICTURES / "trial.png"
@@ -109,14 +110,17 @@ def main() -> None:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path, nargs="+", help="of `beardyn trial -o`, that of `default` first")
-    folders = parser.parse_args().folder
+    parser.add_argument("--rivals", type=Path, help="of `python -m evidence.trial.rivals -o`; default none")
+    args = parser.parse_args()
+    folders = args.folder
     found, *others = (json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders)
-    PAGE.write_text(page(found, others), encoding="utf-8")
+    rivals = [] if args.rivals is None else json.loads(args.rivals.read_text(encoding="utf-8"))
+    PAGE.write_text(page(found, others, [Judged(**each) for each in rivals]), encoding="utf-8")
     save_small(folders[0] / "trial.png", PICTURE, COLOURS)
 
 
-def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = ()) -> str:
-    """Write the page of a trial's JSON object, and of others in short."""
+def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = (), rivals: Sequence[Judged] = ()) -> str:
+    """Write the page of a trial's JSON object, of others in short, and of monitors over the same runs."""
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,
@@ -159,6 +163,7 @@ def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = ()) -> str:
         _analyses(found),
         *_check(found),
         *_invalid(found),
+        *_rivals(rivals),
         *(line for other in others for line in _in_short(other)),
     ]
     return "\n".join(lines) + "\n" + about + LIMITS
@@ -177,6 +182,23 @@ def _in_short(found: dict[str, Any]) -> list[str]:
         *_slices(found),
         _analyses(found),
         *_invalid(found),
+    ]
+
+
+def _rivals(judged: Sequence[Judged]) -> list[str]:
+    if not judged:
+        return []
+    return [
+        "",
+        "## Beside other monitors",
+        "",
+        f"Every {EVERY}th run of `default`, simulated once and heard by the monitors of "
+        "[monitor_measured.md](monitor_measured.md) (`python -m evidence.trial.rivals`): *ours*, a plain "
+        "*envelope* spectrum, and the same after cepstrum pre-whitening (*CPW*), both without contradiction "
+        "and bound.",
+        "",
+        table(judged),
+        "",
     ]
 
 

@@ -11,6 +11,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
 from evidence.trial.page import page
+from evidence.trial.rivals import Judged, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
 
@@ -48,3 +49,22 @@ def test_tiers_are_compared_on_the_same_run_in_a_box_that_rings() -> None:
     assert full.effects.structure is not None
     assert full.effects == fast.effects
     assert (full.seed, full.defects) == (fast.seed, fast.defects)
+
+
+def test_the_rivals_are_counted_over_the_same_runs() -> None:
+    judged = [
+        Judged(method, run, fault, verdict, alarms, 4)
+        for method, verdicts in {
+            "ours": ("cup", "healthy"),
+            "envelope": ("cone", "cup"),
+            "CPW": ("cup", "cup"),
+        }.items()
+        for run, fault, verdict, alarms in (
+            ("a", "cup", verdicts[0], 4),
+            ("b", "none", verdicts[1], 0 if verdicts[1] == "healthy" else 1),
+        )
+    ]
+    rows = [row.split(" | ") for row in table(judged).splitlines()[2:]]
+    assert [row[1].split(",")[0] for row in rows] == ["1/1", "0/1", "1/1"]
+    assert [row[2:4] for row in rows] == [["0", "0"], ["1", "0"], ["0", "0"]]
+    assert [row[5].split(",")[0] for row in rows] == ["0/4", "1/4", "1/4"]

@@ -13,7 +13,7 @@ from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.film import log2_entrainment
 from beardyn_core.kernels.generator_line import generator_line, line_slip
-from beardyn_core.kernels.held import Held, is_fresh
+from beardyn_core.kernels.held import Held, hold_contact, is_fresh, remember
 from beardyn_core.kernels.laminae import Raceway, lamina_sums
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.kernels.raceway import RacewayContact, push_raceway
@@ -53,6 +53,15 @@ def in_pairs(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         wrench = push_raceway(contact, p.effects.damping)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)
+
+
+@entry
+def asked_again(lanes: Any, cases: Any, out: Any, held: Any) -> None:
+    """Remember loads, and ask for approaches of later steps: one answer a block."""
+    for block in range(cases.shape[0]):
+        remember(Held(lanes, held, 0, False), lanes.load(cases, block, 0), held)
+        again = hold_contact(lanes, 0, 0, False, lanes.load(cases, block, 1), held)
+        lanes.store(out, block, 0, lanes.constant(1.0 if again.recalled else 0.0))
 
 
 def parameters(traction: Any, integrator: str = "implicit") -> Parameters:
@@ -114,3 +123,11 @@ def test_friction_is_worked_out_in_every_step_where_nothing_is_held_and_in_the_f
     assert not any(bool(is_fresh(step, None)) for step in range(4))  # then it is not asked
     held = HeldParams(3.0, np.zeros((1, 3, 8)))
     assert [bool(is_fresh(step, held)) for step in range(5)] == [True, False, False, True, False]
+
+
+def test_friction_is_recalled_only_where_every_lane_that_presses_pressed_when_it_was_worked_out() -> None:
+    held = HeldParams(3.0, np.zeros((2, 3, 8)))
+    pressing, idle, begun, ended = (100.0, 1e-6), (0.0, -1e-6), (0.0, 1e-6), (100.0, -1e-6)
+    blocks = [[pressing] * 7 + [last] for last in (pressing, idle, begun, ended)] + [[idle] * 8]
+    found = through(Lanes(8), asked_again, np.array(blocks).reshape(-1, 2), 1, held)
+    assert found.reshape(-1, 8)[:, 0].tolist() == [1.0, 1.0, 0.0, 1.0, 0.0]

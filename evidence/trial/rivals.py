@@ -1,0 +1,106 @@
+"""The reference, a plain envelope spectrum and cepstrum pre-whitening over the same runs of a trial.
+
+``python -m evidence.trial.rivals -o FILE``: every fifth run of `default`, simulated once, heard by the three
+monitors of docs/monitor_measured.md, so that the twin can be seen to rank them as measured records do;
+``python -m evidence.trial.page FOLDER --rivals FILE`` has it on the page.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated as A
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.choice import load_trial, trial_scene, with_choices
+from beardyn_core.observe.chain import FAULTS, MonitorSettings
+from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.run import blocks
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.trial import HEALTHY, Cell
+from beardyn_core.study.monitored_recording import WAITING, Finding, conclude
+from beardyn_core.study.trial_result import Rate
+from evidence.measured.run import METHODS
+
+EVERY = 5  # no divisor of the 36 runs of a size: it walks through speeds, tracks and wheels
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What one monitor says of one run."""
+
+    method: str
+    run: A[str, "key of its cell"]
+    fault: A[str, "``none`` of a sound bearing"]
+    verdict: A[str, "of most analyses"]
+    alarms: A[int, "analyses that call a part"]
+    analyses: int
+
+
+def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
+    """Simulate a run once and let every monitor hear it, with an analysis every ``interval`` [s]."""
+    signals = [MonitorInput.of_block(block) for block in blocks(scene)]
+    orders, count = fault_frequencies(scene.bearing), scene.bearing.roller_count
+    judged = []
+    for method, algorithm in METHODS.items():
+        monitor = Monitor(orders, count, settings=MonitorSettings(interval=interval), algorithm=algorithm)
+        found = [*listen(monitor, signals), monitor.result()]
+        said = [result.verdict for result in found if result.verdict != WAITING]
+        verdict = conclude([Finding.of(result) for result in found]).verdict
+        alarms = sum(each in FAULTS for each in said)
+        judged.append(Judged(method, cell.key, cell.fault, verdict, alarms, len(said)))
+    return judged
+
+
+def table(judged: Sequence[Judged]) -> str:
+    """Write what each monitor found, named wrongly and missed, and its false alarms, as a table."""
+    lines = [
+        "| monitor | right | another part | missed | sound runs with a false alarm | analyses of them |",
+        "|---|---|--:|--:|---|---|",
+    ]
+    for method in METHODS:
+        own = [each for each in judged if each.method == method]
+        faulty = [each for each in own if each.fault != HEALTHY]
+        sound = [each for each in own if each.fault == HEALTHY]
+        right = sum(each.verdict == each.fault for each in faulty)
+        wrong = sum(each.verdict in FAULTS and each.verdict != each.fault for each in faulty)
+        alarmed = Rate.of(sum(each.alarms > 0 for each in sound), len(sound))
+        called = Rate.of(sum(each.alarms for each in sound), sum(each.analyses for each in sound))
+        lines.append(
+            f"| {method} | {_text(Rate.of(right, len(faulty)))} | {wrong} | {len(faulty) - right - wrong} | "
+            f"{_text(alarmed)} | {_text(called)} |"
+        )
+    return "\n".join(lines)
+
+
+def _text(rate: Rate) -> str:
+    return (
+        f"{rate.count}/{rate.total}, {100 * rate.value:.3g} % ({100 * rate.low:.2g} to {100 * rate.high:.3g})"
+    )
+
+
+def main() -> int:
+    """Run, print and write."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="JSON")
+    parser.add_argument("--trial", default="default", help="default `default`")
+    parser.add_argument("--every", type=int, default=EVERY, metavar="N", help=f"runs heard, default {EVERY}")
+    args = parser.parse_args()
+    trial = with_choices(load_trial(args.trial))
+    cells = [cell for cell in trial.cells() if not cell.checks][:: args.every]
+    judged: list[Judged] = []
+    for number, cell in enumerate(cells, start=1):
+        judged += hear(trial_scene(trial, cell), cell, trial.interval)
+        said = ", ".join(f"{each.method} {each.verdict}" for each in judged[-len(METHODS) :])
+        print(f"{number} of {len(cells)}: {cell.key}: {said}", flush=True)
+        args.output.write_text(json.dumps([asdict(each) for each in judged], indent=0), encoding="utf-8")
+    print(table(judged))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
