@@ -20,7 +20,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo follow test same slow hard bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
+.PHONY: help demo follow test same slow hard random bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -43,6 +43,9 @@ slow: $(VENV)/.ready-test $(VENV)/.ready-docs ## set up, then the long tests as 
 
 hard: $(VENV)/.ready-test ## set up, then the battery of hard cases side by side: table, hard.json; goes on where it was interrupted
 	@$(BIN)/python -m evidence.hard $(ARGS)
+
+random: $(VENV)/.ready-test ## set up, then random legal scenes, each finite or ended with a sentence, ARGS="--fast 10000 --full 300"; goes on where it was interrupted
+	@$(BIN)/python -m evidence.random $(ARGS)
 
 bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
 	@$(BIN)/python -m benchmarks $(ARGS)

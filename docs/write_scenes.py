@@ -28,6 +28,7 @@ from beardyn_core.scene.scene import Scene
 
 PAGE = Path(__file__).with_name("scenes.md")
 FOLDER = Path(__file__).with_name("pictures") / "scenes"
+SIGNALS = Path(__file__).with_name("pictures") / "signals"  # of write_signals.py
 LARGEST_PICTURE = 40_000
 COLOURS = 16
 
@@ -44,6 +45,12 @@ Every railway scene is there to test a monitor: some have a fault that must be f
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
 excitation of a run is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
 strikes of a flat, joints passed, each with time and distance.
+
+The pictures show the vertical load on the journal (line: mean, band: least and greatest) and the speed;
+red triangles are strikes, yellow stretches where a scene has something else to meet. A second picture is of
+a run in tier `quasistatic` with the standard effects (`python docs/write_signals.py`): vertical vibration
+of the axlebox, its spectrum, and that of its envelope between 2 and 8 kHz; the orders of faults of cup, cone
+and roller are dotted.
 
 Bearings of the railway scenes are as made, grade G1 of
 [manufacturing scatter](model.md#manufacturing-scatter); those under a constant load are as drawn.
@@ -125,8 +132,10 @@ def page() -> str:
             scene.purpose,
             "",
             f"![{scene.name}](pictures/scenes/{scene.name}.png)",
+            "",
         ]
-        lines.append("")
+        if (SIGNALS / f"{scene.name}.png").exists():
+            lines += [f"![{scene.name}, vibration and spectra](pictures/signals/{scene.name}.png)", ""]
     lines += ["## Scenes under a constant load", "", "| scene | purpose |", "|---|---|"]
     lines += [f"| `{scene.name}` | {scene.purpose} |" for scene in scenes if not railway(scene)]
     lines += ["", "## Irregularity", "", *_irregularities(), "", "## Defects of wheel and rail", ""]
@@ -248,6 +257,11 @@ def problems() -> list[str]:
             found.append(
                 f"{path.name} has {path.stat().st_size} bytes; less than {LARGEST_PICTURE} are allowed"
             )
+    found += [
+        f"signals/{path.name} has {path.stat().st_size} bytes; less than {LARGEST_PICTURE} are allowed"
+        for path in sorted(SIGNALS.glob("*.png"))
+        if path.stat().st_size >= LARGEST_PICTURE
+    ]
     return found
 
 

@@ -7,6 +7,7 @@ validation  docs/validation.md: published numbers and trends beside ours
 santos2017  docs/santos2017.md: the runs of Santos (2017) again
 contacts    docs/contacts.md: the contact laboratory
 hard        docs/hard.md: situations in which codes of this kind break
+random      docs/random.md: whatever a scene may say ends finite or with a sentence
 step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
 light       docs/light.md: cages under light loads
 structure   docs/structure.md: modes of an axlebox beside its finite elements
@@ -25,6 +26,6 @@ standard    shipped scenes with the standard effects
 pages       where pages and pictures go, and how pictures are made small
 =========== ======================================================================================
 
-``python -m evidence.NAME.page`` writes the page. The numbers of `hard` and `step` are made before that, by
-``python -m evidence.hard`` and ``python -m evidence.step``. None of this is installed with the package.
+``python -m evidence.NAME.page`` writes the page. The numbers of `hard`, `random` and `step` are made before
+that, by ``python -m evidence.hard`` and so on. None of this is installed with the package.
 """

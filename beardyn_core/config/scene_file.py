@@ -14,7 +14,7 @@ from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import tagged
 from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
-from beardyn_core.edge import NounError, Problem, places
+from beardyn_core.edge import NounError, Problem, alternatives, kinds_of, places
 from beardyn_core.effects import EffectSet
 from beardyn_core.errors import InputError
 from beardyn_core.scene.background import Background
@@ -93,6 +93,14 @@ class EffectsFile(FileModel):
         return super()._advice(key, given)
 
 
+# of effects of several kinds: the one that a mapping has when it does not say one
+_USUAL_KINDS = {
+    place.key: kinds_of(options[0])[0]
+    for place in places(EffectSet)
+    if place.at.switch and len(options := alternatives(place.hint)) > 1
+}
+
+
 def overlay(preset: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     """Change the effects of a preset: named options replace those of the preset, the rest stays."""
     merged = dict(preset)
@@ -101,7 +109,7 @@ def overlay(preset: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
         if (
             isinstance(change, dict)
             and isinstance(base, dict)
-            and change.get("kind", base.get("kind")) == base.get("kind")
+            and change.get("kind", of := base.get("kind", _USUAL_KINDS.get(key))) == of
         ):
             if "table" in change:  # the content is that of the table before
                 base = {name: value for name, value in base.items() if name != "content"}

@@ -17,8 +17,11 @@ from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_bending import openings_at_pockets
 from beardyn_core.model.tier_parameters import LumpedParameters
 
-_ITERATIONS = 60
+_ITERATIONS = 200
+_HALVINGS = 20
 _TOLERANCE = 1e-9
+# Where no roller holds the cone in some direction it wanders there: what is missing then is as good as none.
+_ACCEPTABLE, _ACCEPTABLE_FORCE = 1e-8, 1e-2  # of the load; [N]
 
 
 def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
@@ -102,14 +105,21 @@ def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
 
 
 def settle_lumped(
-    p: LumpedParameters, pose: Float, bent: Float, load: Float, modal_load: Float, cage_rate: float
+    p: LumpedParameters,
+    pose: Float,
+    bent: Float,
+    load: Float,
+    modal_load: Float,
+    cage_rate: float,
+    restraint: Float,
 ) -> tuple[Float, Float]:
     """Find the pose of the cone and the bending of the box in the static equilibrium of the lumped tier.
 
     ``pose`` [5]: displacement and tilt about x and z to start from [m], [rad]; ``bent`` [mode]: amplitudes to
     start from [m sqrt(kg)]; ``load`` [5] or [3]: force on the cup and, with a free tilt, moment about x and z
     [N], [N m]; ``modal_load`` [mode]: what else but rollers pushes the modes [N/sqrt(kg)]; ``cage_rate``:
-    [rad/s].
+    [rad/s]; ``restraint`` [2]: stiffness of the suspension against tilt about x and z [N m/rad], without
+    which nothing holds the tilt of a single row.
 
     Raises
     ------
@@ -121,6 +131,7 @@ def settle_lumped(
     sides = np.broadcast_to(p.sides[0, 0], counted.shape)
     springs = np.zeros(len(load))
     springs[1] = p.base.mounting.prop_stiffness
+    springs[3:] = restraint[: len(load) - 3]
     held, opening = len(load), np.zeros((*counted.shape, 0))
     if p.bending is not None:
         opening = openings_at_pockets(p.bending, p.base, len(np.unique(sides)))
@@ -149,20 +160,41 @@ def settle_lumped(
     # modes count as far as they open a raceway
     scale = np.concatenate([scale, np.maximum(np.sqrt((normal[:, held:] ** 2).mean(axis=0)), 1e-3)])
     terms = np.arange(len(spring.series))
-    for _ in range(_ITERATIONS):
-        approach = normal @ found - gap
+
+    def missing_at(place: Float) -> tuple[Float, Float]:
+        """Work out what load is not carried at a place, and the stiffness of what carries."""
+        approach = normal @ place - gap
         root = np.maximum(approach, 1e-12) ** (1.0 / 9.0)
         pressing = approach > 0.0
         pressed = pressing * approach * root * (root[:, None] ** terms @ spring.series)
-        tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12)
+        tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12) * (pressed > 0.5 * idle)
         force = np.maximum(pressed + 0.5 * idle, idle)
-        missing = load - force @ normal - springs * found
-        if np.abs(missing / scale).max() <= _TOLERANCE * max(np.abs(load / scale).max(), 1.0):
-            break
-        tangent = tangent * (pressed > 0.5 * idle)
         stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
+        return load - force @ normal - springs * place, stiffness
+
+    missing, stiffness = missing_at(found)
+    most = float(np.abs(load / scale).max())
+    for _ in range(_ITERATIONS):
+        size = float(np.abs(missing / scale).max())
+        if size <= _TOLERANCE * max(most, 1.0):
+            break
         change = np.linalg.solve(stiffness, missing)
-        found = found + change * min(1.0, 2e-5 / float(np.abs(change * scale).max()))
+        change *= min(1.0, 2e-5 / float(np.abs(change * scale).max()))
+        # what carries stiffens as it gives way: a way that ends pushed back half as hard was too long
+        pushed = float(missing @ change)
+        for _ in range(_HALVINGS):
+            missing, stiffness = missing_at(found + change)
+            if float(missing @ change) >= -0.5 * pushed:
+                break
+            change, pushed = 0.5 * change, 0.5 * pushed
+        found = found + change
     else:
-        raise ValidityError("the lumped tier found no static equilibrium under the first load")
+        size = float(np.abs(missing / scale).max())
+        if not size <= _ACCEPTABLE * most + _ACCEPTABLE_FORCE:
+            raise ValidityError(
+                f"the lumped tier found no static equilibrium under the first load in {_ITERATIONS} steps: "
+                f"{size:.3g} N are left. Check load, end play and preload; a single row needs an axial load "
+                "or a prop against its own thrust (mounting.axial_prop_stiffness_MN_per_m); tier quasistatic "
+                "finds its equilibrium by itself"
+            )
     return np.concatenate([found[:held], pose[held:]]), found[held:]

@@ -20,6 +20,7 @@ from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model import tier_parameters
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
+from beardyn_core.model.mounting import tilt_restraint
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_bending import bending_params, step_body
 from beardyn_core.model.tier_waves import highest_wave, rolling_wave_params
@@ -134,6 +135,7 @@ def _start_lumped(
         carried if free else carried[:3],
         modal_load,
         cage_speed(scene.bearing, load[6]),
+        tilt_restraint(scene.mounting, parameters.base.mounting),
     )
     state.bodies[CONE_BODY, POSITION : POSITION + 3] = pose[:3]
     state.bodies[CONE_BODY, [TILT, TILT + 2]] = pose[3:]

@@ -19,6 +19,7 @@ from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS, Background, Roug
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
+    STEP_SAMPLE_NS,
     ConstantOperation,
     Operation,
     QuarterVehicleOperation,
@@ -27,7 +28,7 @@ from beardyn_core.scene.operation import (
 from beardyn_core.scene.running import distance_at, speed_at
 from beardyn_core.scene.scene import Scene
 
-SAMPLE_NS = 500_000
+SAMPLE_NS = STEP_SAMPLE_NS
 # a strike of the wheel lasts about half a millisecond
 STRIKE_SAMPLE_NS = 100_000
 # a flat of 35 mm at 400 km/h passes in a third of a millisecond

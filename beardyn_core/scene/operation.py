@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,14 +12,17 @@ from typing import Any, ClassVar
 
 from beardyn_core.edge import At, Problem, Vector, refuse, written
 from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
+from beardyn_core.scene.load_check import LARGEST_SPEED_JUMP
 from beardyn_core.scene.mounting import Guidance, ProgressiveSuspension
 from beardyn_core.scene.running import POINTS, Braking, Curve, Profile, Starting, not_ascending
 from beardyn_core.scene.wheelset import Wheelset
+from beardyn_core.units import UNITS
 
 WHEEL_PROFILES = ("worn", "cone")
 WHEELSETS = ("coupled", "elastic", "rigid")
 TAKES = ("both", "force", "speed")
 MOST_RPM = 6000.0
+STEP_SAMPLE_NS = 500_000  # between samples of the load of a stepped operation
 SHAFT_SPEED = At("rpm", ge=-MOST_RPM, le=MOST_RPM)
 
 
@@ -70,6 +74,22 @@ class SteppedOperation:
                 yield (
                     f"steps[{index}].time_s is {two:g}; the ramp of the step before ends at "
                     f"{one + self.ramp:g} s, it must not begin earlier"
+                )
+        yield from self._jumps()
+
+    def _jumps(self) -> Iterator[str]:
+        """Find changes of speed that no load with such samples may have; see `scene.load_check`."""
+        turn = math.pi * STEP_SAMPLE_NS * 1e-9 / max(self.ramp, STEP_SAMPLE_NS * 1e-9)
+        share = math.sin(0.5 * min(turn, math.pi))  # of the change, within the steepest sample of the ramp
+        for index, (one, two) in enumerate(itertools.pairwise(self.steps), start=1):
+            change = abs(two.speed - one.speed)
+            if share * change > LARGEST_SPEED_JUMP:
+                least = 0.5 * math.pi * STEP_SAMPLE_NS * 1e-9 / math.asin(LARGEST_SPEED_JUMP / change)
+                yield (
+                    f"steps[{index}].speed_rpm changes by {UNITS['rpm'].to_edge(change):.4g} within ramp_s "
+                    f"{self.ramp:g}; a wheelset changes by at most "
+                    f"{UNITS['rpm'].to_edge(LARGEST_SPEED_JUMP):.0f} rpm in "
+                    f"{STEP_SAMPLE_NS / 1e6:g} ms: make ramp_s at least {least * 1.001:.3g}"
                 )
 
 

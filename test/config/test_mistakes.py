@@ -13,8 +13,11 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import InputError
+from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.load_check import problem_with
+from beardyn_core.scene.operation import SteppedOperation
 
 GOOD = """\
 scene: mine
@@ -261,6 +264,8 @@ def test_a_cage_is_the_free_one_unless_it_says_otherwise(write: Write) -> None:
     )
     preset = load_scene(write(GOOD + "effects: {preset: dry, cage: {lubrication: true}}\n")).effects.cage
     assert preset == Cage(friction=0.15, lubrication=PocketFilm())
+    said = GOOD + "effects: {preset: dry, cage: {kind: six_dof, lubrication: true}}\n"
+    assert load_scene(write(said)).effects.cage == preset
 
 
 @pytest.mark.parametrize(
@@ -372,3 +377,26 @@ def test_what_is_changed_in_a_mapping_is_not_in_the_next_one_of_the_same_text() 
     first = read_mapping("deep: {list: [1, 2]}", "a.yaml")
     first["deep"]["list"].append(3)
     assert read_mapping("deep: {list: [1, 2]}", "b.yaml") == {"deep": {"list": [1, 2]}}
+
+
+def test_a_speed_that_jumps_as_no_wheelset_does_is_refused_with_its_key(write: Write) -> None:
+    def problems(ramp: float, rpm: float) -> list[str]:
+        levels = [{"time_s": time, "force_kN": [0, 0, 8], "speed_rpm": time * rpm} for time in (0, 1)]
+        operation = {"kind": "stepped", "ramp_s": ramp, "steps": levels}
+        try:
+            scene = load_scene(write(write_mapping({**read_mapping(GOOD, "mine"), "operation": operation})))
+        except InputError as error:
+            return error.problems
+        assert isinstance(scene.operation, SteppedOperation)
+        load = load_history(scene.operation, scene.mounting, 1.2, 1)
+        assert problem_with(load, None) is None  # what the scene may say, the run takes
+        return []
+
+    assert problems(0.0, 470.0) == []
+    assert problems(0.011, 5900.0) == []
+    (problem,) = problems(0.0, 480.0)
+    assert "operation: steps[1].speed_rpm changes by 480 within ramp_s 0" in problem
+    assert "make ramp_s at least" in problem
+    (problem,) = problems(0.009, 5900.0)
+    needed = float(problem.rsplit(" ", 1)[1])
+    assert problems(needed, 5900.0) == []

@@ -213,3 +213,28 @@ def test_quasistatic_rollers_follow_an_axial_load_through_the_play(frequency: fl
     common = min(len(force) for force in found.values())  # the filters hold back samples of unlike steps
     # of first order in the step; a tenth of a percent of the swing
     assert np.sqrt(np.mean((found[1][:common] - found[8][:common]) ** 2)) < 20.0
+
+
+@pytest.mark.parametrize("speed_rpm", [0, 1000, 3000, 6000])
+@pytest.mark.parametrize("force_kN", [0.0, -0.0048, -0.2, 20.0])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        "missing_rollers: [{row: 0, roller: 3}]",
+        "scatter: {grade: G5, seed: 3}",
+        "rows: 1\nmounting: {cup: suspended, axial_prop_stiffness_MN_per_m: 50}",
+    ],
+    ids=["missing roller", "scatter", "single row"],
+)
+def test_lumped_tier_starts_with_light_loads_and_single_rows(
+    keys: str, force_kN: float, speed_rpm: float
+) -> None:
+    """Rollers that come and go, and a row whose tilt nothing but the box's springs holds."""
+    scene = scene_from_text(
+        "scene: light\nbearing: HS130x230\nlubricant: L055\ntier: lumped\neffects: standard\n"
+        f"operation: {{kind: constant, force_kN: [0, 0, {force_kN}], speed_rpm: {speed_rpm}}}\n{keys}\n",
+        "light",
+    )
+    twin = Twin(scene)
+    twin.start(load_history(scene.operation, scene.mounting, 0.02, 1))
+    assert np.isfinite(twin.snapshot().state.bodies).all()
