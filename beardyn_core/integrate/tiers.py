@@ -22,6 +22,7 @@ from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.tier_bending import bending_params, step_body
+from beardyn_core.model.tier_waves import highest_wave, rolling_wave_params
 from beardyn_core.scene.scene import Scene
 
 
@@ -57,14 +58,15 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
     sides = tier_parameters.row_sides(base, scene.rows)
     return tier_parameters.LumpedParameters(
         step=base.step,
-        base=tier_parameters.without_roller_dynamics(base),
+        base=tier_parameters.without_surfaces(tier_parameters.without_roller_dynamics(base)),
         kinematic=tier_parameters.kinematic_params(scene),
         motion=motion,
         response=response,
         spring=spring,
         pockets=tier_parameters.pocket_directions(base),
         sides=sides,
-        faults=tier_parameters.faults_or_none(base),
+        faults=tier_parameters.patches_or_none(base.effects.faults),
+        waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
         bending=bending_params(scene, base, response.give, response.lever, sides),
     )
 
@@ -86,6 +88,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         tangent=tier_parameters.roller_tangent(scene.bearing),
         pockets=tier_parameters.pocket_directions(base),
         sides=sides,
+        highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         loose=tier_parameters.loose_params(scene, base.step),
     )

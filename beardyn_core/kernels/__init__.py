@@ -29,6 +29,7 @@ module            responsibility, in the order of the data
 ================= ============================================================
 lanes             the lane value, its arithmetic, load and store
 lane_math         elementary and saturating functions with stated errors
+lane_tables       tables in memory: two points in one look, what is needed soon
 vectors           three-vectors of lane values, wrenches and twists
 exchange          what a contact hands to rings, audit and outputs
 orbit             motion of rollers in frames that turn with their orbit
@@ -63,6 +64,8 @@ loose_rollers     rollers in the pockets of cages that turn and hang (quasistati
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 kinematic_bending bending of the axlebox in the fast tiers
+joint_bending     few modes and rigid rings together on the springs of rollers
+rolling_waves     waviness under rollers that orbit kinematically (lumped tier)
 spring_roller     a roller as one spring (lumped tier)
 ================= ============================================================
 """

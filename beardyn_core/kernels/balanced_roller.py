@@ -17,8 +17,9 @@ from __future__ import annotations
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import damper_time
-from beardyn_core.kernels.lamina_springs import cup_springs, lamina_springs
+from beardyn_core.kernels.lamina_springs import cup_springs, lamina_springs, most_bend
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater
+from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract, turn_in
 from beardyn_core.kernels.waviness import crown_bend, wave_gap
 
@@ -230,8 +231,9 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     centre = subtract((place[0], zero, place[1]), views[0])
     full_axis = (axis[0], zero, axis[1])
     line = cone_line(centre, full_axis, views[1], radius, base.cone, roller)
-    cone_wave = wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
-    cone_wave = cone_wave + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
+    nearest = line[3][0] + roller.half_length * magnitude(line[3][1])
+    nearest = nearest + most_bend((line[3][2] + crown, line[3][3]), roller.half_length)
+    cone_wave = cone_waves(lanes, block, nearest, azimuths, faults, p.highest_wave, faults.cone_damage)
     cone = lamina_springs(
         lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2] + crown, line[3][3]),
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
@@ -271,6 +273,22 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     rib_deeper = rib_way[0] * move[0] + rib_way[1] * move[1] + rib_way[2] * move[2]
     rib_load = at_least(rib_force + factor * rib_stiffness * rib_deeper, 0.0)
     return move, cup_load, cone_load, rib_load, lever, cup_approach[0]
+
+
+@inline
+def cone_waves(lanes, block, nearest, azimuths, faults, highest, damage):
+    """Look up the gap of waviness on the cone; 0 for a block of rollers that are all beyond its reach, [m].
+
+    ``nearest``: largest approach of the rollers without it [m]; ``highest``: bound of the gap [m];
+    ``damage``: patches, whose rims may reach further.
+    """
+    gap = lanes.constant(0.0)
+    if damage is not None:
+        nearest = gap + 1.0
+    if any_positive(nearest + highest):
+        gap = gap + wave_gap(lanes, block, azimuths[1], faults.cone_waves)[0]
+        gap = gap + wave_gap(lanes, block, _PI - azimuths[2], faults.roller_waves)[0]
+    return gap
 
 
 @inline

@@ -18,6 +18,7 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import row_of
 from beardyn_core.kernels.box import SEAT_PLACE, SEAT_SPEED, SUSPENSION
+from beardyn_core.kernels.joint_bending import add_joint_spring, clear_springs, hold_joint, kick_joint
 from beardyn_core.model.layout import SIGNAL_CHANNELS, SUM_FIELDS
 
 PLACE, SPEED, DRAW = range(3)
@@ -48,7 +49,7 @@ def show_openings(lanes, flex, direction, box, step, bending):
     """Move the modes, and write the openings of both raceways for every lane and the suspension's seats."""
     if bending is None:
         return
-    _see(lanes, flex, step, bending)
+    _see(lanes, flex, step, bending, bending.joint)
     seen, shown = bending.seen_row, bending.shown
     openings = bending.rigid.shape[0]
     for i in range(bending.forces.shape[0] - openings):
@@ -78,21 +79,32 @@ def _in_rows(lanes, series_of_rows, term, series, rows, bending):
 
 
 @inline
-def _see(lanes, flex, step, bending):
+def _see(lanes, flex, step, bending, joint):
     """Move the modes and read them: places, speeds, and what their springs and dampers take from these."""
     shapes, seen, draw = bending.shapes, bending.seen, bending.draw
     for m in range(draw.shape[0]):
         flex[PLACE, m] += step * flex[SPEED, m]
         draw[m] = bending.stiffness[m] * flex[PLACE, m] + bending.damping[m] * flex[SPEED, m]
     for block in range(shapes.shape[0]):
-        place, speed, drawn = lanes.constant(0.0), lanes.constant(0.0), lanes.constant(0.0)
+        place, speed = lanes.constant(0.0), lanes.constant(0.0)
         for m in range(draw.shape[0]):
             shape = lanes.load(shapes, block, m)
             place = place + shape * flex[PLACE, m]
             speed = speed + shape * flex[SPEED, m]
-            drawn = drawn + shape * draw[m]
         lanes.store(seen, 0, block, place)
         lanes.store(seen, 0, shapes.shape[0] + block, speed)
+    _see_drawn(lanes, shapes, seen, draw, joint)
+
+
+@inline
+def _see_drawn(lanes, shapes, seen, draw, joint):
+    """Read what springs and dampers of the modes take; modes that are taken as such need no reading."""
+    if joint is not None:
+        return
+    for block in range(shapes.shape[0]):
+        drawn = lanes.constant(0.0)
+        for m in range(draw.shape[0]):
+            drawn = drawn + lanes.load(shapes, block, m) * draw[m]
         lanes.store(seen, 0, 2 * shapes.shape[0] + block, drawn)
 
 
@@ -200,26 +212,36 @@ def _lane_sum(sums, field, start, end):
 
 
 @inline
-def hold_bending(lanes, direction, bending):
+def hold_bending(lanes, direction, bending, joint):
     """Work out what an acceleration of the approach adds to the forces on the openings, and keep it."""
-    tangents, response = bending.tangents, bending.response
-    for block in range(response.shape[0]):
-        for i in range(response.shape[1]):
-            lanes.store(response, block, i, lanes.constant(0.0))
+    tangents = bending.tangents
+    _clear_response(lanes, bending.response, joint)
     for block in range(tangents.shape[0]):
         for lane in range(tangents.shape[2]):
             if tangents[block, 0, lane] > 0.0:
-                _add_spring(lanes, block, lane, direction, bending)
+                _add_spring(lanes, block, lane, direction, bending, joint)
+    if joint is not None:
+        hold_joint(lanes, joint)
 
 
 @inline
-def _add_spring(lanes, block, lane, direction, bending):
-    """Add a roller to the response, see the head of this file."""
+def _clear_response(lanes, response, joint):
+    if joint is not None:
+        clear_springs(lanes, joint)
+        return
+    for block in range(response.shape[0]):
+        for i in range(response.shape[1]):
+            lanes.store(response, block, i, lanes.constant(0.0))
+
+
+@inline
+def _add_spring(lanes, block, lane, direction, bending, joint):
+    """Add a roller to what is held, see the head of this file, or `joint_bending`."""
     spring = bending.lag * bending.tangents[block, 0, lane]
     openings, series = bending.rigid.shape[0], bending.basis.shape[1]
     waves, rows = series // 2, openings // series
     first = series * row_of(0, lane, bending.basis.shape[2], rows)
-    here, yielded, added = bending.rows[0], bending.rows[1], bending.rows[2]
+    here = bending.rows[0]
     for k in range(here.shape[0]):
         here[k] = 0.0
     here[first] = 1.0
@@ -228,6 +250,17 @@ def _add_spring(lanes, block, lane, direction, bending):
     for n in range(1, waves + 1):
         here[first + n], here[first + waves + n] = turn
         turn = turned_by(turn, place)
+    if joint is not None:
+        add_joint_spring(lanes, spring, here[first : first + series], first, joint)
+        return
+    _respond(lanes, spring, first, bending)
+
+
+@inline
+def _respond(lanes, spring, first, bending):
+    """Add a roller, whose waves stand in the first row, to the response."""
+    openings, series = bending.rigid.shape[0], bending.basis.shape[1]
+    here, yielded, added = bending.rows[0], bending.rows[1], bending.rows[2]
     _multiply(lanes, bending.give, first, here[first : first + series], bending.vectors, 1)
     _multiply(lanes, bending.response, 0, yielded[:openings], bending.vectors, 2)
     pivot = 1.0
@@ -243,12 +276,22 @@ def _add_spring(lanes, block, lane, direction, bending):
 
 
 @inline
-def kick_modes(lanes, flex, more, box, signal, step, bending):
+def kick_modes(lanes, flex, more, box, signal, step, bending, joint):
     """Accelerate the modes, and return the wrench on the cup that the held stiffness adds, 5 numbers.
 
     ``more`` (5 numbers): acceleration of the cone against the cup without it; ``signal``: written behind
     `SIGNAL_CHANNELS`: acceleration of the sensors' seats, of the instant itself.
     """
+    if joint is not None:
+        _multiply(lanes, bending.pushes, 0, bending.forces, bending.pushed, 0)
+        return kick_joint(
+            lanes, flex[SPEED], bending.pushed_row, bending.draw, bending.inverse, more, step, joint
+        )
+    return _kick_series(lanes, flex, more, box, signal, step, bending)
+
+
+@inline
+def _kick_series(lanes, flex, more, box, signal, step, bending):
     forces, draw, rigid = bending.forces, bending.seen_row[DRAW], bending.rigid
     given, approach, extra = bending.rows[0], bending.rows[1], bending.rows[2]
     openings, series = rigid.shape[0], bending.basis.shape[1]

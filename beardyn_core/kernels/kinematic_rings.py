@@ -126,7 +126,7 @@ def hold_stiffness(lanes, sums, direction, work, p, bending):
     if bending is None:
         hold_response(sums, direction, work, p)
         return
-    hold_bending(lanes, direction, bending)
+    hold_bending(lanes, direction, bending, bending.joint)
 
 
 @inline
@@ -177,7 +177,7 @@ def _held_wrench(lanes, flex, more, signal, box, work, p, bending):
     if bending is None:
         rows = (_row(work, 0, more), _row(work, 1, more), _row(work, 2, more), _row(work, 3, more))
         return rows[0], rows[1], rows[2], rows[3], _row(work, 4, more)
-    return kick_modes(lanes, flex, more, box, signal, p.step, bending)
+    return kick_modes(lanes, flex, more, box, signal, p.step, bending, bending.joint)
 
 
 @inline

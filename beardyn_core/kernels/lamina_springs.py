@@ -51,7 +51,7 @@ def _sound_moments(lanes, approach, bend, laminae, reach):
     zero = lanes.constant(0.0)
     forces, stiffness = (zero, zero), (zero, zero, zero)
     # where no roller of the block is in contact this look is all
-    if any_positive(approach[0] + reach * magnitude(approach[1]) + _most_bend(bend, reach)):
+    if any_positive(approach[0] + reach * magnitude(approach[1]) + most_bend(bend, reach)):
         for k in range(laminae.shape[1]):
             x = laminae[LAMINA_PLACE, k]
             depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
@@ -73,7 +73,7 @@ def _bend(bend, x):
 
 
 @inline
-def _most_bend(bend, reach):
+def most_bend(bend, reach):
     """Bound of `_bend` along the roller, [m]."""
     if bend is None:
         return 0.0

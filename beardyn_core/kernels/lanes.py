@@ -43,7 +43,7 @@ _INT32 = ir.IntType(32)
 _INT64 = ir.IntType(64)
 
 
-_typed_intrinsic: Callable[[Callable[..., Any]], Any] = intrinsic  # called without the typing context
+typed_intrinsic: Callable[[Callable[..., Any]], Any] = intrinsic  # called without the typing context
 
 
 class VectorType(types.Type):
@@ -130,7 +130,7 @@ def _lanes_width(lanes):
     return lambda lanes: width
 
 
-def _broadcast(builder: Any, value: Any, number: types.Type, target: types.Type) -> Any:
+def broadcast(builder: Any, value: Any, number: types.Type, target: types.Type) -> Any:
     """Turn the LLVM value of a number into `target`, the same in every lane."""
     if isinstance(number, types.Integer):
         value = builder.sitofp(value, _DOUBLE)
@@ -145,12 +145,13 @@ def _broadcast(builder: Any, value: Any, number: types.Type, target: types.Type)
 
 @lower_cast(types.Number, VectorType)
 def _cast_number(_context: Any, builder: Any, number: Any, vector: Any, value: Any) -> Any:
-    return _broadcast(builder, value, number, vector)
+    return broadcast(builder, value, number, vector)
 
 
-def _address(
+def lane_address(
     context: Any, builder: Any, array_type: Any, array: Any, block: Any, field: Any, width: int
 ) -> Any:
+    """Make the LLVM pointer to a lane value of an array."""
     view = context.make_array(array_type)(context, builder, array)
     fields = builder.extract_value(view.shape, 1)
     offset = builder.mul(builder.add(builder.mul(block, fields), field), _INT64(width))
@@ -158,18 +159,19 @@ def _address(
     return pointer if width == 1 else builder.bitcast(pointer, ir.VectorType(_DOUBLE, width).as_pointer())
 
 
-def _require_lane_array(array: Any) -> None:
+def require_lane_array(array: Any) -> None:
+    """Refuse what is no array of lane values."""
     contiguous = isinstance(array, types.Array) and array.ndim == 3 and array.layout == "C"
     if not contiguous or array.dtype != types.float64:
         raise TypeError(f"a lane array is C-contiguous float64 [block, field, lane], not {array}")
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _load(_typing: Any, lanes: Any, array: Any, block: Any, field: Any) -> Any:
-    _require_lane_array(array)
+    require_lane_array(array)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer = _address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
+        pointer = lane_address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
         element = _DOUBLE if lanes.width == 1 else ir.VectorType(_DOUBLE, lanes.width)
         try:
             return builder.load(pointer, align=8, typ=element)
@@ -179,19 +181,19 @@ def _load(_typing: Any, lanes: Any, array: Any, block: Any, field: Any) -> Any:
     return lanes.value(lanes, array, types.intp, types.intp), generate
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _store(_typing: Any, lanes: Any, array: Any, block: Any, field: Any, value: Any) -> Any:
-    _require_lane_array(array)
+    require_lane_array(array)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer = _address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
+        pointer = lane_address(context, builder, signature.args[1], args[1], args[2], args[3], lanes.width)
         builder.store(args[4], pointer, align=8)
         return context.get_dummy_value()
 
     return types.void(lanes, array, types.intp, types.intp, lanes.value), generate
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _gather(_typing: Any, lanes: Any, table: Any, index: Any) -> Any:
     if not isinstance(table, types.Array) or table.ndim != 1 or table.layout != "C":
         raise TypeError(f"a table is contiguous float64 [point], not {table}")
@@ -218,10 +220,10 @@ def _gather(_typing: Any, lanes: Any, table: Any, index: Any) -> Any:
     return lanes.value(lanes, table, lanes.value), generate
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _constant(_typing: Any, lanes: Any, number: Any) -> Any:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return _broadcast(builder, args[1], signature.args[1], lanes.value)
+        return broadcast(builder, args[1], signature.args[1], lanes.value)
 
     return lanes.value(lanes, types.float64), generate
 
@@ -246,7 +248,7 @@ def _lanes_constant(lanes, number):
     return lambda lanes, number: _constant(lanes, number)
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _align_stack(_typing: Any, lanes: Any) -> Any:
     def generate(context: Any, builder: Any, _signature: Any, _args: Any) -> Any:
         builder.function.attributes.alignstack = 8 * max(lanes.width, 2)
@@ -280,7 +282,7 @@ def _lower(emit: Callable[..., Any]) -> Callable[..., Any]:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
         shape = signature.return_type
         return emit(
-            builder, *(_broadcast(builder, v, t, shape) for v, t in zip(args, signature.args, strict=True))
+            builder, *(broadcast(builder, v, t, shape) for v, t in zip(args, signature.args, strict=True))
         )
 
     return generate
@@ -337,7 +339,7 @@ def primitive(emit: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callab
     return decorate
 
 
-@_typed_intrinsic
+@typed_intrinsic
 def _any_positive(_typing: Any, a: Any) -> Any:
     def generate(_context: Any, builder: Any, signature: Any, args: Any) -> Any:
         vector = signature.args[0]

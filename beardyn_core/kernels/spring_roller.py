@@ -36,13 +36,14 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
 )
 from beardyn_core.kernels.lanes import any_positive
+from beardyn_core.kernels.rolling_waves import fetch_waves, wave_places, waved
 from beardyn_core.kernels.vectors import add_scaled
-from beardyn_core.kernels.waviness import wave_gap
 from beardyn_core.model.layout import COUNTED, OVERSIZE, PENETRATION, POCKET_ANGLE, POCKET_COSINE, POCKET_SINE
 
 TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
 _SMALLEST_APPROACH = 1e-12
 _LEAST_FIRM = 1e-6
+_FETCHED_AHEAD = 4  # steps
 _PI = 3.141592653589793
 
 
@@ -86,7 +87,7 @@ def _push(pressed, rate, damping):
 
 @inline
 def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
-    """Work out the cup load with the gaps of faults; without faults as `spring_load`.
+    """Work out the cup load with the gaps of patches; without patches as `spring_load`.
 
     See `over_patches`. Neglects the tilt of the roller that follows.
     """
@@ -98,11 +99,6 @@ def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
     on_cone = (azimuth - turns[1], lanes.constant(_PI - spin))
     cup_near = find_damage(lanes, block, on_cup, count, (faults.cup, faults.roller), faults.cup_damage)
     cone_near = find_damage(lanes, block, on_cone, count, (faults.cone, faults.roller), faults.cone_damage)
-    cup_wave = wave_gap(lanes, block, on_cup[0], faults.cup_waves)[0]
-    cup_wave = cup_wave + wave_gap(lanes, block, on_cup[1], faults.roller_waves)[0]
-    cone_wave = wave_gap(lanes, block, on_cone[0], faults.cone_waves)[0]
-    cone_wave = cone_wave + wave_gap(lanes, block, on_cone[1], faults.roller_waves)[0]
-    approach = approach - (cup_wave + p.spring.cone_share * cone_wave)
     zero = lanes.constant(0.0)
     covered, lost, gap = zero, zero, zero
     for k in range(count):
@@ -172,7 +168,8 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     references to all parameter arrays up and down in every step of a faulty bearing, 0.7 us.
     """
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
-    idle = idle_load(speeds[1], p)
+    idle, places = idle_load(speeds[1], p), wave_places(turns, p.waves)
+    fetch_waves(lanes, rollers.shape[0], wave_places(_later(turns, speeds, p), p.waves), p.waves)
     zero = lanes.constant(0.0)
     loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
     clear_reaction(lanes, sums, p.bending)
@@ -188,7 +185,8 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
         if any_positive(approach):
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
             rate = less_opening(lanes, block, SPEED, rate, p.bending, None)
-            pressed = faulted_load(lanes, block, approach, rate, angle, turns, p.faults, p)
+            closed = waved(lanes, block, approach, places, p.waves)
+            pressed = faulted_load(lanes, block, closed, rate, angle, turns, p.faults, p)
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)
@@ -199,6 +197,14 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     lanes.store(sums, 0, LOAD_COSINE, loads[1])
     lanes.store(sums, 0, LOAD_SINE, loads[2])
     lanes.store(sums, 0, RIB_SUM, loads[0])
+
+
+@inline
+def _later(turns, speeds, p):
+    """Work out the angles of cages, cone and rollers in some steps."""
+    time = _FETCHED_AHEAD * p.step
+    cages = time * speeds[1]
+    return turns[0] + cages, turns[1] + time * speeds[0], turns[2] + p.kinematic.spin_ratio * cages
 
 
 @inline
@@ -219,7 +225,8 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
         approach = less_opening(lanes, block, PLACE, approach, p.bending, None)
-        approach = _spring_depth(approach, load - 0.5 * idle, p.spring, p.faults)
+        # a depth that goes with the load: gaps of faults are not in the approach
+        approach = at_least(approach, p.spring.give * (load - 0.5 * idle))
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
@@ -227,14 +234,6 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
-
-
-@inline
-def _spring_depth(approach, load, spring, faults):
-    """Work out a depth of a spring that goes with its load: gaps of faults are not in the approach, [m]."""
-    if faults is None:
-        return approach
-    return at_least(approach, spring.give * load)
 
 
 @inline

@@ -5,6 +5,7 @@ from __future__ import annotations
 from beardyn_core.jit import inline
 from beardyn_core.kernels.generator_line import Line
 from beardyn_core.kernels.lane_math import floor, magnitude
+from beardyn_core.kernels.lane_tables import gather_pair
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import Wrench, add_wrenches, scale
 
@@ -26,8 +27,8 @@ def wave_gap(lanes, block, azimuth, waves):
     position = (turns - floor(turns)) * waves.points
     cell = floor(position)
     index = cell + lanes.load(waves.first, block, 0)
-    low = lanes.gather(waves.table, index)
-    rise = lanes.gather(waves.table, index + 1.0) - low
+    low, high = gather_pair(lanes, waves.table, index)
+    rise = high - low
     return low + (position - cell) * rise, rise * (waves.points * _PER_TURN)
 
 

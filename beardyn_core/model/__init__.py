@@ -23,5 +23,6 @@ heat             nodes of the thermal network and where losses go
 build            a scene to parameters; how much of a spring a step takes in
 tier_parameters  parameters of the tiers without roller dynamics
 tier_bending     bending of the axlebox in these tiers
+tier_waves       waviness as the rollers of the lumped tier meet it
 ================ ===========================================================
 """

@@ -27,6 +27,23 @@ _LEFT_OUT = 1e-3  # of the compliance of raceways and seats, by the directions t
 _LEFT_OUT_WAVES = 2e-4  # likewise of the raceways, by the highest waves; 2e-3 cost 1.6 % of roller load
 
 
+class JointParams(NamedTuple):
+    """Few modes and the motion of rigid rings together, and their work space; see `kernels.joint_bending`.
+
+    Rows in blocks of lanes with zeros behind the last number: modes, then x, y, z and tilts about x and z.
+    """
+
+    motions: Any  # [opening, block, lane], approach of the raceways by modes and by motion of the cone
+    give: Any  # [row, block, lane], acceleration by forces [-], [1/kg]
+    springs: Any  # work space [row, block, lane]: of the rollers, times `lag`
+    springs_rows: Any  # the same memory [row, number]
+    system: Any  # work space [row, block, lane]
+    system_rows: Any  # the same memory [row, number]
+    response: Any  # work space [row, block, lane]
+    vectors: Any  # work space [2, block, lane]
+    rows: Any  # the same memory [2, number]
+
+
 class BendingParams(NamedTuple):
     """Modes of the box along the normals of the cups, and their work space.
 
@@ -59,6 +76,7 @@ class BendingParams(NamedTuple):
     pushed: Any  # work space [1, block of modes, lane]
     pushed_row: Any  # the same memory [mode]
     draw: Any  # work space [mode]
+    joint: JointParams | None  # where modes are few
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +178,7 @@ def bending_params(
         held = np.where(resolved, dampers / lag, 1.0)
         sensor_give = np.ascontiguousarray((sensors.T * (held / inertia)) @ opening)
     modal_give = (read.T / inertia) @ acting
+    few = fitted.sensors is None and body.suspension is None and modes < openings
     blocks, width = base.rollers.shape[0], base.rollers.shape[2]
     read_blocks, open_blocks, mode_blocks = (-(-n // width) for n in (read.shape[1], openings, modes))
     seen = aligned_zeros(1, 3 * read_blocks, width)
@@ -190,6 +209,30 @@ def bending_params(
         pushed=pushed,
         pushed_row=pushed.reshape(-1),
         draw=np.zeros(modes),
+        joint=_joint_params(acting[:, :openings], rigid, inertia, give, width) if few else None,
+    )
+
+
+def _joint_params(opening: Float, rigid: Float, inertia: Float, give: Float, width: int) -> JointParams:
+    """Put modes and rigid motions together; arguments as of `bending_params`."""
+    modes = len(inertia)
+    count = modes + len(give)
+    whole = np.zeros((count, count))
+    whole[range(modes), range(modes)] = 1.0 / inertia
+    whole[modes:, modes:] = give
+    matrices = [aligned_zeros(count, -(-count // width), width) for _ in range(3)]
+    vectors = aligned_zeros(2, -(-count // width), width)
+    springs, system, response = matrices
+    return JointParams(
+        motions=_in_rows(np.concatenate([-opening.T, rigid], axis=1), width),
+        give=_in_rows(whole, width),
+        springs=springs,
+        springs_rows=springs.reshape(count, -1),
+        system=system,
+        system_rows=system.reshape(count, -1),
+        response=response,
+        vectors=vectors,
+        rows=vectors.reshape(2, -1),
     )
 
 
@@ -214,6 +257,14 @@ def _in_lanes(matrix: Float, width: int) -> Float:
     padded[:rows] = matrix
     stored = aligned_zeros(blocks, columns, width)
     stored[:] = np.moveaxis(padded.reshape(blocks, width, columns), 1, 2)
+    return stored
+
+
+def _in_rows(matrix: Float, width: int) -> Float:
+    """Store a matrix by rows in blocks of lanes, shape [row, block, lane]."""
+    rows, columns = matrix.shape
+    stored = aligned_zeros(rows, -(-columns // width), width)
+    stored.reshape(rows, -1)[:, :columns] = matrix
     return stored
 
 

@@ -17,6 +17,7 @@ from beardyn_core.model.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.model.scatter import mean_crown
 from beardyn_core.model.tier_bending import BendingParams
+from beardyn_core.model.tier_waves import RollingWaveParams
 from beardyn_core.scene.scene import Scene
 
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
@@ -110,7 +111,7 @@ class LooseParams(NamedTuple):
 
 
 class LumpedParameters(NamedTuple):
-    """Everything constant during a lumped run; `faults` is ``None`` in a healthy bearing."""
+    """Everything constant during a lumped run; `faults` is ``None`` in a bearing without patches."""
 
     step: float  # [s]
     base: Parameters
@@ -121,6 +122,7 @@ class LumpedParameters(NamedTuple):
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
     faults: FaultParams | None
+    waves: RollingWaveParams | None
     bending: BendingParams | None
 
 
@@ -135,6 +137,7 @@ class QuasistaticParameters(NamedTuple):
     tangent: float  # stiffness of a pressed roller over the tenth root of its load [N^0.9/m]
     pockets: Any  # [block, 5, lane]: as of `pocket_directions`
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+    highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
     bending: BendingParams | None
     loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
 
@@ -146,6 +149,15 @@ def without_roller_dynamics(base: Parameters) -> Parameters:
         structure=None,
     )  # fmt: skip
     return base._replace(effects=effects, explicit=None, held=None)
+
+
+def without_surfaces(base: Parameters) -> Parameters:
+    """Leave out the faults of raceways and rollers, which the lumped tier has in a form of its own."""
+    faults = base.effects.faults._replace(
+        cup=None, cone=None, roller=None, cup_damage=None, cone_damage=None,
+        cup_waves=None, cone_waves=None, roller_waves=None,
+    )  # fmt: skip
+    return base._replace(effects=base.effects._replace(faults=faults))
 
 
 def flattened(base: Parameters, scene: Scene) -> Parameters:
@@ -295,9 +307,11 @@ def row_sides(base: Parameters, rows: int) -> Any:
     return np.repeat([-1.0, 1.0][:rows], width // rows)[None, None]
 
 
-def faults_or_none(base: Parameters) -> FaultParams | None:
-    """Take the faults of a bearing, ``None`` when it has none."""
-    return base.effects.faults if any(each is not None for each in base.effects.faults) else None
+def patches_or_none(faults: FaultParams) -> FaultParams | None:
+    """Take the faults of a bearing as those of its patches alone, ``None`` when it has none."""
+    if faults.cup is None and faults.cone is None and faults.roller is None:
+        return None
+    return faults._replace(cup_waves=None, cone_waves=None, roller_waves=None, pockets=None, crowns=None)
 
 
 def roller_tangent(bearing: Bearing) -> float:

@@ -50,7 +50,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=1,
             absent=(*_FAST_ABSENT, "slip of cages", "roller displacement and tilt"),
-            blocks_at_once=16,
+            blocks_at_once=32,
             long_steps=(0.25, 0.5),
             long_ring_steps=(0.5,),
         ),
@@ -62,7 +62,7 @@ TIERS = {
             needs_rib=True,
             smallest_laminae=2,
             absent=_FAST_ABSENT,
-            blocks_at_once=8,
+            blocks_at_once=16,
         ),
         TierLimits("full", "every body with 6 degrees of freedom", None, 4, False, 2, ()),
     )

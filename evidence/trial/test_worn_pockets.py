@@ -22,7 +22,7 @@ def test_what_is_louder_once_a_turn_of_the_cage_passes_the_alarm_and_noise_does_
     turned = np.arange(int(REVOLUTIONS / SHAFT * RATE)) * SHAFT / RATE
     loud = 1.0 + louder * ((0.997 * ftf * turned) % 1.0 < 0.08)
     signal = np.random.default_rng(3).normal(size=len(turned)) * loud
-    stretch = Stretch(RATE, signal, 2.0 * math.pi * turned, math.nan, 0)
+    stretch = Stretch(RATE, signal, np.asarray(2.0 * math.pi * turned, np.float64), math.nan, 0)
     (found,) = cage_lines(stretch, ftf, MonitorSettings()).candidates
     assert (found.score >= found.threshold) == (louder > 0.0)
     if louder:

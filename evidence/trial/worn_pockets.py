@@ -37,6 +37,7 @@ from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.observe.features import order_spectrum
 from beardyn_core.run import blocks
 from beardyn_core.scene.defect import WornPocket
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import CAGE
 from evidence.measured.cases import Record, listenings, records
@@ -125,6 +126,8 @@ def cage_lines(stretch: Stretch, ftf: float, settings: MonitorSettings) -> Fault
 
 def show(scene: Scene, pocket: WornPocket) -> Shown:
     """Run a scene and look for the pocket."""
+    if not isinstance(scene.operation, QuarterVehicleOperation):
+        raise TypeError("a trial's scene runs on wheels")
     shaft_frequency = SPEED / 3.6 / (math.pi * scene.operation.wheel_diameter)
     done = list(blocks(scene, SETTLED + (REVOLUTIONS[-1] + 2.0) / shaft_frequency))
     first, begin = round(SETTLED * TREND), round(SETTLED * RATE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.jit import entry, inline
+from beardyn_core.kernels.balanced_roller import cone_waves
 from beardyn_core.kernels.defect import (
     find_damage,
     pocket_length,
@@ -15,9 +16,11 @@ from beardyn_core.kernels.defect import (
 )
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.laminae import released_power
+from beardyn_core.kernels.lane_tables import gather_pair
 from beardyn_core.kernels.orbit import Body, View
 from beardyn_core.kernels.pocket import free_pocket
 from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
+from beardyn_core.kernels.rolling_waves import fetch_waves, wave_places, waved
 from beardyn_core.kernels.spring_roller import over_patches
 from beardyn_core.kernels.vectors import Twist, dot, scale
 from beardyn_core.kernels.waviness import wave_gap
@@ -64,6 +67,38 @@ def wave_gaps(lanes: Any, azimuths: Any, out: Any, block: Any, waves: Any) -> No
         gap, slope = wave_gap(lanes, block, lanes.load(azimuths, case, 0), waves)
         lanes.store(out, case, 0, gap)
         lanes.store(out, case, 1, slope)
+
+
+@entry
+def rolling_gaps(lanes: Any, turns: Any, out: Any, block: Any, waves: Any) -> None:
+    """What waviness takes off the approach of a block at angles of cages, cone and spin [rad]."""
+    for case in range(turns.shape[0]):
+        places = wave_places((turns[case, 0], turns[case, 1], turns[case, 2]), waves)
+        fetch_waves(lanes, block + 1, places, waves)
+        lanes.store(out, case, 0, waved(lanes, block, lanes.constant(0.0), places, waves))
+
+
+@entry
+def pairs_in_table(lanes: Any, indices: Any, out: Any, table: Any) -> None:
+    """Two points of a table beside each other, in one look and in two."""
+    for case in range(indices.shape[0]):
+        index = lanes.load(indices, case, 0)
+        low, high = gather_pair(lanes, table, index)
+        lanes.store(out, case, 0, low)
+        lanes.store(out, case, 1, high)
+        lanes.store(out, case, 2, lanes.gather(table, index))
+        lanes.store(out, case, 3, lanes.gather(table, index + 1.0))
+
+
+@entry
+def waves_on_cone(lanes: Any, cases: Any, out: Any, block: Any, faults: Any, highest: Any) -> None:
+    """Gap of waviness on the cone, where it matters and always: inputs nearest approach, azimuth, spin."""
+    for case in range(cases.shape[0]):
+        azimuth, spin = lanes.load(cases, case, 1), lanes.load(cases, case, 2)
+        azimuths, nearest = (azimuth, azimuth, spin), lanes.load(cases, case, 0)
+        for k, bound in enumerate((highest, 1.0)):
+            gap = cone_waves(lanes, block, nearest, azimuths, faults, bound, faults.cone_damage)
+            lanes.store(out, case, k, gap)
 
 
 @entry

@@ -148,9 +148,38 @@ def test_held_response_is_the_direct_solution(kind: str) -> None:
         springs += bending.lag * bending.tangents[block, 0, lane] * np.outer(waves, waves)
     give = np.moveaxis(bending.give, 1, 2).reshape(-1, openings)[:openings]
     expected = np.linalg.solve(np.eye(openings) + springs @ give, springs)
-    found = np.moveaxis(bending.response, 1, 2).reshape(-1, openings)[:openings]
+    if bending.joint is None:
+        found = np.moveaxis(bending.response, 1, 2).reshape(-1, openings)[:openings]
+    else:  # by modes and motions of the rings: what they do to the series, and these to them
+        joint = bending.joint
+        count = len(joint.give)
+        motions = joint.motions.reshape(openings, -1)[:, :count]
+        expected = motions.T @ expected @ motions
+        found = joint.response.reshape(count, -1)[:, :count]
+        np.testing.assert_allclose(
+            motions @ joint.give.reshape(count, -1)[:, :count] @ motions.T, give, atol=1e-12 * give.max()
+        )
+    assert (bending.joint is None) == (kind == "modes")
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
     assert np.linalg.eigvals(springs @ give).real.max() > 0.1  # it does matter
+
+
+def test_few_modes_and_rings_together_move_as_by_the_series_of_the_openings() -> None:
+    """The same steps with and without `joint_bending`: forces and modes to rounding."""
+    signals, modes = [], []
+    for together in (True, False):
+        twin = started(suspended("lumped", "rings"))
+        assert twin._state is not None
+        twin._state.flex[1] = np.random.default_rng(1).normal(0.0, 1e-3, twin._state.flex.shape[1])
+        p = twin._kernel_parameters
+        if not together:
+            twin._kernel_parameters = p._replace(bending=p.bending._replace(joint=None))
+        signals.append(stepped(twin, 200)[0])
+        modes.append(twin._state.flex.copy())
+    scale = np.abs(signals[1]).max(axis=0) + 1e-3
+    assert np.abs((signals[0] - signals[1]) / scale).max() < 1e-7
+    np.testing.assert_allclose(modes[0], modes[1], atol=1e-7 * np.abs(modes[1]).max())
+    assert np.ptp(signals[1][:, SIGNAL_FORCE + 2]) > 100.0  # they did move
 
 
 @pytest.mark.parametrize("tier", FAST)
