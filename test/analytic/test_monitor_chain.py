@@ -75,10 +75,11 @@ def test_strikes_of_a_flat_are_told_from_a_spalled_cone() -> None:
 def test_a_load_zone_that_a_wide_spall_fills_is_no_strike_of_the_wheel() -> None:
     turned = np.arange(int(40.0 * RATE / 15.0)) * 15.0 / RATE
     loud = 1.0 + 5.0 * np.maximum(0.0, np.cos(2.0 * np.pi * turned)) ** 2
+    angle = np.asarray(2.0 * np.pi * turned, np.float64)
     noise = np.random.default_rng(4).normal(size=len(turned))
-    assert not struck_sectors(Stretch(RATE, loud * noise, 2.0 * np.pi * turned, 0.0, 0), SETTINGS).any()
+    assert not struck_sectors(Stretch(RATE, loud * noise, angle, 0.0, 0), SETTINGS).any()
     at_once = 1.0 + 5.0 * ((turned + 0.02) % 1.0 < 0.04)
-    struck = struck_sectors(Stretch(RATE, at_once * noise, 2.0 * np.pi * turned, 0.0, 0), SETTINGS)
+    struck = struck_sectors(Stretch(RATE, at_once * noise, angle, 0.0, 0), SETTINGS)
     assert struck[[0, -1]].all()
 
 
