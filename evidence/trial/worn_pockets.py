@@ -69,8 +69,8 @@ def scenes() -> Iterator[tuple[str, Scene, WornPocket]]:
             continue
         scene = trial_scene(trial, cell)
         (pocket,) = scene.defects
-        if not isinstance(pocket, WornPocket):
-            raise TypeError(f"{cell.key}: the fault is no worn pocket")
+        if not isinstance(pocket, WornPocket) or scene.scatter is None:
+            raise TypeError(f"{cell.key}: the fault is no worn pocket, or the bearing is of no lot")
         sound = replace(scene, defects=())
         yield "sound", sound, pocket
         for wear in WEAR:
