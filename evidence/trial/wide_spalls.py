@@ -1,4 +1,4 @@
-"""Why wide spalls of the cone are missed: ``python -m evidence.trial.wide_spalls``.
+"""Wide spalls of the cone, which look like strikes of the wheel: ``python -m evidence.trial.wide_spalls``.
 
 Spalls of the trial `default` on a round wheel, each as wide as told: how much of the way between two rollers
 on the cone that is, how many of the wheel's sectors are taken for strikes, what the monitor says of the whole

@@ -72,6 +72,17 @@ def test_strikes_of_a_flat_are_told_from_a_spalled_cone() -> None:
         assert not struck_sectors(_stretch(fault, 21), SETTINGS).any()
 
 
+def test_a_load_zone_that_a_wide_spall_fills_is_no_strike_of_the_wheel() -> None:
+    turned = np.arange(int(40.0 * RATE / 15.0)) * 15.0 / RATE
+    loud = 1.0 + 5.0 * np.maximum(0.0, np.cos(2.0 * np.pi * turned)) ** 2
+    angle = np.asarray(2.0 * np.pi * turned, np.float64)
+    noise = np.random.default_rng(4).normal(size=len(turned))
+    assert not struck_sectors(Stretch(RATE, loud * noise, angle, 0.0, 0), SETTINGS).any()
+    at_once = 1.0 + 5.0 * ((turned + 0.02) % 1.0 < 0.04)
+    struck = struck_sectors(Stretch(RATE, at_once * noise, angle, 0.0, 0), SETTINGS)
+    assert struck[[0, -1]].all()
+
+
 def test_what_comes_back_with_the_shaft_is_taken_out_and_a_fault_stays() -> None:
     turned = np.arange(50 * 256) / 256
     wheel = 5.0 + 3.0 * np.cos(2.0 * np.pi * 20.0 * turned) + (turned % 1.0 < 0.1)
