@@ -28,7 +28,7 @@ VERSION = 1
 _ARRAYS = ("directions", "support", "weights", "doubt_weights", "reach")
 _PART = ("slope", "offset", "least")
 _NUMBERS = ("width", "mean", "doubt")
-_AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
+AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
 _FAR = 4.0  # standard deviations: an expected share of 1e-4 of runs like those learnt from
 
@@ -153,7 +153,7 @@ class Estimator:
         low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
         ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
         intervals = tuple((float(first), float(last)) for first, last in ends)
-        if 2.0 * half[-1] >= _AS_WIDE * (high - low):
+        if 2.0 * half[-1] >= AS_WIDE * (high - low):
             return Estimate(quantity, float("nan"), intervals, _BLURRED)
         return Estimate(quantity, float(quantity.restored(np.array(middle))), intervals)
 

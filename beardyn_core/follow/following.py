@@ -13,7 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.belief import Belief, carried, corrected
 from beardyn_core.follow.condition import ConditionBelief
-from beardyn_core.follow.estimator import Estimate, Estimates, Estimator
+from beardyn_core.follow.estimator import AS_WIDE, Estimate, Estimates, Estimator
 from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
 from beardyn_core.follow.quantities import BY_NAME
@@ -31,6 +31,7 @@ _JUMP, _JUMP_STRETCHES = 3.0, 2  # standard deviations, and stretches in a row o
 _KEPT = 0.8  # of the surprise so far, at each stretch
 _SURPRISING = 4.0  # mean square miss from which what is heard does not fit what was known
 _FEWEST = 2  # stretches before anything is said
+_NOT_HEARD = "not identifiable from the stretches so far: the interval is as wide as the range learnt from"
 
 
 @dataclass(frozen=True, eq=False)
@@ -239,8 +240,10 @@ class Follower:
         k = self.names.index(quantity.name)
         middle, spread = self.belief.mean[k], self.belief.deviation[k]
         ends = [quantity.restored(middle + spread * np.array([-by, by])) for by in (NORMAL_50, NORMAL_90)]
-        value = float(quantity.restored(np.array(middle)))
-        return Estimate(quantity, value, tuple((float(low), float(high)) for low, high in ends))
+        intervals = tuple((float(low), float(high)) for low, high in ends)
+        if spread >= AS_WIDE * self._spread[k]:
+            return Estimate(quantity, np.nan, intervals, _NOT_HEARD)
+        return Estimate(quantity, float(quantity.restored(np.array(middle))), intervals)
 
     def _doubts(self, heard: Estimates) -> tuple[str, ...]:
         """Say what the model does not explain."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,3 +130,17 @@ def test_a_signal_unlike_all_that_was_learnt_from_is_unexplained(estimator: Esti
     assert steps[-2].health == SOUND
     assert steps[-1].health == UNEXPLAINED
     assert "learnt from" in steps[-1].doubts[0]
+
+
+def test_what_no_stretch_tells_is_not_told_of_all_of_them(estimator: Estimator) -> None:
+    deaf = {name: replace(each, reach=20.0 * each.reach) for name, each in estimator.regressions.items()}
+    last = followed(replace(estimator, regressions=deaf), stretches(5, "cup", 6, load=8e4))[-1]
+    for name in ("vertical_load", "end_play", "width", "length"):
+        assert np.isnan(last.heard[name].value)
+        assert np.isnan(last.estimates[name].value)
+        assert "not identifiable" in last.estimates[name].sentence
+    assert last.remains is not None
+    assert np.isnan([*last.remains.remaining, last.remains.life, *last.remains.used]).all()
+    heard = followed(estimator, stretches(5, "cup", 6, load=8e4))[-1]
+    assert heard.remains is not None
+    assert np.isfinite([*heard.remains.remaining, heard.remains.life, *heard.remains.used]).all()
