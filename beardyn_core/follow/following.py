@@ -255,11 +255,11 @@ class Follower:
         return tuple(found)
 
     def _health(self, known: Estimates, remains: Forecast | None, doubts: tuple[str, ...]) -> str:
+        """Say the most urgent thing that holds: a doubt, told beside it, takes no warning back."""
         if self.stretches < _FEWEST:
             return WAITING
+        if remains is not None and isfinite(remains.remaining[0]) and remains.remaining[0] < SOON:
+            return TAKE_OUT
         if doubts:
             return UNEXPLAINED
-        if known.part is None or known.part.condition == HEALTHY:
-            return SOUND
-        near = remains is not None and isfinite(remains.remaining[0]) and remains.remaining[0] < SOON
-        return TAKE_OUT if near else SPALLED
+        return SOUND if known.part is None or known.part.condition == HEALTHY else SPALLED

@@ -144,3 +144,13 @@ def test_what_no_stretch_tells_is_not_told_of_all_of_them(estimator: Estimator) 
     heard = followed(estimator, stretches(5, "cup", 6, load=8e4))[-1]
     assert heard.remains is not None
     assert np.isfinite([*heard.remains.remaining, heard.remains.life, *heard.remains.used]).all()
+
+
+def test_a_doubt_does_not_hide_that_a_bearing_must_come_out(estimator: Estimator) -> None:
+    rows = stretches(9, "cup", 6, width=14e-3)
+    strange = rows[-1:] + 60.0 * (np.arange(rows.shape[1]) % 2)
+    steps = followed(estimator, np.concatenate([rows, strange]))
+    assert steps[-2].health == TAKE_OUT
+    assert not steps[-2].doubts
+    assert steps[-1].health == TAKE_OUT
+    assert "learnt from" in steps[-1].doubts[0]
