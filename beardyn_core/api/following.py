@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isfinite, pi
 from pathlib import Path
 from typing import Annotated as A
@@ -79,7 +80,7 @@ def follow(
     Parameters
     ----------
     runs : Run, Path or sequence of them
-        Of one axlebox, in the order of time.
+        Of one axlebox, in the order of time. Loads, end play and temperature are learnt anew in each.
     estimator, bearing, sensor
         See `beardyn_core.estimate`.
     service : Service, optional
@@ -98,17 +99,24 @@ def follow(
     Raises
     ------
     InputError
-        No estimator fits, an axis is not measured, or the runs are too short.
+        No estimator fits, an axis is not measured, the runs are too short, or mileages fall.
     """
     several = [runs] if isinstance(runs, Run | Path | str) else list(runs)
     if mileages is not None and len(mileages) != len(several):
         raise InputError(f"mileages: has {len(mileages)} of them for {len(several)} runs; give one a run")
+    for before, after in pairwise(mileages or ()):
+        if after < before:
+            raise InputError(
+                f"mileages: {after:g} m comes after {before:g} m; give them in the order of time"
+            )
     heard, plate, sensor = heard_of(several[0], bearing, sensor)
     follower = follower_of(plate, estimator, service=service, law=law, lubricant=lubricant)
     steps, rows = list[Followed](), list[Float]()
     time = distance = 0.0
     for k, run in enumerate(several):
-        heard = heard if k == 0 else heard_of(run, bearing, sensor)[0]
+        if k:
+            heard = heard_of(run, bearing, sensor)[0]
+            follower.begin()
         begin = distance if mileages is None else mileages[k]
         for row, end, metres in _stretches(heard, follower, plate, sensor):
             rows.append(row)

@@ -56,6 +56,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from dataclasses import replace
+    from itertools import pairwise
 
     from beardyn_core.api.following import follow
     from beardyn_core.follow.forecast import Service
@@ -67,6 +68,9 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(
             f"--at-km: has {len(args.at_km)} numbers for {len(args.recordings)} recordings; give one for each"
         )
+    for before, after in pairwise(args.at_km or ()):
+        if after < before:
+            raise InputError(f"--at-km: {after:g} comes after {before:g}; give mileages in the order of time")
     service = service or Service(wheel_diameter=1e-3 * args.wheel_diameter_mm)
     since = None
     if args.at_km is not None:

@@ -73,10 +73,10 @@ class Follower:
     Notes
     -----
     Each stretch is an observation of every number that the estimator tells, as wide as its interval. Part of
-    its error stays with the bearing, the box and the run: it is a number of its own in the filter, which no
-    repetition takes away, so that the intervals do not shrink to nothing. Loads, end play and temperature
-    wander; the width of a spall grows by `GrowthLaw` with a rate that is learnt. A number that is missed by
-    three standard deviations twice in a row on one side has made a step, and is learnt anew.
+    its error stays with the run: it is a number of its own in the filter, which no repetition takes away, so
+    that the intervals do not shrink to nothing; another recording has another one (`begin`). Loads, end play
+    and temperature wander; the width of a spall grows by `GrowthLaw` with a rate that is learnt. A number
+    missed by three standard deviations twice in a row on one side has made a step, and is learnt anew.
     The filter is written out here: prediction by cubature points, correction in closed form, as every
     observation is linear. A library (filterpy) would have brought the same two functions without missing
     observations.
@@ -102,11 +102,26 @@ class Follower:
         rate = [(log(self.law.rate), log(self.law.rate_spread) / NORMAL_90)] if self._grows else []
         mean = np.concatenate([self._middle, np.zeros(len(self.names)), [each[0] for each in rate]])
         variance = np.concatenate([self._spread**2, self._common, [each[1] ** 2 for each in rate]])
-        self.belief = Belief(mean, np.diag(variance))
+        self._unknown = self.belief = Belief(mean, np.diag(variance))
         rule = self.estimator.part
         self.condition = None if rule is None else ConditionBelief(rule.conditions)
         self._aside = np.zeros(len(self.names))  # stretches in a row that missed, with their side
         self._surprise, self._time, self._distance = 1.0, 0.0, 0.0
+
+    def begin(self) -> None:
+        """Begin another recording: load, end play, temperature and what a run adds may all be others by now.
+
+        They are as unknown as at first. Condition, spall and rate of growth stay as they are believed.
+        """
+        count = len(self.names)
+        wander = [k for k, name in enumerate(self.names) if name in _WANDERS]
+        opened = [*wander, *range(count, 2 * count)]
+        mean, covariance = self.belief.mean.copy(), self.belief.covariance.copy()
+        mean[opened] = self._unknown.mean[opened]
+        covariance[opened, :] = covariance[:, opened] = 0.0
+        covariance[opened, opened] = np.diag(self._unknown.covariance)[opened]
+        self.belief = Belief(mean, covariance)
+        self._aside[:] = 0.0
 
     def take(self, descriptors: Float, time: float, distance: float = 0.0) -> Followed:
         """Take a stretch.
@@ -150,7 +165,6 @@ class Follower:
         count = len(self.names)
         noise = np.zeros(len(self.belief.mean))
         noise[:count] = self._spread**2 * [seconds / _WANDERS.get(name, _YEAR) for name in self.names]
-        # what stays with box and run is forgotten as slowly as it may be another run by then
         if not (self._grows and metres and self._spalled):
             self.belief = Belief(self.belief.mean, self.belief.covariance + np.diag(noise))
             return

@@ -97,6 +97,18 @@ def test_intervals_narrow_with_stretches_and_not_to_nothing(estimator: Estimator
     assert width[-1] > 0.3 * width[0]  # what stays with the bearing does not go away by repetition
 
 
+def test_a_load_of_another_recording_is_no_step_of_the_last_one(estimator: Estimator) -> None:
+    follower = Follower(estimator, load_bearing("HS130x230"), load_lubricant("L055"), Service(mileage=1e8))
+    may = [follower.take(row, 1.5 * k, 80.0 * k) for k, row in enumerate(stretches(7, "cup", 8, load=4e4))]
+    follower.begin()
+    rows = stretches(8, "cup", 6, load=8e4)
+    june = [follower.take(row, 12.0 + 1.5 * k, 1.2e5 + 80.0 * k) for k, row in enumerate(rows)]
+    assert not any(each.changed or each.doubts for each in june)
+    assert june[0].estimates["vertical_load"].value == pytest.approx(8e4, rel=0.2)
+    width = [np.ptp(np.log(each.estimates["width"].intervals[-1])) for each in (may[0], june[0])]
+    assert width[1] < width[0]  # the spall is the one of May
+
+
 def test_a_step_of_the_load_is_followed_within_three_stretches(estimator: Estimator) -> None:
     rows = np.concatenate([stretches(7, "healthy", 10, load=4e4), stretches(8, "healthy", 6, load=8e4)])
     steps = followed(estimator, rows)
