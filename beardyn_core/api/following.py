@@ -109,16 +109,16 @@ def follow(
             raise InputError(
                 f"mileages: {after:g} m comes after {before:g} m; give them in the order of time"
             )
-    heard, plate, sensor = heard_of(several[0], bearing, sensor)
+    heard, plate, ear = heard_of(several[0], bearing, sensor)
     follower = follower_of(plate, estimator, service=service, law=law, lubricant=lubricant)
     steps, rows = list[Followed](), list[Float]()
     time = distance = 0.0
     for k, run in enumerate(several):
         if k:
-            heard = heard_of(run, bearing, sensor)[0]
+            heard, plate, ear = heard_of(run, bearing, sensor)
             follower.begin()
         begin = distance if mileages is None else mileages[k]
-        for row, end, metres in _stretches(heard, follower, plate, sensor):
+        for row, end, metres in _stretches(heard, follower, plate, ear):
             rows.append(row)
             steps.append(follower.take(row, time + end, begin + metres))
         time, distance = (steps[-1].time, steps[-1].distance) if steps else (0.0, begin)
