@@ -29,7 +29,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("recording", metavar="run.mcap", help="recording to estimate from")
     add_hearing(parser)
     add_box(parser)
-    add_service(parser)
+    add_service(parser, "what remains, with --mileage-km", "so far; default no forecast")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -48,10 +48,10 @@ def add_hearing(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--sensor", metavar="NAME", default="", help="accelerometer; default the first")
 
 
-def add_service(parser: argparse.ArgumentParser) -> None:
-    """Declare what a forecast must be told."""
-    group = parser.add_argument_group("forecast", "what remains, with --mileage-km")
-    group.add_argument("--mileage-km", metavar="KM", type=float, help="so far; default no forecast")
+def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> None:
+    """Declare what a forecast must be told; `about` it and its `mileage` in words."""
+    group = parser.add_argument_group("forecast", about)
+    group.add_argument("--mileage-km", metavar="KM", type=float, help=mileage)
     group.add_argument(
         "--wheel-diameter-mm", metavar="MM", type=float, default=920.0, help="running diameter; default 920"
     )
@@ -77,10 +77,10 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.follow.told import estimates_object, forecast_object
     from beardyn_core.record.reading import read_run
 
-    service, law = service_of(args)
+    service, law = service_of(args, args.mileage_km or 0.0)
     heard = read_run(args.recording, args.box)
     found = estimate(heard, args.estimator, bearing=args.bearing, sensor=args.sensor)
-    remains = None if service is None else _forecast(args, heard, found, service, law)
+    remains = None if args.mileage_km is None else _forecast(args, heard, found, service, law)
     if args.json:
         content = {"recording": args.recording, **estimates_object(found)}
         content["forecast"] = (
@@ -92,8 +92,8 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def service_of(args: argparse.Namespace) -> tuple[Service | None, GrowthLaw]:
-    """Read the options of the forecast; `None` without a mileage."""
+def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, GrowthLaw]:
+    """Read the options of the forecast, at a mileage."""
     from beardyn_core.follow.forecast import Service
     from beardyn_core.follow.growth import GrowthLaw
 
@@ -110,11 +110,8 @@ def service_of(args: argparse.Namespace) -> tuple[Service | None, GrowthLaw]:
     ]
     if wrong:
         raise InputError(wrong)
-    law = GrowthLaw(rate=args.growth_mm2 * 1e-12)
-    if args.mileage_km is None:
-        return None, law
     widest = None if args.widest_mm is None else 1e-3 * args.widest_mm
-    return Service(1e3 * args.mileage_km, wheel, widest), law
+    return Service(1e3 * mileage_km, wheel, widest), GrowthLaw(rate=args.growth_mm2 * 1e-12)
 
 
 def _forecast(

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from beardyn_core.cli.estimate import add_hearing, add_service, service_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
 from beardyn_core.errors import InputError
-
-if TYPE_CHECKING:
-    pass
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -48,41 +44,41 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         default="quasistatic",
         help="of the twin; default quasistatic",
     )
-    add_service(parser)
+    add_service(parser, "what remains", "at the first recording, in place of --at-km; default 0")
     add_json(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from dataclasses import replace
     from itertools import pairwise
 
     from beardyn_core.api.following import follow
-    from beardyn_core.follow.forecast import Service
     from beardyn_core.follow.told import residual_object, step_object
     from beardyn_core.record.reading import read_run
 
-    service, law = service_of(args)
-    if args.at_km is not None and len(args.at_km) != len(args.recordings):
+    at_km = args.at_km or []
+    if at_km and args.mileage_km is not None:
         raise InputError(
-            f"--at-km: has {len(args.at_km)} numbers for {len(args.recordings)} recordings; give one for each"
+            "--at-km, --mileage-km: both say the mileage at the first recording; give one of them"
         )
-    for before, after in pairwise(args.at_km or ()):
+    if at_km and len(at_km) != len(args.recordings):
+        raise InputError(
+            f"--at-km: has {len(at_km)} numbers for {len(args.recordings)} recordings; give one for each"
+        )
+    if at_km and at_km[0] < 0.0:
+        raise InputError(f"--at-km: is {at_km[0]:g}; it must be at least 0")
+    for before, after in pairwise(at_km):
         if after < before:
             raise InputError(f"--at-km: {after:g} comes after {before:g}; give mileages in the order of time")
-    service = service or Service(wheel_diameter=1e-3 * args.wheel_diameter_mm)
-    since = None
-    if args.at_km is not None:
-        since = [1e3 * (each - args.at_km[0]) for each in args.at_km]
-        service = replace(service, mileage=1e3 * args.at_km[0])
+    service, law = service_of(args, at_km[0] if at_km else args.mileage_km or 0.0)
     found = follow(
         [read_run(each, args.box) for each in args.recordings],
         args.estimator,
         bearing=args.bearing,
         sensor=args.sensor,
         service=service,
-        mileages=since,
+        mileages=[1e3 * (each - at_km[0]) for each in at_km] or None,
         law=law,
         lubricant=args.lubricant,
         twin=None if args.twin is None else Path(args.twin),

@@ -22,8 +22,9 @@ class ConditionBelief:
     """Recursive Bayesian belief about the condition, with forgetting.
 
     Every condition is as probable at first. A stretch counts for half of its logarithm, and for no more than
-    odds of 50 to 1; from stretch to stretch one in a thousand bearings becomes another. It takes about three
-    clear stretches to believe in a spall, and as many to give it up.
+    odds of 50 to 1; from stretch to stretch one in a thousand bearings becomes another. A clear stretch is
+    believed at once where nothing was known; after twenty that were clearly of one condition it takes four to
+    believe in another.
     """
 
     conditions: tuple[str, ...]

@@ -68,17 +68,22 @@ def test_an_area_grows_in_the_distance_that_its_growth_takes() -> None:
         np.testing.assert_allclose(law.distance(begin, end, rate), distance, rtol=1e-9)
 
 
-def test_no_single_stretch_makes_a_spall_and_three_clear_ones_do() -> None:
+def test_a_first_clear_stretch_is_believed_and_of_another_condition_only_the_fourth() -> None:
     belief = ConditionBelief(("cone", "cup", "healthy"))
-    for _ in range(10):
-        belief.take({"cone": 0.05, "cup": 0.05, "healthy": 0.9})
-    said = []
-    for _ in range(4):
-        belief.take({"cone": 0.0, "cup": 1.0, "healthy": 0.0})
-        said.append(belief.estimate.condition)
-    assert said[0] == "healthy"
-    assert said[-1] == "cup"
-    assert "cup" in belief.estimate.sets[0]
+    clear = {each: {k: float(k == each) for k in belief.conditions} for each in belief.conditions}
+    belief.take(clear["cup"])
+    assert belief.estimate.condition == "cup"
+    assert belief.estimate.probability == pytest.approx(0.83, abs=0.01)
+    for usual, other in (("healthy", "cup"), ("cup", "healthy")):
+        belief = ConditionBelief(belief.conditions)
+        for _ in range(20):
+            belief.take(clear[usual])
+        said = []
+        for _ in range(4):
+            belief.take(clear[other])
+            said.append(belief.estimate.condition)
+        assert said == [usual, usual, usual, other]
+        assert other in belief.estimate.sets[0]
 
 
 def test_sound_and_spalled_bearings_are_told_apart(estimator: Estimator) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,31 @@ def test_mileages_that_fall_are_refused() -> None:
         bd.follow(["june.mcap", "may.mcap"], mileages=[1.2e7, 0.0])
 
 
-def test_the_option_of_mileages_that_fall_is_named(capsys: pytest.CaptureFixture[str]) -> None:
-    assert command.main(["follow", "june.mcap", "may.mcap", "--at-km", "412000", "400000"]) == 2
-    assert "--at-km: 400000 comes after 412000" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--at-km", "412000", "400000"], "--at-km: 400000 comes after 412000"),
+        (["--at-km", "-1", "400000"], "--at-km: is -1; it must be at least 0"),
+        (["--at-km", "400000"], "--at-km: has 1 numbers for 2 recordings"),
+        (["--at-km", "1", "2", "--mileage-km", "1"], "--at-km, --mileage-km: both say the mileage"),
+    ],
+)
+def test_mileages_that_cannot_be_are_refused_by_the_name_of_their_option(
+    options: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command.main(["follow", "june.mcap", "may.mcap", *options]) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    runs = [str(recording(tmp_path, "HS130x230", seed)) for seed in (1, 2)]
+    taught(drawn(60, 2), runs=80).save(tmp_path / "one.npz")
+    words = ["follow", *runs, "--estimator", str(tmp_path / "one.npz"), "--json"]
+    for options, begin in ((["--at-km", "400000", "412000"], 1.2e7), (["--widest-mm", "12"], 0.0)):
+        assert command.main([*words, *options]) == 0
+        told = json.loads(capsys.readouterr().out)
+        assert len(told["steps"]) == 4
+        assert 0.0 < told["steps"][2]["distance_m"] - begin < 500.0
+    assert told["steps"][-1]["forecast"]["widest_m"] == pytest.approx(12e-3)
