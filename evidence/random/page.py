@@ -22,7 +22,8 @@ scenes and runs them: any number that the [keys of a scene](reference.md) allow,
 with a shipped bearing and lubricant, every kind of load, fault, sensor and background, and {kernels} sets
 of effects. Loads go from none to the static rating in any direction, speeds from standing to 6000 rpm either
 way, temperatures from -60 to 200 °C. **A run has to end finite or with a sentence that says why not**; a
-traceback, or a number that is none, is a failure. `make random ARGS="--show fast 17"` prints a scene.
+traceback, or a number that is none without being told, is a failure. `make random ARGS="--show fast 17"`
+prints a scene.
 
 **{summary}.**
 
