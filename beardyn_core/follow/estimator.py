@@ -138,15 +138,20 @@ class Estimator:
             float(np.median(10.0 ** descriptors[:, names_of(self.axes).index("shaft")])),
         )
 
-    def _estimate(self, quantity: Quantity, standard: Float) -> Estimate:
+    def unidentified(self, quantity: Quantity) -> Estimate:
+        """Give what is known of a quantity that no signal tells: its range in the runs learnt from."""
         known = self.card["quantities"][quantity.name]
+        return _silent(
+            quantity,
+            f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
+            "of its variance is explained",
+            tuple((low, high) for low, high in known["ranges"]),
+        )
+
+    def _estimate(self, quantity: Quantity, standard: Float) -> Estimate:
         if quantity.name not in self.regressions:
-            return _silent(
-                quantity,
-                f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
-                "of its variance is explained",
-                tuple((low, high) for low, high in known["ranges"]),
-            )
+            return self.unidentified(quantity)
+        known = self.card["quantities"][quantity.name]
         guess = self.regressions[quantity.name].guess(standard)
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)

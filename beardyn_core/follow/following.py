@@ -16,7 +16,7 @@ from beardyn_core.follow.condition import ConditionBelief
 from beardyn_core.follow.estimator import AS_WIDE, Estimate, Estimates, Estimator
 from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
-from beardyn_core.follow.quantities import BY_NAME
+from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.observe.labels import HEALTHY
 
 SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"
@@ -242,15 +242,14 @@ class Follower:
             heard,
             part=part,
             stretches=self.stretches,
-            quantities=tuple(self._estimate(each) for each in heard.quantities),
+            quantities=tuple(self._estimate(each.quantity) for each in heard.quantities),
         )
 
-    def _estimate(self, heard: Estimate) -> Estimate:
-        quantity = heard.quantity
-        if quantity.name not in self.names:
-            return heard
+    def _estimate(self, quantity: Quantity) -> Estimate:
         if quantity.of_fault and not self._spalled:
             return Estimate(quantity, np.nan, (), "no part is called spalled")
+        if quantity.name not in self.names:
+            return self.estimator.unidentified(quantity)
         k = self.names.index(quantity.name)
         middle, spread = self.belief.mean[k], self.belief.deviation[k]
         ends = [quantity.restored(middle + spread * np.array([-by, by])) for by in (NORMAL_50, NORMAL_90)]

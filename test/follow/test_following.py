@@ -171,3 +171,17 @@ def test_a_doubt_does_not_hide_that_a_bearing_must_come_out(estimator: Estimator
     assert not steps[-2].doubts
     assert steps[-1].health == TAKE_OUT
     assert "learnt from" in steps[-1].doubts[0]
+
+
+def test_a_length_that_no_signal_tells_is_that_of_the_runs_learnt_from(estimator: Estimator) -> None:
+    fewer = {name: each for name, each in estimator.regressions.items() if name != "length"}
+    rows = np.concatenate([stretches(5, "cup", 6), stretches(5, "healthy", 1)])
+    last = followed(replace(estimator, regressions=fewer), rows)[-1]
+    assert last.estimates.part is not None
+    assert last.estimates.part.condition == "cup"
+    assert not last.heard["length"].intervals  # of this stretch, which hears no spall
+    assert last.estimates["length"].intervals[-1] == tuple(
+        estimator.card["quantities"]["length"]["ranges"][-1]
+    )
+    assert last.remains is not None
+    assert np.isfinite(last.remains.remaining).all()
