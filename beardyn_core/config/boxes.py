@@ -85,7 +85,9 @@ def _with_mirrored_box(effects: EffectSet) -> EffectSet:
     modes = modes_of_effects(replace(effects, structure=replace(structure, highest=None)))
     assert modes is not None
     content = packed(table_text(mirrored_modes(modes)), structure.table)
-    return replace(effects, structure=replace(structure, content=content))
+    # the factors are in the modes already
+    mirrored = replace(structure, content=content, stiffness_factor=1.0, damping_factor=1.0)
+    return replace(effects, structure=mirrored)
 
 
 def mirrored_modes(modes: Modes) -> Modes:

@@ -86,7 +86,9 @@ class Modes:
         return replace(
             self,
             frequency=self.frequency * np.sqrt(stiffness),
-            damping_ratio=np.minimum(self.damping_ratio * damping, _MOST_DAMPED),
+            damping_ratio=np.minimum(
+                self.damping_ratio * damping, np.maximum(self.damping_ratio, _MOST_DAMPED)
+            ),
         )
 
     def _of(self, mix: Float) -> Modes:

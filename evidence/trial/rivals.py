@@ -89,7 +89,10 @@ def main() -> int:
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="JSON")
     parser.add_argument("--trial", default="default", help="default `default`")
     parser.add_argument("--every", type=int, default=EVERY, metavar="N", help=f"runs heard, default {EVERY}")
+    parser.add_argument("--force", action="store_true", help="overwrite FILE")
     args = parser.parse_args()
+    if args.output.exists() and not args.force:
+        parser.error(f"{args.output} exists; --force overwrites it")
     trial = with_choices(load_trial(args.trial))
     cells = [cell for cell in trial.cells() if not cell.checks][:: args.every]
     judged: list[Judged] = []

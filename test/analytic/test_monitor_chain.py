@@ -29,8 +29,10 @@ def _stretch(fault: str | None, seed: int, **situation: object) -> Stretch:
     return Stretch(RATE, acceleration, angle, 8e4, 0)
 
 
-def _with_flat(stretch: Stretch, resonance: float = 2400.0, by_rollers: float = 0.0) -> Stretch:
-    """A strike once a revolution through a resonance [Hz], ten times the noise.
+def _with_flat(
+    stretch: Stretch, resonance: float = 2400.0, by_rollers: float = 0.0, decay_rate: float = 800.0
+) -> Stretch:
+    """A strike once a revolution through a resonance [Hz] that decays [1/s], ten times the noise.
 
     ``by_rollers``: how much louder and quieter it is as the rollers stand.
     """
@@ -39,8 +41,8 @@ def _with_flat(stretch: Stretch, resonance: float = 2400.0, by_rollers: float = 
     turned = np.arange(0.3, revolution[-1], 1.0)
     loudness = 1.0 + by_rollers * np.cos(2.0 * np.pi * ORDERS.bpfi * turned)
     strikes[np.searchsorted(revolution, turned)] = loudness
-    decay = np.arange(200) / RATE
-    ringing = 100.0 * np.exp(-800.0 * decay) * np.sin(2.0 * np.pi * resonance * decay)
+    decay = np.arange(round(200 * 800.0 / decay_rate)) / RATE
+    ringing = 100.0 * np.exp(-decay_rate * decay) * np.sin(2.0 * np.pi * resonance * decay)
     added = np.convolve(strikes, ringing)[: len(strikes), None] * [0.3, 0.1, 1.0]
     return replace(stretch, acceleration=stretch.acceleration + added)
 
@@ -70,6 +72,19 @@ def test_strikes_of_a_flat_are_told_from_a_spalled_cone() -> None:
     assert 1 <= flat.sum() < SECTORS // 4
     for fault in (None, "cup", "cone", "roller"):
         assert not struck_sectors(_stretch(fault, 21), SETTINGS).any()
+
+
+def test_a_flat_that_rings_for_long_is_found_whichever_way_time_runs() -> None:
+    stretch = _with_flat(_stretch(None, 21), decay_rate=200.0)
+    struck = struck_sectors(stretch, SETTINGS)
+    back = replace(
+        stretch,
+        acceleration=stretch.acceleration[::-1].copy(),
+        shaft_angle=stretch.shaft_angle[-1] - stretch.shaft_angle[::-1],
+    )
+    found = struck_sectors(back, SETTINGS)
+    assert struck.sum() > 10
+    assert abs(int(found.sum()) - int(struck.sum())) <= 2
 
 
 def test_a_load_zone_that_a_wide_spall_fills_is_no_strike_of_the_wheel() -> None:

@@ -82,6 +82,17 @@ def test_a_mirror_of_a_mirror_is_the_box() -> None:
     assert mirrored(scene).defects[0].row == 1
 
 
+def test_a_mirrored_box_that_is_stiffer_than_its_table_rings_as_the_left_one() -> None:
+    structure = {"kind": "modes", "table": "high_speed", "stiffness_factor": 1.44, "damping_factor": 2.0}
+    scene = load_scene("service_high_speed", effects={"preset": "standard", "structure": structure})
+    left, right = modes_of_effects(scene.effects), modes_of_effects(mirrored(scene).effects)
+    assert left is not None
+    assert right is not None
+    # a table has five digits
+    np.testing.assert_allclose(right.frequency, left.frequency, rtol=1e-4)
+    np.testing.assert_allclose(right.damping_ratio, left.damping_ratio, rtol=1e-4)
+
+
 @pytest.mark.parametrize("box", ["rigid", pytest.param("modes", marks=pytest.mark.slow)])
 def test_a_right_axlebox_answers_a_mirrored_load_as_the_left_one_the_load(box: str) -> None:
     """With thrust, a spall in one row, a box whose mass, springs and modes are no mirror images, an axle."""

@@ -10,7 +10,7 @@ from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
 _STRIKE, _RINGING = 10.0, 1.3
-_ONSET, _RISE = 6.0, 3  # power of a strike over that of the sector so many before
+_ONSET, _RISE = 6.0, 3  # power of a strike over that of the sector so many before or after
 # least share of a quartile in the mean over the revolutions where the wheel strikes
 _STEADY = 0.1
 _LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
@@ -56,7 +56,9 @@ def _struck_in(power: Float, known: Bool | bool = False) -> Bool:
     quartile = np.quantile(power, 0.25, axis=0)
     usual = np.median(quartile)
     steady = quartile > _STEADY * np.mean(power, axis=0)
-    at_once = quartile > _ONSET * np.roll(quartile, _RISE)
+    # before or after: of a shaft that turns back, whose time is reversed, ringing comes first
+    slowly = np.minimum(np.roll(quartile, _RISE), np.roll(quartile, -_RISE))
+    at_once = quartile > _ONSET * slowly
     struck = known | (steady & at_once & (quartile > _STRIKE * usual))
     ringing = steady & (quartile > _RINGING * usual)
     while True:
