@@ -11,7 +11,7 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import FEWEST_TURNS
+from beardyn_core.follow.listening import turned_forward
 from beardyn_core.observe.chain import Stretch
 
 _SAME_RATE = 1e-3
@@ -76,10 +76,9 @@ class StretchIntake:
         kept = max(int(np.searchsorted(turn_times, times[length - 1])) - 1, 0)
         self._turn_times, self._turns = [turn_times[kept:]], [turns[kept:]]
         angle = np.interp(times[:length], turn_times, turns)
-        turned = np.diff(angle)
-        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
         known = turn_times[0] <= times[0] and np.isfinite(heard[:length]).all()
-        if not (known and one_way and abs(angle[-1] - angle[0]) >= FEWEST_TURNS * 2.0 * np.pi):
+        forward = turned_forward(heard[:length], angle) if known else None
+        if forward is None:
             self.unfit += 1
             return None
-        return Stretch(self.estimator.rate, heard[:length], angle, np.nan, int(times[length - 1]))
+        return Stretch(self.estimator.rate, *forward, np.nan, int(times[length - 1]))

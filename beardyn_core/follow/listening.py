@@ -84,12 +84,35 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
     count = max(1, len(heard) // length)
     for k in range(count):
         part = slice(k * length, (k + 1) * length)
-        turned = np.diff(angle[part])
         whole = len(angle[part]) >= _LEAST_LENGTH * length and np.isfinite(heard[part]).all()
-        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
-        if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= FEWEST_TURNS * 2.0 * np.pi:
+        if whole and (forward := turned_forward(heard[part], angle[part])) is not None:
             end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
-            yield Stretch(estimator.rate, heard[part], angle[part], np.nan, end_ns)
+            yield Stretch(estimator.rate, *forward, np.nan, end_ns)
+
+
+def turned_forward(heard: Float, angle: Float) -> tuple[Float, Float] | None:
+    """Give vibration and angle of a stretch as if the shaft turned forwards.
+
+    One that turns backwards is turned round in time, so that its angle increases as well.
+
+    Parameters
+    ----------
+    heard : float64 array, shape [sample, axis]
+        [m/s^2].
+    angle : float64 array, shape [sample]
+        [rad].
+
+    Returns
+    -------
+    tuple of arrays or None
+        Vibration and increasing angle; none where the shaft stands, turns round or is too slow.
+    """
+    turned = np.diff(angle)
+    if abs(angle[-1] - angle[0]) < FEWEST_TURNS * 2.0 * np.pi:
+        return None
+    if (turned >= 0.0).all():
+        return heard, angle
+    return (heard[::-1].copy(), angle[::-1].copy()) if (turned <= 0.0).all() else None
 
 
 def _resampled(run: Run, heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:

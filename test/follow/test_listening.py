@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.intake import StretchIntake
 from beardyn_core.follow.listening import stretches_of
 from beardyn_core.observe.chain import Stretch
+from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
 
@@ -45,6 +48,32 @@ def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
         folder / "measured.npz", folder / "run.mcap", bearing="HS130x230", unit="m/s2",
         speed_rpm=60.0 * SHAFT_HZ, **axes,
     )  # fmt: skip
+
+
+def turning(values: Float, speed_hz: float = SHAFT_HZ, rate: float = RATE) -> Any:
+    """What is heard of a run that begins a second after zero, whose shaft turns evenly."""
+    time_ns = 1_000_000_000 + np.round(np.arange(len(values)) * 1e9 / rate).astype(np.int64)
+    shaft_ns = np.arange(990_000_000, time_ns[-1] + 10_000_000, 2_500_000)
+    angle = (2.0 * np.pi * speed_hz * 1e-9 * shaft_ns + np.pi) % (2.0 * np.pi) - np.pi
+    signal = Signal(time_ns, values, AXES, "m/s^2", np.arange(len(values)))
+    shaft = Turning(shaft_ns, angle, np.full(len(shaft_ns), 2.0 * np.pi * speed_hz))
+    return SimpleNamespace(label="run", sensors={"box": signal}, vibration=signal, shaft=shaft)
+
+
+def test_a_shaft_that_turns_backwards_is_heard_as_if_forwards(estimator: Estimator) -> None:
+    values = signal(1.6)
+    run = turning(values, -SHAFT_HZ)
+    intake = StretchIntake(estimator)
+    intake.push_shaft(run.shaft.time_ns, run.shaft.angle)
+    intake.push_vibration(run.vibration.time_ns, values)
+    live = intake.stretch()
+    assert live is not None
+    for each in (next(stretches_of(run, estimator)), live):
+        assert (np.diff(each.shaft_angle) > 0.0).all()
+        np.testing.assert_array_equal(each.acceleration[::-1], values[: len(each.acceleration)])
+        found = dict(zip(names_of(AXES), describe(each, ORDERS, PLATE, AXES), strict=True))
+        assert found["passing_2_level_z"] == pytest.approx(20.0 * np.log10(3.0 / np.sqrt(2.0)), abs=0.1)
+        assert found["shaft"] == pytest.approx(np.log10(SHAFT_HZ), abs=1e-3)
 
 
 def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
