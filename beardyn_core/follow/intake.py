@@ -11,11 +11,10 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import turned_forward
+from beardyn_core.follow.listening import LONGEST_STEP, turned_forward
 from beardyn_core.observe.chain import Stretch
 
 _SAME_RATE = 1e-3
-_GAP = 1.5  # samples
 
 
 @dataclass
@@ -46,7 +45,7 @@ class StretchIntake:
                 f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator hears "
                 f"{self.estimator.rate:.0f} Hz"
             )
-        if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < _GAP * period:
+        if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < LONGEST_STEP * period:
             self.gaps += 1
             self._times, self._heard = [], []
         self._times.append(time_ns)

@@ -17,7 +17,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.intake import StretchIntake
-from beardyn_core.follow.listening import stretches_of
+from beardyn_core.follow.listening import estimates_of, stretches_of
 from beardyn_core.observe.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
@@ -109,6 +109,34 @@ def test_a_run_is_heard_in_whole_stretches_at_the_rate_learnt(
         assert each.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
         kept = np.sqrt(np.mean(each.acceleration[:, 2] ** 2))
         assert kept == pytest.approx(np.sqrt(4.5 + 0.25 * min(1.0, RATE / rate)), rel=0.02)
+
+
+@pytest.mark.parametrize("rate", [RATE, 2.0 * RATE])
+@pytest.mark.parametrize("dropped", [True, False])
+def test_a_stretch_begins_anew_where_samples_are_lost(
+    rate: float, dropped: bool, estimator: Estimator
+) -> None:
+    whole = turning(signal(4.7, rate), rate=rate)
+    time_ns, values = whole.vibration.time_ns, whole.vibration.values.copy()
+    here = (time_ns < 2_600_000_000) | (time_ns >= 2_900_000_000)
+    values[~here, 0] = np.nan
+    kept = here | (not dropped)
+    signals = Signal(time_ns[kept], values[kept], AXES, "m/s^2", np.flatnonzero(kept))
+    run = SimpleNamespace(label="run", sensors={"box": signals}, vibration=signals, shaft=whole.shaft)
+    ends = [each.end_ns for each in stretches_of(run, estimator)]
+    assert ends == pytest.approx([2_500_000_000, 4_400_000_000], abs=50_000)
+    for each, end_ns in zip(stretches_of(run, estimator), ends, strict=True):
+        assert each.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
+        sent = np.interp(end_ns, run.shaft.time_ns, np.unwrap(run.shaft.angle))
+        assert each.shaft_angle[-1] == pytest.approx(sent, abs=0.02)
+        assert np.diff(each.shaft_angle).max() < 1.1 * 2.0 * np.pi * SHAFT_HZ / RATE
+
+
+def test_one_lost_sample_makes_a_run_too_short(estimator: Estimator) -> None:
+    run = turning(signal(2.0, 2.0 * RATE), rate=2.0 * RATE)
+    run.vibration.values[51_200, 1] = np.nan
+    with pytest.raises(InputError, match="of whole vibration"):
+        estimates_of(run, estimator, PLATE)
 
 
 def test_command_tells_what_the_function_finds(
