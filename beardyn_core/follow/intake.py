@@ -15,15 +15,19 @@ from beardyn_core.follow.listening import LONGEST_STEP, turned_forward
 from beardyn_core.observe.chain import Stretch
 
 _SAME_RATE = 1e-3
+_STRETCHES_KEPT = 2.0
 
 
 @dataclass
 class StretchIntake:
-    """Gathers vibration and shaft until both cover a stretch; a gap begins a new one."""
+    """Gathers vibration and shaft until both cover a stretch; a gap begins a new one.
+
+    Of one that the other does not follow, the last two stretches are kept.
+    """
 
     estimator: Estimator
     gaps: A[int, "in the vibration"] = 0
-    unfit: A[int, "stretches in which the shaft stood, turned back or was too slow"] = 0
+    unfit: A[int, "stretches with NaN, or in which the shaft stood, turned back or was too slow"] = 0
     _times: list[Int] = field(default_factory=list)
     _heard: list[Float] = field(default_factory=list)
     _turn_times: list[Int] = field(default_factory=list)
@@ -64,20 +68,33 @@ class StretchIntake:
         """Give the next stretch when all of it has come; what is unfit is left out."""
         length = round(self.estimator.stretch * self.estimator.rate) + 1
         if sum(map(len, self._times)) < length or not self._turn_times:
+            self._forget()
             return None
         times, heard = np.concatenate(self._times), np.concatenate(self._heard)
         turn_times, turns = np.concatenate(self._turn_times), np.concatenate(self._turns)
-        if turn_times[-1] < times[length - 1]:
+        unknown = int(np.searchsorted(times, turn_times[0]))  # before the shaft was heard
+        times, heard = times[unknown:], heard[unknown:]
+        self._keep(times, heard)
+        if len(times) < length or turn_times[-1] < times[length - 1]:
+            self._forget()
             return None
-        self._times, self._heard = [times[length:]] if len(times) > length else [], [heard[length:]]
-        if not self._times:
-            self._heard = []
+        self._keep(times[length:], heard[length:])
         kept = max(int(np.searchsorted(turn_times, times[length - 1])) - 1, 0)
         self._turn_times, self._turns = [turn_times[kept:]], [turns[kept:]]
         angle = np.interp(times[:length], turn_times, turns)
-        known = turn_times[0] <= times[0] and np.isfinite(heard[:length]).all()
-        forward = turned_forward(heard[:length], angle) if known else None
+        whole = np.isfinite(heard[:length]).all()
+        forward = turned_forward(heard[:length], angle) if whole else None
         if forward is None:
             self.unfit += 1
             return None
         return Stretch(self.estimator.rate, *forward, np.nan, int(times[length - 1]))
+
+    def _keep(self, times: Int, heard: Float) -> None:
+        self._times, self._heard = ([times], [heard]) if len(times) else ([], [])
+
+    def _forget(self) -> None:
+        """Drop blocks that are too old for what the other stream may still bring."""
+        longest_ns = _STRETCHES_KEPT * 1e9 * self.estimator.stretch
+        for times, values in ((self._times, self._heard), (self._turn_times, self._turns)):
+            while times and times[-1][-1] - times[0][-1] > longest_ns:
+                del times[0], values[0]

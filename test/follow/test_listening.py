@@ -76,6 +76,28 @@ def test_a_shaft_that_turns_backwards_is_heard_as_if_forwards(estimator: Estimat
         assert found["shaft"] == pytest.approx(np.log10(SHAFT_HZ), abs=1e-3)
 
 
+@pytest.mark.parametrize("first", ["vibration", "shaft"])
+def test_what_the_other_stream_does_not_follow_is_forgotten(first: str, estimator: Estimator) -> None:
+    run, intake = turning(signal(12.0)), StretchIntake(estimator)
+    streams = {
+        "vibration": (intake.push_vibration, run.vibration.time_ns, run.vibration.values),
+        "shaft": (intake.push_shaft, run.shaft.time_ns, run.shaft.angle),
+    }
+    push, time_ns, values = streams.pop(first)
+    for part in np.array_split(np.arange(len(time_ns)), 120):
+        push(time_ns[part], values[part])
+        assert intake.stretch() is None
+    push, time_ns, values = next(iter(streams.values()))
+    push(time_ns, values)
+    found = intake.stretch()
+    assert found is not None
+    oldest = found.end_ns - round(1e9 * STRETCH)
+    wanted = int(run.vibration.time_ns[-1]) - round(2e9 * STRETCH)
+    assert oldest == pytest.approx(wanted, abs=110_000_000)  # a block is dropped whole
+    assert found.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
+    assert (intake.gaps, intake.unfit) == (0, 0)
+
+
 def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
     values = signal(STRETCH)
     angle = np.asarray(2.0 * np.pi * SHAFT_HZ * np.arange(len(values)) / RATE, np.float64)
