@@ -11,7 +11,7 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import LONGEST_STEP, turned_forward
+from beardyn_core.follow.listening import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured
 from beardyn_core.observe.chain import Stretch
 
 _SAME_RATE = 1e-3
@@ -28,10 +28,21 @@ class StretchIntake:
     estimator: Estimator
     gaps: A[int, "in the vibration"] = 0
     unfit: A[int, "stretches with NaN, or in which the shaft stood, turned back or was too slow"] = 0
+    heard: A[int, "stretches that were given"] = 0
     _times: list[Int] = field(default_factory=list)
     _heard: list[Float] = field(default_factory=list)
     _turn_times: list[Int] = field(default_factory=list)
     _turns: list[Float] = field(default_factory=list)
+
+    @property
+    def doubt(self) -> str:
+        """Say why nothing has been heard though whole stretches have come; empty when something has."""
+        if self.heard or not self.unfit:
+            return ""
+        return (
+            f"nothing is heard: of {self.unfit} stretches none is without NaN and has a shaft that turns "
+            f"{FEWEST_TURNS:g} times one way"
+        )
 
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
         """Add a block, shape [sample, 3], [m/s^2].
@@ -39,7 +50,7 @@ class StretchIntake:
         Raises
         ------
         InputError
-            It is not sampled as the estimator hears.
+            It is not sampled as the estimator hears, or an axis is not measured.
         """
         if len(time_ns) < 2:
             return
@@ -49,11 +60,14 @@ class StretchIntake:
                 f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator hears "
                 f"{self.estimator.rate:.0f} Hz"
             )
+        heard = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]
+        if doubt := unmeasured(heard, self.estimator):
+            raise InputError(f"vibration: {doubt}")
         if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < LONGEST_STEP * period:
             self.gaps += 1
             self._times, self._heard = [], []
         self._times.append(time_ns)
-        self._heard.append(acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]])
+        self._heard.append(heard)
 
     def push_shaft(self, time_ns: Int, angle: Float) -> None:
         """Add samples of the tachometer; an angle that wraps is unwrapped."""
@@ -87,6 +101,7 @@ class StretchIntake:
         if forward is None:
             self.unfit += 1
             return None
+        self.heard += 1
         return Stretch(self.estimator.rate, *forward, np.nan, int(times[length - 1]))
 
     def _keep(self, times: Int, heard: Float) -> None:

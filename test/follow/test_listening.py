@@ -98,6 +98,23 @@ def test_what_the_other_stream_does_not_follow_is_forgotten(first: str, estimato
     assert (intake.gaps, intake.unfit) == (0, 0)
 
 
+def test_an_intake_says_why_it_hears_nothing(estimator: Estimator) -> None:
+    values = signal(1.6)
+    values[:, :2] = np.nan
+    with pytest.raises(InputError, match="axis x is not measured; the estimator hears x, y, z: train one"):
+        StretchIntake(estimator).push_vibration(turning(values).vibration.time_ns, values)
+    intake, standing = StretchIntake(estimator), turning(signal(1.6), 0.0)
+    assert not intake.doubt
+    for run in (standing, turning(signal(1.6))):
+        told = intake.doubt
+        intake.push_shaft(run.shaft.time_ns, run.shaft.angle)
+        intake.push_vibration(run.vibration.time_ns, run.vibration.values)
+        found = intake.stretch()
+        assert (found is None) == (run is standing)
+    assert "of 1 stretches none is without NaN and has a shaft that turns 10 times" in told
+    assert not intake.doubt
+
+
 def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
     values = signal(STRETCH)
     angle = np.asarray(2.0 * np.pi * SHAFT_HZ * np.arange(len(values)) / RATE, np.float64)
