@@ -127,7 +127,8 @@ class FollowerNode(Node):
         self._compared_at = -math.inf
         self._comparing: Future[Residual] | None = None
         self._residual: Residual | None = None
-        self._trouble = ""
+        self._unheard = ""  # why the vibration is not heard
+        self._trouble = ""  # of the twin beside
         self._summed_up = False
 
     # --- what a train has --------------------------------------------------------------------------
@@ -143,8 +144,9 @@ class FollowerNode(Node):
         acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
         try:
             self._stretches.push_vibration(cloud_times(cdr, points), acceleration)
+            self._unheard = ""
         except InputError as error:
-            self._trouble = str(error)
+            self._unheard = str(error)
 
     def _on_shaft(self, cdr: bytes) -> None:
         self._shaft.append(cdr)
@@ -229,7 +231,8 @@ class FollowerNode(Node):
         health = WAITING if step is None else step.health
         doubts = () if step is None else step.doubts
         unexplained = () if self._residual is None else self._residual.sentences
-        told = "; ".join([*doubts, *unexplained, *filter(None, [self._trouble])])
+        troubles = filter(None, [self._unheard or self._stretches.doubt, self._trouble])
+        told = "; ".join([*doubts, *unexplained, *troubles])
         status = Diagnostic(
             diagnostic_name(namespace, FOLLOWER),
             OK if health in (WAITING, SOUND) and not told and not self._guard.total else WARN,

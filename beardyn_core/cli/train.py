@@ -57,9 +57,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    problems = file_problems(
-        "--output", args.output, inputs=[args.set, *args.calibration], force=args.force, ending=".npz"
-    )
+    inputs = [args.set, *args.calibration, *([args.test] if args.test else [])]
+    problems = file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".npz")
     if not args.axes or set(args.axes) - set("xyz") or len(set(args.axes)) < len(args.axes):
         problems.append(f"--axes {args.axes!r}: give one or more of x, y and z, each once")
     if problems:

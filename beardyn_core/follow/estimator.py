@@ -224,7 +224,9 @@ def read_estimator(path: Path) -> Estimator:
         )
     except FileNotFoundError:
         raise InputError(f"{path}: there is no such file") from None
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as error:
+    except ValueError:  # of a file of another kind NumPy says how to load it unsafely
+        raise InputError(f"{path}: is no estimator that `beardyn train` wrote") from None
+    except (OSError, KeyError, TypeError, EOFError, BadZipFile) as error:
         raise InputError(f"{path}: is no estimator that `beardyn train` wrote ({error})") from None
     if len(found.middle) != len(names_of(found.axes)):
         raise InputError(

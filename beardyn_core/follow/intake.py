@@ -11,24 +11,38 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import FEWEST_TURNS
+from beardyn_core.follow.listening import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured
 from beardyn_core.observe.chain import Stretch
 
 _SAME_RATE = 1e-3
-_GAP = 1.5  # samples
+_STRETCHES_KEPT = 2.0
 
 
 @dataclass
 class StretchIntake:
-    """Gathers vibration and shaft until both cover a stretch; a gap begins a new one."""
+    """Gathers vibration and shaft until both cover a stretch; a gap begins a new one.
+
+    Of one that the other does not follow, the last two stretches are kept.
+    """
 
     estimator: Estimator
     gaps: A[int, "in the vibration"] = 0
-    unfit: A[int, "stretches in which the shaft stood, turned back or was too slow"] = 0
+    unfit: A[int, "stretches with NaN, or in which the shaft stood, turned back or was too slow"] = 0
+    heard: A[int, "stretches that were given"] = 0
     _times: list[Int] = field(default_factory=list)
     _heard: list[Float] = field(default_factory=list)
     _turn_times: list[Int] = field(default_factory=list)
     _turns: list[Float] = field(default_factory=list)
+
+    @property
+    def doubt(self) -> str:
+        """Say why nothing has been heard though whole stretches have come; empty when something has."""
+        if self.heard or not self.unfit:
+            return ""
+        return (
+            f"nothing is heard: of {self.unfit} stretches none is without NaN and has a shaft that turns "
+            f"{FEWEST_TURNS:g} times one way"
+        )
 
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
         """Add a block, shape [sample, 3], [m/s^2].
@@ -36,7 +50,7 @@ class StretchIntake:
         Raises
         ------
         InputError
-            It is not sampled as the estimator hears.
+            It is not sampled as the estimator hears, or an axis is not measured.
         """
         if len(time_ns) < 2:
             return
@@ -46,11 +60,14 @@ class StretchIntake:
                 f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator hears "
                 f"{self.estimator.rate:.0f} Hz"
             )
-        if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < _GAP * period:
+        heard = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]
+        if doubt := unmeasured(heard, self.estimator):
+            raise InputError(f"vibration: {doubt}")
+        if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < LONGEST_STEP * period:
             self.gaps += 1
             self._times, self._heard = [], []
         self._times.append(time_ns)
-        self._heard.append(acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]])
+        self._heard.append(heard)
 
     def push_shaft(self, time_ns: Int, angle: Float) -> None:
         """Add samples of the tachometer; an angle that wraps is unwrapped."""
@@ -65,21 +82,34 @@ class StretchIntake:
         """Give the next stretch when all of it has come; what is unfit is left out."""
         length = round(self.estimator.stretch * self.estimator.rate) + 1
         if sum(map(len, self._times)) < length or not self._turn_times:
+            self._forget()
             return None
         times, heard = np.concatenate(self._times), np.concatenate(self._heard)
         turn_times, turns = np.concatenate(self._turn_times), np.concatenate(self._turns)
-        if turn_times[-1] < times[length - 1]:
+        unknown = int(np.searchsorted(times, turn_times[0]))  # before the shaft was heard
+        times, heard = times[unknown:], heard[unknown:]
+        self._keep(times, heard)
+        if len(times) < length or turn_times[-1] < times[length - 1]:
+            self._forget()
             return None
-        self._times, self._heard = [times[length:]] if len(times) > length else [], [heard[length:]]
-        if not self._times:
-            self._heard = []
+        self._keep(times[length:], heard[length:])
         kept = max(int(np.searchsorted(turn_times, times[length - 1])) - 1, 0)
         self._turn_times, self._turns = [turn_times[kept:]], [turns[kept:]]
         angle = np.interp(times[:length], turn_times, turns)
-        turned = np.diff(angle)
-        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
-        known = turn_times[0] <= times[0] and np.isfinite(heard[:length]).all()
-        if not (known and one_way and abs(angle[-1] - angle[0]) >= FEWEST_TURNS * 2.0 * np.pi):
+        whole = np.isfinite(heard[:length]).all()
+        forward = turned_forward(heard[:length], angle) if whole else None
+        if forward is None:
             self.unfit += 1
             return None
-        return Stretch(self.estimator.rate, heard[:length], angle, np.nan, int(times[length - 1]))
+        self.heard += 1
+        return Stretch(self.estimator.rate, *forward, np.nan, int(times[length - 1]))
+
+    def _keep(self, times: Int, heard: Float) -> None:
+        self._times, self._heard = ([times], [heard]) if len(times) else ([], [])
+
+    def _forget(self) -> None:
+        """Drop blocks that are too old for what the other stream may still bring."""
+        longest_ns = _STRETCHES_KEPT * 1e9 * self.estimator.stretch
+        for times, values in ((self._times, self._heard), (self._turn_times, self._turns)):
+            while times and times[-1][-1] - times[0][-1] > longest_ns:
+                del times[0], values[0]

@@ -17,6 +17,10 @@ from beardyn_core.follow.quantities import QUANTITIES
 from beardyn_core.observe.chain import Stretch
 from beardyn_core.population.labelled_set import LabelledSet
 
+_ALIKE = 0.01  # sizes of bearings of one drawing, whose runs may differ by their tolerances
+_SAME_SAMPLING = 1e-3
+_SAMPLED = {"rate": "sampling rate", "seconds": "length of a run"}
+
 
 class Described(NamedTuple):
     """Runs of a set as an estimator sees them."""
@@ -25,6 +29,13 @@ class Described(NamedTuple):
     truth: dict[str, Float]  # by quantity, SI, shape [run]; NaN where a run has none
     bearings: NDArray[Any]  # shape [run], names
     conditions: NDArray[Any]  # shape [run]
+
+
+class Sampling(NamedTuple):
+    """How the vibration of a set is sampled."""
+
+    rate: float  # [Hz]
+    seconds: float  # of a run
 
 
 def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Described:
@@ -38,7 +49,7 @@ def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES)
     rows = np.full((len(chosen), len(names_of(axes))), np.nan)
     signals = runs.signals
     time, turned = np.asarray(signals.time_vibration), np.asarray(signals.time_shaft)
-    rate = (len(time) - 1) / float(time[-1] - time[0])
+    rate = sampling_of(runs).rate
     for k, run in enumerate(chosen):
         heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
         angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
@@ -72,6 +83,41 @@ def plate_of(runs: LabelledSet) -> NamePlate:
     numbers: dict[str, Any] = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
     numbers["roller_count"] = round(numbers["roller_count"])
     return NamePlate(name=str(runs.table["bearing"].iloc[0]), **numbers)
+
+
+def sampling_of(runs: LabelledSet) -> Sampling:
+    """Tell how the vibration of a set is sampled."""
+    time = np.asarray(runs.signals.time_vibration)
+    seconds = float(time[-1] - time[0])
+    return Sampling((len(time) - 1) / seconds, seconds)
+
+
+def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
+    """Check that an estimator that learns from one set can be calibrated or judged by another.
+
+    Raises
+    ------
+    InputError
+        They are of different bearings, sampling rates or lengths.
+    """
+    one, two = plate_of(runs), plate_of(other)
+    sizes = ("roller_count", "pitch_diameter", "roller_diameter", "contact_angle")
+    if not np.allclose(*([getattr(plate, name) for name in sizes] for plate in (one, two)), rtol=_ALIKE):
+        raise InputError(_unlike(runs, other, "bearing", one.name, two.name))
+    heard, beside = sampling_of(runs), sampling_of(other)
+    for name, unit in (("rate", "Hz"), ("seconds", "s")):
+        first, second = getattr(heard, name), getattr(beside, name)
+        if abs(second / first - 1.0) > _SAME_SAMPLING:
+            raise InputError(
+                _unlike(runs, other, _SAMPLED[name], f"{first:.6g} {unit}", f"{second:.6g} {unit}")
+            )
+
+
+def _unlike(runs: LabelledSet, other: LabelledSet, what: str, first: str, second: str) -> str:
+    return (
+        f"{other.folder}: its {what} is {second}, that of {runs.folder} is {first}; an estimator is "
+        "calibrated and judged by runs of the bearing and the accelerometer that it learns from"
+    )
 
 
 def taken(runs: Described, inside: NDArray[np.bool_]) -> Described:

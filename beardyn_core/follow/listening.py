@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 from scipy.signal import resample_poly
@@ -18,6 +19,7 @@ from beardyn_core.observe.chain import Stretch
 from beardyn_core.record.run import Run
 
 FEWEST_TURNS = 10.0  # of the shaft in a stretch
+LONGEST_STEP = 1.5  # sampling periods from one sample to the next; beyond, some are lost
 _ALIKE = 0.01  # sizes of a bearing that an estimator fits
 _SAME_RATE = 1e-3
 _LEAST_LENGTH = 0.95  # of a stretch
@@ -63,7 +65,10 @@ def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, s
 
 
 def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[Stretch]:
-    """Cut a run into stretches of the length and sampling rate that an estimator hears."""
+    """Cut a run into stretches of the length and sampling rate that an estimator hears.
+
+    Where samples are lost, or are NaN, a new stretch begins.
+    """
     if sensor and sensor not in run.sensors:
         raise InputError(f"{run.label}: has no sensor {sensor!r}; it has {', '.join(run.sensors)}")
     signal = run.sensors[sensor] if sensor else run.vibration
@@ -71,37 +76,75 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
         raise InputError(f"{run.label}: has no vibration with a shaft angle to estimate from")
     inside = (signal.time_ns >= run.shaft.time_ns[0]) & (signal.time_ns <= run.shaft.time_ns[-1])
     heard = np.asarray(signal.values, np.float64)[inside][:, [AXES.index(axis) for axis in estimator.axes]]
+    if doubt := unmeasured(heard, estimator):
+        raise InputError(f"{run.label}: {doubt}")
+    if signal.rate < (1.0 - _SAME_RATE) * estimator.rate:
+        raise InputError(
+            f"{run.label}: is sampled at {signal.rate:.0f} Hz, the estimator hears {estimator.rate:.0f} Hz; "
+            "what lies between is not in the signal"
+        )
+    complete = np.isfinite(heard).all(axis=1)
+    time_ns, heard = signal.time_ns[inside][complete], heard[complete]
+    angle = np.interp(time_ns, run.shaft.time_ns, np.unwrap(run.shaft.angle))
+    lost = np.flatnonzero(np.diff(time_ns) > LONGEST_STEP * 1e9 / signal.rate) + 1
+    for begin, end in pairwise([0, *lost.tolist(), len(time_ns)]):
+        if end - begin >= _LEAST_LENGTH * estimator.stretch * signal.rate:
+            piece = _resampled(heard[begin:end], angle[begin:end], signal.rate, estimator.rate)
+            yield from _cut(*piece, int(time_ns[begin]), estimator)
+
+
+def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Estimator) -> Iterator[Stretch]:
+    """Cut what nothing is lost of into stretches."""
+    length = round(estimator.stretch * estimator.rate) + 1
+    for k in range(max(1, len(heard) // length)):
+        part = slice(k * length, (k + 1) * length)
+        long_enough = len(angle[part]) >= _LEAST_LENGTH * length
+        if long_enough and (forward := turned_forward(heard[part], angle[part])) is not None:
+            end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
+            yield Stretch(estimator.rate, *forward, np.nan, end_ns)
+
+
+def unmeasured(heard: Float, estimator: Estimator) -> str:
+    """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
     for axis, values in zip(estimator.axes, heard.T, strict=True):
-        if np.isnan(values).all():
-            raise InputError(
-                f"{run.label}: axis {axis} is not measured; the estimator hears {', '.join(estimator.axes)}: "
+        if len(values) and np.isnan(values).all():
+            return (
+                f"axis {axis} is not measured; the estimator hears {', '.join(estimator.axes)}: "
                 "train one with --axes"
             )
-    begin_ns = int(signal.time_ns[inside][0]) if inside.any() else 0
-    angle = np.interp(signal.time_ns[inside], run.shaft.time_ns, np.unwrap(run.shaft.angle))
-    heard, angle = _resampled(run, heard, angle, signal.rate, estimator.rate)
-    length = round(estimator.stretch * estimator.rate) + 1
-    count = max(1, len(heard) // length)
-    for k in range(count):
-        part = slice(k * length, (k + 1) * length)
-        turned = np.diff(angle[part])
-        whole = len(angle[part]) >= _LEAST_LENGTH * length and np.isfinite(heard[part]).all()
-        one_way = (turned >= 0.0).all() or (turned <= 0.0).all()
-        if whole and one_way and abs(angle[part][-1] - angle[part][0]) >= FEWEST_TURNS * 2.0 * np.pi:
-            end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
-            yield Stretch(estimator.rate, heard[part], angle[part], np.nan, end_ns)
+    return ""
 
 
-def _resampled(run: Run, heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
+def turned_forward(heard: Float, angle: Float) -> tuple[Float, Float] | None:
+    """Give vibration and angle of a stretch as if the shaft turned forwards.
+
+    One that turns backwards is turned round in time, so that its angle increases as well.
+
+    Parameters
+    ----------
+    heard : float64 array, shape [sample, axis]
+        [m/s^2].
+    angle : float64 array, shape [sample]
+        [rad].
+
+    Returns
+    -------
+    tuple of arrays or None
+        Vibration and increasing angle; none where the shaft stands, turns round or is too slow.
+    """
+    turned = np.diff(angle)
+    if abs(angle[-1] - angle[0]) < FEWEST_TURNS * 2.0 * np.pi:
+        return None
+    if (turned >= 0.0).all():
+        return heard, angle
+    return (heard[::-1].copy(), angle[::-1].copy()) if (turned <= 0.0).all() else None
+
+
+def _resampled(heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
     """Bring vibration, shape [sample, axis], and angle to the sampling rate of the estimator."""
     if abs(rate / wanted - 1.0) < _SAME_RATE:
         return heard, angle
-    if rate < wanted:
-        raise InputError(
-            f"{run.label}: is sampled at {rate:.0f} Hz, the estimator hears {wanted:.0f} Hz; what lies "
-            "between is not in the signal"
-        )
     ratio = Fraction(wanted / rate).limit_denominator(1000)
-    fewer = resample_poly(np.nan_to_num(heard), ratio.numerator, ratio.denominator, axis=0)
+    fewer = resample_poly(heard, ratio.numerator, ratio.denominator, axis=0)
     time = np.arange(len(fewer)) * (rate / wanted)
     return fewer, np.interp(time, np.arange(len(angle)), angle)

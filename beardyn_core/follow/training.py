@@ -15,7 +15,15 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator, farthest_of
-from beardyn_core.follow.labelled import Described, described, joined, plate_of, taken
+from beardyn_core.follow.labelled import (
+    Described,
+    check_alike,
+    described,
+    joined,
+    plate_of,
+    sampling_of,
+    taken,
+)
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEVELS, Guess, Regression, reach_of
@@ -225,9 +233,12 @@ def train(
     Raises
     ------
     InputError
-        There are too few runs, or bearings of several drawings.
+        There are too few runs, or bearings of several drawings; another set is of another bearing,
+        sampling rate or length.
     """
     about = runs.about
+    for each in [*calibration, *([] if test is None else [test])]:
+        check_alike(runs, each)
     seen = joined(
         [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
     )
@@ -235,9 +246,7 @@ def train(
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {_FEWEST} are needed"
         )
-    time = np.asarray(runs.signals.time_vibration)
-    seconds = float(time[-1] - time[0])
-    found = trained(seen, plate_of(runs), axes, (len(time) - 1) / seconds, seconds)
+    found = trained(seen, plate_of(runs), axes, *sampling_of(runs))
     held_back = [described(each, None, axes) for each in calibration] or [described(runs, VALIDATION, axes)]
     learnt, held = found, joined(held_back)
     found = calibrated(learnt, held, straightened=bool(calibration))

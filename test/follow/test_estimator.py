@@ -109,7 +109,12 @@ def test_a_file_gives_the_same_estimates_and_is_small(estimator: Estimator, tmp_
 
 @pytest.mark.parametrize(
     ("content", "sentence"),
-    [(None, "there is no such file"), (b"", "is no estimator"), (b"PK\x03\x04 cut", "is no estimator")],
+    [
+        (None, "there is no such file"),
+        (b"", "is no estimator"),
+        (b"PK\x03\x04 cut", "is no estimator"),
+        (b"mileage,load\n", "is no estimator that `beardyn train` wrote$"),
+    ],
 )
 def test_files_that_are_no_estimator_are_refused(
     content: bytes | None, sentence: str, tmp_path: Path

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import stretches_of
+from beardyn_core.follow.intake import StretchIntake
+from beardyn_core.follow.listening import estimates_of, stretches_of
 from beardyn_core.observe.chain import Stretch
+from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
 
@@ -45,6 +48,71 @@ def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
         folder / "measured.npz", folder / "run.mcap", bearing="HS130x230", unit="m/s2",
         speed_rpm=60.0 * SHAFT_HZ, **axes,
     )  # fmt: skip
+
+
+def turning(values: Float, speed_hz: float = SHAFT_HZ, rate: float = RATE) -> Any:
+    """What is heard of a run that begins a second after zero, whose shaft turns evenly."""
+    time_ns = 1_000_000_000 + np.round(np.arange(len(values)) * 1e9 / rate).astype(np.int64)
+    shaft_ns = np.arange(990_000_000, time_ns[-1] + 10_000_000, 2_500_000)
+    angle = (2.0 * np.pi * speed_hz * 1e-9 * shaft_ns + np.pi) % (2.0 * np.pi) - np.pi
+    signal = Signal(time_ns, values, AXES, "m/s^2", np.arange(len(values)))
+    shaft = Turning(shaft_ns, angle, np.full(len(shaft_ns), 2.0 * np.pi * speed_hz))
+    return SimpleNamespace(label="run", sensors={"box": signal}, vibration=signal, shaft=shaft)
+
+
+def test_a_shaft_that_turns_backwards_is_heard_as_if_forwards(estimator: Estimator) -> None:
+    values = signal(1.6)
+    run = turning(values, -SHAFT_HZ)
+    intake = StretchIntake(estimator)
+    intake.push_shaft(run.shaft.time_ns, run.shaft.angle)
+    intake.push_vibration(run.vibration.time_ns, values)
+    live = intake.stretch()
+    assert live is not None
+    for each in (next(stretches_of(run, estimator)), live):
+        assert (np.diff(each.shaft_angle) > 0.0).all()
+        np.testing.assert_array_equal(each.acceleration[::-1], values[: len(each.acceleration)])
+        found = dict(zip(names_of(AXES), describe(each, ORDERS, PLATE, AXES), strict=True))
+        assert found["passing_2_level_z"] == pytest.approx(20.0 * np.log10(3.0 / np.sqrt(2.0)), abs=0.1)
+        assert found["shaft"] == pytest.approx(np.log10(SHAFT_HZ), abs=1e-3)
+
+
+@pytest.mark.parametrize("first", ["vibration", "shaft"])
+def test_what_the_other_stream_does_not_follow_is_forgotten(first: str, estimator: Estimator) -> None:
+    run, intake = turning(signal(12.0)), StretchIntake(estimator)
+    streams = {
+        "vibration": (intake.push_vibration, run.vibration.time_ns, run.vibration.values),
+        "shaft": (intake.push_shaft, run.shaft.time_ns, run.shaft.angle),
+    }
+    push, time_ns, values = streams.pop(first)
+    for part in np.array_split(np.arange(len(time_ns)), 120):
+        push(time_ns[part], values[part])
+        assert intake.stretch() is None
+    push, time_ns, values = next(iter(streams.values()))
+    push(time_ns, values)
+    found = intake.stretch()
+    assert found is not None
+    oldest = found.end_ns - round(1e9 * STRETCH)
+    wanted = int(run.vibration.time_ns[-1]) - round(2e9 * STRETCH)
+    assert oldest == pytest.approx(wanted, abs=110_000_000)  # a block is dropped whole
+    assert found.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
+    assert (intake.gaps, intake.unfit) == (0, 0)
+
+
+def test_an_intake_says_why_it_hears_nothing(estimator: Estimator) -> None:
+    values = signal(1.6)
+    values[:, :2] = np.nan
+    with pytest.raises(InputError, match="axis x is not measured; the estimator hears x, y, z: train one"):
+        StretchIntake(estimator).push_vibration(turning(values).vibration.time_ns, values)
+    intake, standing = StretchIntake(estimator), turning(signal(1.6), 0.0)
+    assert not intake.doubt
+    for run in (standing, turning(signal(1.6))):
+        told = intake.doubt
+        intake.push_shaft(run.shaft.time_ns, run.shaft.angle)
+        intake.push_vibration(run.vibration.time_ns, run.vibration.values)
+        found = intake.stretch()
+        assert (found is None) == (run is standing)
+    assert "of 1 stretches none is without NaN and has a shaft that turns 10 times" in told
+    assert not intake.doubt
 
 
 def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
@@ -80,6 +148,34 @@ def test_a_run_is_heard_in_whole_stretches_at_the_rate_learnt(
         assert each.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
         kept = np.sqrt(np.mean(each.acceleration[:, 2] ** 2))
         assert kept == pytest.approx(np.sqrt(4.5 + 0.25 * min(1.0, RATE / rate)), rel=0.02)
+
+
+@pytest.mark.parametrize("rate", [RATE, 2.0 * RATE])
+@pytest.mark.parametrize("dropped", [True, False])
+def test_a_stretch_begins_anew_where_samples_are_lost(
+    rate: float, dropped: bool, estimator: Estimator
+) -> None:
+    whole = turning(signal(4.7, rate), rate=rate)
+    time_ns, values = whole.vibration.time_ns, whole.vibration.values.copy()
+    here = (time_ns < 2_600_000_000) | (time_ns >= 2_900_000_000)
+    values[~here, 0] = np.nan
+    kept = here | (not dropped)
+    signals = Signal(time_ns[kept], values[kept], AXES, "m/s^2", np.flatnonzero(kept))
+    run = SimpleNamespace(label="run", sensors={"box": signals}, vibration=signals, shaft=whole.shaft)
+    ends = [each.end_ns for each in stretches_of(run, estimator)]
+    assert ends == pytest.approx([2_500_000_000, 4_400_000_000], abs=50_000)
+    for each, end_ns in zip(stretches_of(run, estimator), ends, strict=True):
+        assert each.shaft_frequency == pytest.approx(SHAFT_HZ, rel=1e-3)
+        sent = np.interp(end_ns, run.shaft.time_ns, np.unwrap(run.shaft.angle))
+        assert each.shaft_angle[-1] == pytest.approx(sent, abs=0.02)
+        assert np.diff(each.shaft_angle).max() < 1.1 * 2.0 * np.pi * SHAFT_HZ / RATE
+
+
+def test_one_lost_sample_makes_a_run_too_short(estimator: Estimator) -> None:
+    run = turning(signal(2.0, 2.0 * RATE), rate=2.0 * RATE)
+    run.vibration.values[51_200, 1] = np.nan
+    with pytest.raises(InputError, match="of whole vibration"):
+        estimates_of(run, estimator, PLATE)
 
 
 def test_command_tells_what_the_function_finds(

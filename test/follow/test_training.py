@@ -13,8 +13,9 @@ import pytest
 from beardyn_core.cli import train as command
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.main import main
+from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError
-from beardyn_core.follow import training
+from beardyn_core.follow import labelled, training
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn
 
@@ -27,9 +28,12 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
     """A set whose runs are drawn when they are asked for."""
     seeds = {part: seed for seed, part in enumerate(PARTS, start=20)}
     monkeypatch.setattr(training, "described", lambda _runs, part, _axes: drawn(PARTS[part], seeds[part]))
-    monkeypatch.setattr(training, "plate_of", lambda _runs: PLATE)
+    for module in (training, labelled):
+        monkeypatch.setattr(module, "plate_of", lambda each: each.plate)
     time = np.arange(round(STRETCH * RATE) + 1) / RATE
-    return SimpleNamespace(folder="made", about=ABOUT, signals=SimpleNamespace(time_vibration=time))
+    return SimpleNamespace(
+        folder="made", about=ABOUT, plate=PLATE, signals=SimpleNamespace(time_vibration=time)
+    )
 
 
 def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
@@ -54,6 +58,26 @@ def test_other_sets_calibrate_and_judge(runs: Any) -> None:
     assert found.card["condition"]["runs"] == PARTS[None]
 
 
+@pytest.mark.parametrize(
+    ("unlike", "sentence"),
+    [
+        ({"plate": load_plate("METRO120x220")}, "its bearing is METRO120x220, that of made is HS130x230"),
+        ({"seconds": 2.0}, "its length of a run is 2 s, that of made is 1.5 s"),
+        ({"rate": 12_800.0}, "its sampling rate is 12800 Hz, that of made is 25600 Hz"),
+    ],
+)
+@pytest.mark.parametrize("role", ["calibration", "test"])
+def test_sets_of_another_bearing_or_sampling_are_refused(
+    unlike: dict[str, Any], sentence: str, role: str, runs: Any
+) -> None:
+    how = {"rate": RATE, "seconds": STRETCH, "plate": PLATE} | unlike
+    time = np.arange(round(how["seconds"] * how["rate"]) + 1) / how["rate"]
+    signals = SimpleNamespace(time_vibration=time)
+    other: Any = SimpleNamespace(folder="others", about=ABOUT, plate=how["plate"], signals=signals)
+    with pytest.raises(InputError, match=f"others: {sentence}"):
+        training.train(runs, **{role: [other] if role == "calibration" else other})
+
+
 def test_too_few_runs_are_refused(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(PARTS, "train", 30)
     with pytest.raises(InputError, match="has 30 complete runs to learn from; 40 are needed"):
@@ -67,3 +91,7 @@ def test_options_that_cannot_be_are_refused_at_once(
     told = capsys.readouterr().err
     assert "let its name end in .npz" in told
     assert "--axes 'zw': give one or more of x, y and z, each once" in told
+    one = tmp_path / "one.npz"
+    one.touch()
+    assert main(["train", str(tmp_path), "-o", str(one), "--test", str(one), "--force"]) == 2
+    assert "an input is never replaced" in capsys.readouterr().err
