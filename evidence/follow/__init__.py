@@ -4,5 +4,6 @@
 module   responsibility
 ======== ==================================================================
 demo     hidden truth, what the follower makes of it, picture
+page     the table of docs/estimate.md and its picture, from a run of it
 ======== ==================================================================
 """
