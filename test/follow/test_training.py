@@ -74,11 +74,9 @@ def test_sets_of_another_bearing_or_sampling_are_refused(
     time = np.arange(round(how["seconds"] * how["rate"]) + 1) / how["rate"]
     signals = SimpleNamespace(time_vibration=time)
     other: Any = SimpleNamespace(folder="others", about=ABOUT, plate=how["plate"], signals=signals)
+    how = {"calibration": [other] if role == "calibration" else [], "test": other if role == "test" else None}
     with pytest.raises(InputError, match=f"others: {sentence}"):
-        if role == "test":
-            training.train(runs, test=other)
-        else:
-            training.train(runs, calibration=[other])
+        training.train(runs, calibration=how["calibration"], test=how["test"])
 
 
 def test_too_few_runs_are_refused(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
