@@ -19,6 +19,7 @@ import numpy as np
 from rclpy.node import Node
 
 from beardyn_core.api.following import follower_of, residual_beside
+from beardyn_core.api.making import scene as make_scene
 from beardyn_core.arrays import Float
 from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError, ValidityError
@@ -27,6 +28,7 @@ from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.following import SOUND, WAITING, Followed
 from beardyn_core.follow.forecast import Service
 from beardyn_core.follow.intake import StretchIntake
+from beardyn_core.follow.listening import doubt_of
 from beardyn_core.follow.residual import Residual
 from beardyn_core.follow.told import residual_object, step_object
 from beardyn_core.record.cloud_layout import cloud_points
@@ -40,6 +42,8 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.topics import TEMPERATURE, topic
+from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.scene import Scene
 from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.message_guard import MessageGuard
@@ -51,6 +55,7 @@ from beardyn_ros.wire import RawIntake, TopicPublishers
 FOLLOWER = "follower"
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
+LAST_COMPARISON_S = 15.0  # longest wait at the end; the recorder waits 20 s for the last word
 KEPT_ROWS = 4  # stretches that are compared with the twin beside
 
 PARAMETERS = (
@@ -117,6 +122,7 @@ class FollowerNode(Node):
         except InputError as error:
             problems = [f"node follower, parameter 'estimator': {each}" for each in error.problems]
             raise InputError(problems) from None
+        self._twin = self._scene_of_twin()
         self._stretches = StretchIntake(self._follower.estimator)
         self._shaft: list[bytes] = []
         self._rows: list[Float] = []
@@ -130,6 +136,23 @@ class FollowerNode(Node):
         self._unheard = ""  # why the vibration is not heard
         self._trouble = ""  # of the twin beside
         self._summed_up = False
+        self._ended_at: float | None = None
+
+    def _scene_of_twin(self) -> Scene | None:
+        """Make the scene of the twin beside, which must be of this bearing and on a track."""
+        if not self._values.twin:
+            return None
+        where = f"node follower, parameter 'twin': scene '{self._values.twin}'"
+        try:
+            found = make_scene(Path(self._values.twin))
+        except InputError as error:
+            problems = [f"node follower, parameter 'twin': {each}" for each in error.problems]
+            raise InputError(problems) from None
+        if not isinstance(found.operation, QuarterVehicleOperation):
+            raise InputError(f"{where}: a twin beside a train runs on a track (kind: quarter_vehicle)")
+        if doubt := doubt_of(self._follower.estimator, found.bearing):
+            raise InputError(f"{where}: {doubt}")
+        return found
 
     # --- what a train has --------------------------------------------------------------------------
 
@@ -175,13 +198,18 @@ class FollowerNode(Node):
         self._hear_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.ended and self._comparing is None and not self._summed_up:
+        if self._watch.ended and self._twin_is_done() and not self._summed_up:
             self._summed_up = True
             self._publish(self._latest, final=True)
             self._report()
             self._out.wait_until_received("follower/estimate", 1.0)
         if self._summed_up or self._watch.vanished():
             self.finished = bool(self._values.exit_when_done)
+
+    def _twin_is_done(self) -> bool:
+        """Check whether nothing more is to come of the twin beside, once the run has ended."""
+        self._ended_at = self._ended_at or time.monotonic()
+        return self._comparing is None or time.monotonic() - self._ended_at > LAST_COMPARISON_S
 
     def _take(self, row: Float, end: float) -> None:
         earlier = WAITING if self._latest is None else self._latest.health
@@ -192,20 +220,17 @@ class FollowerNode(Node):
             say = self.get_logger().info if step.health in (WAITING, SOUND) else self.get_logger().warning
             say(step.sentence)
         due = end - self._compared_at >= self._values.twin_period
-        if self._values.twin and due and self._comparing is None and step.health != WAITING:
+        if self._twin is not None and due and self._comparing is None and step.health != WAITING:
             self._compared_at = end
             known, rows = step.estimates, np.stack(self._rows)
-            self._comparing = self._worker.submit(self._compare, known, rows)
+            self._comparing = self._worker.submit(self._compare, self._twin, known, rows)
 
     def _publish(self, step: Followed | None, final: bool = False) -> None:
         told = {} if step is None else step_object(step)
         self._out.publish("follower/estimate", _encoded({"final": final, **told}))
 
-    def _compare(self, known: Estimates, rows: Float) -> Residual:
+    def _compare(self, base: Scene, known: Estimates, rows: Float) -> Residual:
         """Run the twin beside, in the thread of the worker."""
-        from beardyn_core.api.making import scene
-
-        base = scene(Path(self._values.twin))
         return residual_beside(self._follower.estimator, rows, known, base, self._values.twin_tier)
 
     def _hear_twin(self) -> None:
@@ -219,6 +244,7 @@ class FollowerNode(Node):
             self._trouble = f"twin beside: {error}"
             self.get_logger().error(self._trouble, throttle_duration_sec=5.0)
             return
+        self._trouble = ""
         told = {"time_s": self._compared_at, **residual_object(self._residual)}
         self._out.publish("follower/residual", _encoded(told))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isclose
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -102,7 +103,7 @@ def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
     """
     one, two = plate_of(runs), plate_of(other)
     sizes = ("roller_count", "pitch_diameter", "roller_diameter", "contact_angle")
-    if not np.allclose(*([getattr(plate, name) for name in sizes] for plate in (one, two)), rtol=_ALIKE):
+    if not all(isclose(getattr(one, name), getattr(two, name), rel_tol=_ALIKE) for name in sizes):
         raise InputError(_unlike(runs, other, "bearing", one.name, two.name))
     heard, beside = sampling_of(runs), sampling_of(other)
     for name, unit in (("rate", "Hz"), ("seconds", "s")):

@@ -237,8 +237,8 @@ def train(
         sampling rate or length.
     """
     about = runs.about
-    for each in [*calibration, *([] if test is None else [test])]:
-        check_alike(runs, each)
+    for other in [*calibration, *([] if test is None else [test])]:
+        check_alike(runs, other)
     seen = joined(
         [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
     )

@@ -161,7 +161,7 @@ def test_a_stretch_begins_anew_where_samples_are_lost(
     values[~here, 0] = np.nan
     kept = here | (not dropped)
     signals = Signal(time_ns[kept], values[kept], AXES, "m/s^2", np.flatnonzero(kept))
-    run = SimpleNamespace(label="run", sensors={"box": signals}, vibration=signals, shaft=whole.shaft)
+    run: Any = SimpleNamespace(label="run", sensors={"box": signals}, vibration=signals, shaft=whole.shaft)
     ends = [each.end_ns for each in stretches_of(run, estimator)]
     assert ends == pytest.approx([2_500_000_000, 4_400_000_000], abs=50_000)
     for each, end_ns in zip(stretches_of(run, estimator), ends, strict=True):

@@ -70,12 +70,13 @@ def test_other_sets_calibrate_and_judge(runs: Any) -> None:
 def test_sets_of_another_bearing_or_sampling_are_refused(
     unlike: dict[str, Any], sentence: str, role: str, runs: Any
 ) -> None:
-    how = {"rate": RATE, "seconds": STRETCH, "plate": PLATE} | unlike
+    how: dict[str, Any] = {"rate": RATE, "seconds": STRETCH, "plate": PLATE} | unlike
     time = np.arange(round(how["seconds"] * how["rate"]) + 1) / how["rate"]
     signals = SimpleNamespace(time_vibration=time)
     other: Any = SimpleNamespace(folder="others", about=ABOUT, plate=how["plate"], signals=signals)
+    how = {"calibration": [other] if role == "calibration" else [], "test": other if role == "test" else None}
     with pytest.raises(InputError, match=f"others: {sentence}"):
-        training.train(runs, **{role: [other] if role == "calibration" else other})
+        training.train(runs, calibration=how["calibration"], test=how["test"])
 
 
 def test_too_few_runs_are_refused(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:

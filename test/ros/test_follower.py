@@ -58,6 +58,18 @@ def test_mistakes_are_refused_with_the_parameter(graph: Graph) -> None:
     assert "Traceback" not in log
 
 
+@pytest.mark.parametrize(
+    ("twin", "sentence"),
+    [("smoth_run", "smoth_run"), ("static_5kN", "runs on a track (kind: quarter_vehicle)")],
+)
+def test_a_twin_that_cannot_run_beside_is_refused_at_once(twin: str, sentence: str, graph: Graph) -> None:
+    graph.node_process("follower", bearing="HS130x230", twin=twin)
+    assert graph.exit_code("follower") == 2
+    log = graph.processes.log("follower")
+    assert "parameter 'twin'" in log
+    assert sentence in log
+
+
 def test_a_bearing_without_an_estimator_is_refused_with_those_there_are(graph: Graph) -> None:
     graph.node_process("follower", bearing="AARK_6.5x9")
     assert graph.exit_code("follower") == 2
