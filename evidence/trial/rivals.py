@@ -1,6 +1,6 @@
 """The reference, a plain envelope spectrum and cepstrum pre-whitening over the same runs of a trial.
 
-``python -m evidence.trial.rivals -o FILE``: every fifth run of `default`, simulated once, heard by the three
+``python -m evidence.trial.rivals -o FILE``: every eleventh run of `default`, simulated once, heard by the three
 monitors of docs/monitor_measured.md, so that the twin can be seen to rank them as measured records do;
 ``python -m evidence.trial.page FOLDER --rivals FILE`` has it on the page.
 """
@@ -26,7 +26,7 @@ from beardyn_core.study.monitored_recording import WAITING, Finding, conclude
 from beardyn_core.study.trial_result import Rate
 from evidence.measured.run import METHODS
 
-EVERY = 5  # no divisor of the 36 runs of a size: it walks through speeds, tracks and wheels
+EVERY = 11  # no divisor of the 36 runs of a size: it walks through speeds, tracks and wheels
 
 
 @dataclass(frozen=True)
