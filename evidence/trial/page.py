@@ -13,7 +13,7 @@ from typing import Any
 
 from beardyn_core.observe.chain import MonitorSettings
 from evidence.pages import DOCS, PICTURES, save_small
-from evidence.trial.rivals import EVERY, Judged, table
+from evidence.trial.rivals import EVERY, Judged, orders, table
 
 PAGE = DOCS / "trial.md"
 PICTURE = PICTURES / "trial.png"
@@ -214,6 +214,8 @@ def _rivals(judged: Sequence[Judged]) -> list[str]:
         "",
         table(judged),
         "",
+        f"{orders(judged)} Measured records rank them in these orders, too: sound bearings beside faulty "
+        "ones alarm least under ours and most under the envelope, which misses least.",
     ]
 
 

@@ -77,6 +77,16 @@ def table(judged: Sequence[Judged]) -> str:
     return "\n".join(lines)
 
 
+def orders(judged: Sequence[Judged]) -> str:
+    """Tell the order of the monitors by false alarms, and by what is missed, fewest first."""
+    sound = [each for each in judged if each.fault == HEALTHY]
+    missed = [each for each in judged if each.fault != HEALTHY and each.verdict not in FAULTS]
+    alarms = {method: sum(each.alarms for each in sound if each.method == method) for method in METHODS}
+    silent = {method: sum(each.method == method for each in missed) for method in METHODS}
+    fewest = (", ".join(sorted(METHODS, key=counts.__getitem__)) for counts in (alarms, silent))
+    return "Fewest false alarms first: {}. Fewest spalls missed first: {}.".format(*fewest)
+
+
 def _text(rate: Rate) -> str:
     return (
         f"{rate.count}/{rate.total}, {100 * rate.value:.3g} % ({100 * rate.low:.2g} to {100 * rate.high:.3g})"
@@ -102,6 +112,7 @@ def main() -> int:
         print(f"{number} of {len(cells)}: {cell.key}: {said}", flush=True)
         args.output.write_text(json.dumps([asdict(each) for each in judged], indent=0), encoding="utf-8")
     print(table(judged))
+    print(orders(judged))
     return 0
 
 

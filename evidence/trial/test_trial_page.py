@@ -11,7 +11,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
 from evidence.trial.page import page
-from evidence.trial.rivals import Judged, table
+from evidence.trial.rivals import Judged, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
 
@@ -64,6 +64,9 @@ def test_the_rivals_are_counted_over_the_same_runs() -> None:
             ("b", "none", verdicts[1], 0 if verdicts[1] == "healthy" else 1),
         )
     ]
+    assert orders(judged) == (
+        "Fewest false alarms first: ours, envelope, CPW. Fewest spalls missed first: ours, envelope, CPW."
+    )
     rows = [row.split(" | ") for row in table(judged).splitlines()[2:]]
     assert [row[1].split(",")[0] for row in rows] == ["1/1", "0/1", "1/1"]
     assert [row[2:4] for row in rows] == [["0", "0"], ["1", "0"], ["0", "0"]]
