@@ -87,7 +87,7 @@ monitor-measured: $(VENV)/.ready-test ## set up, then the monitor over public re
 ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)
 
-automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of ten scenes and write docs/automatic.md
+automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of twenty scenes and write docs/automatic.md
 	@$(BIN)/python -m evidence.automatic.page $(ARGS)
 
 validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md

@@ -23,7 +23,6 @@ from beardyn_core.effects import (
     MixedTraction,
     Rib,
     RibMixedFilm,
-    RollingResistance,
     ShearedFilmTraction,
     Traction,
 )
@@ -75,29 +74,31 @@ class Losses:
         self.speed = abs(case.speed)
         bearing = scene.bearing
         self._entrainment = entrainment_speeds(bearing, self.speed)
-        self._couples = np.zeros((2, *static.cup_load.shape))
-        self.rolling = 0.0
-        rolling = scene.effects.rolling_resistance
-        if rolling is not None and self.speed > 0.0:
-            self.rolling = self._roll(rolling)
+        self.rolling, self._couples = self._roll(scene.effects.film)
 
-    def _roll(self, effect: RollingResistance) -> float:
-        """Compute the torque of the rolling resistance, [N m]; keeps the couples."""
-        film = effect.kind != "hysteresis"
+    def _roll(self, film: LineFilm | None) -> tuple[float, Float]:
+        """Compute torque [N m] and couples [N m] of the rolling resistance with the oil that a film has."""
+        effect = self.scene.effects.rolling_resistance
+        if effect is None or self.speed == 0.0:
+            return 0.0, np.zeros((2, *self.static.cup_load.shape))
+        lubricated = effect.kind != "hysteresis"
         running = running_torque(
             self.scene.bearing,
             self.scene.lubricant,
             self.scene.temperature,
             self.static,
             self.speed,
-            form=effect.kind if film else "aihara",
+            form=effect.kind if lubricated else "aihara",
             thermal=effect.thermal,
             hysteresis=effect.hysteresis,
-            supply=oil_supply(self.scene.effects.film),
+            supply=oil_supply(film),
         )
-        share = effect.supply if film else 0.0
-        self._couples = share * np.stack([running.cup_couple, running.cone_couple])
-        return share * running.rolling
+        share = effect.supply if lubricated else 0.0
+        return share * running.rolling, share * np.stack([running.cup_couple, running.cone_couple])
+
+    def rolling_with(self, film: LineFilm | None) -> float:
+        """Compute the torque of the rolling resistance with another film, whose oil feeds it, [N m]."""
+        return self._roll(film)[0]
 
     @property
     def drag(self) -> float:

@@ -23,7 +23,7 @@ _CHOSEN_AS = {"fault_line": "vibration"}
 # wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
 _FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
 _FULL_COST = (0.10, 0.025)
-_FAST_EFFECTS = "standard"
+_FAST_EFFECTS = "standard"  # of a fast level whose name does not say
 _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 
@@ -109,6 +109,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
         steps |= {f"full - {name}": (less, [(6, usual)]) for name, less in _one_less(full)}
     rows: list[tuple[str, str, EffectSet, list[tuple[int, int]]]] = []
     rows += [(tier, _FAST_EFFECTS, standard, choices) for tier, choices in fast.items()]
+    rows += [(tier, "full", full, [(6, TIERS[tier].steps_per_sample)]) for tier in fast]
     rows += [("full", name, effects, choices) for name, (effects, choices) in steps.items()]
     found = [
         _level(tier, name, effects, *choice) for tier, name, effects, choices in rows for choice in choices

@@ -2,7 +2,7 @@
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder. Finished scenes are kept in ``--keep``, so that a run that was cut off goes
-on; an edit of the package begins anew. About half an hour:
+on; an edit of the package begins anew. About an hour:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
@@ -49,6 +49,16 @@ CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
     "worn_pocket": ((USUAL, 0.05),),
     "waviness": ((USUAL, 0.05),),
     "wheel_flat": ((USUAL, 0.05), (FORCES, 0.05)),
+    "healthy_80": ((USUAL, 0.05),),
+    "healthy_300": ((USUAL, 0.05),),
+    "polygon_wheel": ((USUAL, 0.05),),
+    "spall_and_flat": ((USUAL, 0.05),),
+    "service_high_speed": ((USUAL, 0.05), (MEANS, 0.05)),
+    "service_high_speed_cup": ((USUAL, 0.05),),
+    "service_freight": ((USUAL, 0.05),),
+    "service_freight_cone": ((USUAL, 0.05),),
+    "service_metro": ((USUAL, 0.05),),
+    "service_metro_roller": ((USUAL, 0.05),),
 }
 PAGE = DOCS / "automatic.md"
 

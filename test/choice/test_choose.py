@@ -191,6 +191,17 @@ def test_frictionless_contacts_have_a_seal_and_nothing_to_drive() -> None:
     assert scene.effects.traction is None
 
 
+def test_means_of_rollers_that_roll_need_no_full_tier() -> None:
+    means = ["force", "deflection", "roller_load", "torque"]
+    assert variant(quantities=means).tier != "full"
+    slipping = variant(operation=constant([0, 0, 2], 1200), quantities=means, mounting=HELD)
+    assert slipping.tier == "full"
+
+
+def test_oil_that_feeds_the_rolling_resistance_keeps_its_film() -> None:
+    assert variant(quantities=["torque"], tier="full", accuracy_percent=40.0).effects.film is not None
+
+
 def test_a_standing_shaft_has_no_torque_to_resolve() -> None:
     scene = variant(operation=constant([0, 0, 60], 0), quantities=["torque", "force"], mounting=HELD)
     assert scene.tier == "lumped"

@@ -56,14 +56,15 @@ def test_it_is_what_auto_takes_in_the_full_tier() -> None:
 
 
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
-def test_fast_tiers_get_what_they_can_have(tier: str) -> None:
-    scene = load_scene("static_80kN", tier=tier)
+@pytest.mark.parametrize(("name", "slipping"), [("static_80kN", False), ("static_5kN", True)])
+def test_fast_tiers_get_what_they_can_have(name: str, slipping: bool, tier: str) -> None:
+    scene = load_scene(name, tier=tier)
     assert scene.tier == tier
     assert scene.missing_effects == ()
     assert scene.effects.film is not None, (
         "it starves the rolling resistance: else the torque is three times as large"
     )
-    assert "more than asked for" in scene.chosen[0]
+    assert ("more than asked for" in scene.chosen[0]) == slipping
     assert scene.numerics.laminae <= 12, "no fineness is bought for what the tier misses anyway"
 
 

@@ -54,6 +54,8 @@ def measured(scene: Scene, settled: float) -> Measured:
         ("static_80kN", ["force", "cage_speed"], 5.0, 0.6, 0.3),
         ("static_5kN", ["force", "deflection", "roller_load", "torque", "cage_speed"], 5.0, 2.4, 1.8),
         ("smooth_run", ["force", "deflection", "roller_load", "torque"], 5.0, 0.8, 0.4),
+        ("freight_100", ["force", "deflection", "roller_load", "torque"], 5.0, 0.8, 0.4),
+        ("service_metro", ["force", "deflection", "roller_load", "torque"], 5.0, 0.8, 0.4),
         ("cup_spall", ["force", "deflection", "roller_load", "torque", "vibration"], 5.0, 0.8, 0.4),
     ],
 )
