@@ -74,7 +74,9 @@ def points_of(
 
 def fill(points: NDArray[Any], names: Sequence[str], numbers: NDArray[np.float64]) -> None:
     """Write an array, shape [point, column], to the columns of these names: of one type, side by side."""
-    kind, first, *_ = (points.dtype.fields or {})[names[0]]
+    fields = points.dtype.fields
+    assert fields is not None
+    kind, first, *_ = fields[names[0]]
     begin = first // kind.itemsize
     columns = points.view(kind).reshape(len(points), points.dtype.itemsize // kind.itemsize)
     columns[:, begin : begin + len(names)] = numbers
