@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from beardyn_core.choice import load_scene
+from beardyn_core.record.messages import typestore
 from beardyn_core.record.sinks import TrainSink
 from beardyn_core.scene.axleboxes import Axleboxes
 from beardyn_core.scene.scene import Scene
@@ -99,6 +100,7 @@ def train(axles: int) -> Table:
     """Run the boxes of a train in `lumped` with a recording, with bodies and contacts in it and without."""
     scene = load_scene("smooth_run", tier="lumped", effects="auto", vibration_to=1000.0, duration=_TRAIN_S)
     rows = []
+    typestore()  # once a process, not for a box
     for pictures in (False, True):
         whole = replace(scene, axleboxes=Axleboxes(axles=axles, pictures=pictures))
         boxes = train_run.start(whole)

@@ -294,11 +294,17 @@ def _left_open(scene: Scene) -> dict[str, Any]:
     numerics = written(scene.numerics)
     numerics |= {"laminae": AUTO} if free.laminae else {}
     numerics |= {"steps_per_sample": AUTO} if free.steps else {}
-    return {
+    found: dict[str, Any] = {
         "effects": {"preset": AUTO, **kept, **box},
         "numerics": numerics,
         "tier": AUTO if free.tier else scene.tier,
     }
+    if opened.rate_still(scene):
+        sensors = [written(sensor) for sensor in scene.sensors]
+        found["sensors"] = [
+            {key: value for key, value in each.items() if key != "rate_kHz"} for each in sensors
+        ]
+    return found
 
 
 def _usual_operation() -> dict[str, Any]:

@@ -17,6 +17,7 @@ ringing       third octaves of the sensors with modes of the box, linear
 bending       rule: structure; where sensors and modes do not reach equally far
 fast_step     the step of the fast tiers
 usual_step    the step of a scene that names none
+sampling      the rate that holds the third octaves that are asked for
 numerics      what a tier or a lamina count leaves out; the step
 choose        scene in, the cheapest alternatives within the limits out
 kept          choices made before, beside the compiled kernels

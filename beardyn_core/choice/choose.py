@@ -17,10 +17,12 @@ from beardyn_core.choice import bending, friction, guidance, motion, numerics
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
+from beardyn_core.choice.sampling import rate_for
 from beardyn_core.effects import Audit, EffectSet
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.scene.scene import QUANTITIES, Free, Scene
+from beardyn_core.scene.sensor import RATES
 from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
@@ -288,6 +290,7 @@ def _choice_of(
         errors["vibration"] = 0.0
     within = all(error <= tolerance(name, accuracy) + 1.0e-12 for name, error in errors.items())
     reason = stage.tier_reason if free.tier else f"as the scene has it; {stage.tier_reason}"
+    sampling = rate_for(scene, free)
     if not evidence.moves and "vibration" in scene.quantities:
         reason += "; the cup is held, so there is no vibration of it to resolve"
     return Choice(
@@ -308,7 +311,9 @@ def _choice_of(
         seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
         vibration_to=evidence.band,
-        told=tuple(bending.rates_told(evidence)),
+        told=() if sampling is not None and sampling.rate < RATES[0] else tuple(bending.rates_told(evidence)),
+        rate=None if sampling is None else sampling.rate,
+        rate_reason="" if sampling is None else sampling.reason,
     )
 
 

@@ -49,6 +49,11 @@ def decibels(ratio: float) -> float:
     return min(abs(20.0 * math.log10(ratio)), MOST_DB)
 
 
+def third_octave_end(centre: float) -> float:
+    """Compute where the third octave around a frequency [Hz] ends, [Hz]."""
+    return 10.0**0.05 * centre
+
+
 class Evidence:
     """Facts about a scene in the full tier with the reference's effects, each computed once when asked for.
 
@@ -100,7 +105,7 @@ class Evidence:
     def edge(self) -> float:
         """Where that third octave ends, or the hearing of the fastest sensor, [Hz]."""
         hearing = PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
-        return min(hearing, 10.0**0.05 * self.band)
+        return min(hearing, third_octave_end(self.band))
 
     @cached_property
     def torque(self) -> float:

@@ -136,9 +136,10 @@ def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
 def closed(found: OpenScene, outside_load: bool = False) -> Scene:
     """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
-        scene = choice_for(found).applied(found.scene)
+        choice = choice_for(found)
+        scene = choice.applied(found.scene)
         chosen = (scene.tier, scene.effects, scene.numerics)
-        return replace(scene, left_open=LeftOpen(found.free, found.scene.effects, chosen))
+        return replace(scene, left_open=LeftOpen(found.free, found.scene.effects, chosen, choice.rate))
     return with_usual_step(found, outside_load).scene
 
 

@@ -130,6 +130,10 @@ class Choice:
     within: A[bool, "whether the expected errors are within the accuracy"]
     vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
     told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
+    rate: A[float | None, "of all sensors and the force waveform, [Hz]; ``None``: as the scene has them"] = (
+        None
+    )
+    rate_reason: str = ""
     kept: A[bool, "whether it was made before and kept, see `beardyn_core.choice.kept`"] = False
 
     @property
@@ -169,11 +173,14 @@ class Choice:
             f"tier {self.tier}: {self.tier_reason}",
             f"laminae {self.laminae}: {self.laminae_reason}",
             f"steps_per_sample {self.steps_per_sample}: {self.steps_reason}",
+            *([] if self.rate is None else [f"rate {1e-3 * self.rate:g} kHz: {self.rate_reason}"]),
             *(decision.sentence() for decision in self.decisions),
         )
 
     def applied(self, scene: Scene) -> Scene:
-        """Apply this choice to a scene; bearing, load, faults, sensors and seed stay."""
+        """Apply this choice to a scene; bearing, load, faults, places of sensors and seed stay."""
+        if self.rate is not None:
+            scene = replace(scene, sensors=tuple(replace(each, rate=self.rate) for each in scene.sensors))
         kept = replace(scene.numerics, laminae=self.laminae, steps_per_sample=self.steps_per_sample)
         return replace(scene, tier=self.tier, effects=self.effects, numerics=kept, chosen=self.reasons)
 
@@ -184,6 +191,7 @@ class Choice:
             "effects": self.effects.names(),
             "laminae": self.laminae,
             "steps_per_sample": self.steps_per_sample,
+            "rate_Hz": self.rate,
             "accuracy": self.accuracy,
             "quantities": self.quantities,
             "vibration_to_Hz": self.vibration_to,
@@ -197,6 +205,7 @@ class Choice:
                 "tier": self.tier_reason,
                 "laminae": self.laminae_reason,
                 "steps_per_sample": self.steps_reason,
+                "rate": self.rate_reason,
             },
             "decisions": [
                 {

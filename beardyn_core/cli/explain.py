@@ -107,6 +107,8 @@ def _lines(choice: Choice, title: str) -> list[str]:
         ("laminae", str(choice.laminae), "", choice.laminae_reason),
         ("step", f"1/{round(WAVEFORM_RATE * choice.steps_per_sample)} s", "", choice.steps_reason),
     ]
+    if choice.rate is not None:
+        rows.append(("rate", f"{1e-3 * choice.rate:g} kHz", "", choice.rate_reason))
     for decision in choice.decisions:
         share = _share(decision.cost_share) if decision.on else ""
         reason = f"{decision.reason}{decision.left_out}"

@@ -28,7 +28,8 @@ def take_auto(data: dict[str, Any]) -> Free:
 
     With `effects: auto` everything that is not written down may be; where no effects are named, all but the
     tier, which is then the full one. A table of modes says which box there is,
-    and not how much of its bending counts, unless it comes with ``highest_Hz``.
+    and not how much of its bending counts, unless it comes with ``highest_Hz``. The rate of the sensors may
+    be chosen with anything else, where none of them names one.
     """
     named = "effects" in data
     effects = data.setdefault("effects", UNNAMED)
@@ -56,4 +57,18 @@ def take_auto(data: dict[str, Any]) -> Free:
         usual = {"laminae": AUTO, "steps_per_sample": AUTO}
     open_keys = {key for key, value in {**usual, **numerics}.items() if value == AUTO}
     data["numerics"] = {key: value for key, value in numerics.items() if key not in open_keys}
-    return Free(free_tier, "laminae" in open_keys, "steps_per_sample" in open_keys, free_effects)
+    anything = free_tier or bool(open_keys) or bool(free_effects)
+    return Free(
+        free_tier,
+        "laminae" in open_keys,
+        "steps_per_sample" in open_keys,
+        free_effects,
+        anything and not _names_a_rate(data.get("sensors")),
+    )
+
+
+def _names_a_rate(sensors: Any) -> bool:
+    """Tell whether a sensor as it is written has a rate of its own."""
+    return isinstance(sensors, list | tuple) and any(
+        isinstance(each, dict) and "rate_kHz" in each for each in sensors
+    )

@@ -17,7 +17,7 @@ from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import Timetable
-from beardyn_core.scene.sensor import FINE_STEPS, RATES, Accelerometer, SensorType
+from beardyn_core.scene.sensor import ALL_RATES, RATE_WORDS, RATES, Accelerometer, SensorType
 from beardyn_core.scene.waviness import Band, Waviness
 
 
@@ -166,10 +166,10 @@ class SensorFile(FileModel):
     rate_kHz: Annotated[
         float,
         Field(strict=True, allow_inf_nan=False),
-        WithJsonSchema({"enum": [rate / 1e3 for rate in RATES]}),
+        WithJsonSchema({"enum": [rate / 1e3 for rate in ALL_RATES]}),
     ] = Field(
         RATES[0] / 1e3,
-        description=f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
+        description=RATE_WORDS,
     )
 
     def values(self) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from beardyn_core.scene.background import Background
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
-from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, steps_do_not_fit
+from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, rates_do_not_fit, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.units import UNITS
 
@@ -214,6 +214,8 @@ class SceneFile(FileModel):
         for index, name in enumerate(names):
             if name in names[:index]:
                 yield f"sensors[{index}].name is {name!r}, given twice; each sensor needs its own name"
+        if apart := rates_do_not_fit(given["sensors"]):
+            yield apart
         if isinstance(given["numerics"], Numerics):
             steps = given["numerics"].steps_per_sample
             found = steps_do_not_fit(given["sensors"], steps)

@@ -141,11 +141,11 @@ class Block:
 
     @cached_property
     def acceleration(self) -> Float:
-        """Readings at `waveform_time_ns`, of the accelerometers at 25.6 kHz in the order of the scene.
+        """Readings at `waveform_time_ns`, of the accelerometers but those at 51.2 kHz, as the scene has them.
 
         Shape [sensor, sample, 3], [m/s^2].
         """
-        vibration = [each.acceleration for each in self.vibration if each.rate == RATES[0]]
+        vibration = [each.acceleration for each in self.vibration if each.rate <= RATES[0]]
         return np.stack(vibration) if vibration else np.empty((0, len(self.waveform_time_ns), 3))
 
     # two threads may both come to what follows: they work out the same

@@ -7,7 +7,7 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import BLOCK_NS, SAMPLES_PER_BLOCK, WAVEFORM_RATE
+from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
@@ -19,15 +19,13 @@ from beardyn_core.observe.kinematics import (
     Snapshots,
     write_instants,
 )
-from beardyn_core.observe.resampling import DELAY, Decimator, Interpolator, TwoStageDecimator, delay
-from beardyn_core.observe.sensors import REST, Sensors, lookahead
+from beardyn_core.observe.resampling import DELAY, AnyDecimator, Decimator, Interpolator, decimator, delay
+from beardyn_core.observe.sensors import BLOCKS_PER_SECOND, REST, TREND_RATE, Sensors, lookahead
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 
-TREND_RATE = 400
 TRENDS_PER_BLOCK = BLOCK_NS * TREND_RATE // 1_000_000_000
 TRENDS_PER_SNAPSHOT = 2
-_WAVEFORMS_PER_TREND = WAVEFORM_RATE // TREND_RATE
 _TREND_NS = 1_000_000_000 // TREND_RATE
 _TREND_CHANNELS = 10
 
@@ -35,9 +33,10 @@ _TREND_CHANNELS = 10
 class Observer:
     """Turns the kernel's signals of a block into a `Block`.
 
-    Waveforms pass an anti-alias filter from the step rate to 25.6 kHz, or are interpolated to it from
-    longer steps, and trends pass another filter to 400 Hz. The delay of all filters is compensated: samples
-    carry their true time and come a little later, so the first blocks hold fewer of them.
+    Waveforms pass an anti-alias filter from the step rate to 25.6 kHz or the slower one of the sensors, or
+    are interpolated to it from longer steps, and trends pass another filter to 400 Hz. The delay of all
+    filters is compensated: samples carry their true time and come a little later, so the first blocks hold
+    fewer of them.
 
     Parameters
     ----------
@@ -50,7 +49,8 @@ class Observer:
         self._roller = parameters.roller
         self._cage_place = 0.5 * scene.bearing.row_spacing
         # a step's signals are those of its end: sample 0 stands at the end of the step before the first
-        steps, wait = scene.numerics.steps_per_sample, lookahead(scene)
+        self._rate, wait = round(scene.waveform_rate), lookahead(scene)
+        steps = scene.numerics.steps_per_sample * WAVEFORM_RATE / self._rate  # for each waveform sample
         self._waveforms: Decimator | Interpolator
         longer = round(1 / steps)  # samples of a step that is longer than one
         if steps < 1:
@@ -65,26 +65,27 @@ class Observer:
         self._held_back = Decimator(1, channels, signal[:channels], held_back=wait)
         self._waveform_delay = late + wait
         rest = np.concatenate([signal[:6], REST, signal[SIGNAL_TORQUE : SIGNAL_TORQUE + 1]])
-        carry = -self._waveform_delay % _WAVEFORMS_PER_TREND
-        trends = (self._waveform_delay + carry) // _WAVEFORMS_PER_TREND
+        per_trend = self._rate // TREND_RATE
+        carry = -self._waveform_delay % per_trend
+        trends = (self._waveform_delay + carry) // per_trend
         # force and torque are decimated before anything is put between them
-        self._slow_decimator: TwoStageDecimator | None = None
+        self._slow_decimator: AnyDecimator | None = None
         if steps < 1:
-            every = _WAVEFORMS_PER_TREND // longer
+            every = per_trend // longer
             slow = np.delete(rest, [6, 7, 8])
-            self._slow_decimator = TwoStageDecimator(every, len(slow), slow, held_back=trends * every + 1)
+            self._slow_decimator = decimator(every, len(slow), slow, held_back=trends * every + 1)
             rest = REST
-        self._trend_decimator = TwoStageDecimator(_WAVEFORMS_PER_TREND, len(rest), rest, held_back=carry)
+        self._trend_decimator = decimator(per_trend, len(rest), rest, held_back=carry)
         self._trend_delay = DELAY + trends
         # trends of a first accelerometer that runs faster than the other waveforms
-        self._fast_decimator: TwoStageDecimator | None = None
+        self._fast_decimator: AnyDecimator | None = None
         if scene.sensors and scene.sensors[0].rate > RATES[0]:
             per_trend = round(scene.sensors[0].rate / TREND_RATE)
             carry = (self._trend_delay - DELAY) * per_trend - self._sensors.delays[0]
-            self._fast_decimator = TwoStageDecimator(per_trend, 3, REST, held_back=carry)
+            self._fast_decimator = decimator(per_trend, 3, REST, held_back=carry)
         # blocks hold views of it, so every block gets one of its own; the newest instant is the last
         self._instants = np.zeros((self._trend_delay + 1, INSTANT_ROLLERS + 4 * self._count))
-        self._box_motion = np.zeros((2, 6))
+        self._box_motion = np.zeros((self._sensors.kept, 6))
 
     def first_instant(self, rollers: Float, bodies: Float, load: Float) -> None:
         """Remember the instant t = 0.
@@ -126,7 +127,7 @@ class Observer:
         waves = self._waveforms.push(signals)
         readings = self._sensors.read(index, waves, signals, self._motion(bodies), loads[:, 6])
         waves = self._held_back.push(waves)
-        first_wave = index * SAMPLES_PER_BLOCK - self._waveform_delay
+        first_wave = index * (self._rate // BLOCKS_PER_SECOND) - self._waveform_delay
         reading = readings[0] if readings and self._fast_decimator is None else np.tile(REST, (len(waves), 1))
         blocks = len(bodies) // TRENDS_PER_BLOCK
         first_trend = index * TRENDS_PER_BLOCK - self._trend_delay
@@ -151,7 +152,7 @@ class Observer:
             start_ns=index * BLOCK_NS,
             end_ns=(index + blocks) * BLOCK_NS,
             waveform_sample=waveform_sample,
-            waveform_time_ns=wave_index * 1_000_000_000 // WAVEFORM_RATE,
+            waveform_time_ns=wave_index * 1_000_000_000 // self._rate,
             force_waveform=waves[keep_wave, SIGNAL_FORCE : SIGNAL_FORCE + 6],
             vibration=self._sensors.vibration(index, readings),
             trend_sample=first_kept,
@@ -205,12 +206,13 @@ class Observer:
         return instants[place : place + count]
 
     def _motion(self, bodies: Float) -> Float:
-        """Gather rotation and angular velocity of the box at 400 Hz from the last instant but one on."""
-        motion = np.empty((len(bodies) + 2, 6))
-        motion[:2] = self._box_motion
-        motion[2:, :3] = bodies[:, CUP_BODY, TILT : TILT + 3]
-        motion[2:, 3:] = bodies[:, CUP_BODY, ANGULAR : ANGULAR + 3]
-        self._box_motion = motion[-2:]
+        """Gather rotation and angular velocity of the box at 400 Hz, after those that filters still need."""
+        kept = len(self._box_motion)
+        motion = np.empty((len(bodies) + kept, 6))
+        motion[:kept] = self._box_motion
+        motion[kept:, :3] = bodies[:, CUP_BODY, TILT : TILT + 3]
+        motion[kept:, 3:] = bodies[:, CUP_BODY, ANGULAR : ANGULAR + 3]
+        self._box_motion = motion[-kept:]
         return motion
 
 

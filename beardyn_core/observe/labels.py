@@ -13,7 +13,6 @@ from beardyn_core.arrays import Float
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import RATES
 
 HEALTHY = "healthy"
 
@@ -43,7 +42,7 @@ def scene_labels(scene: Scene) -> dict[str, Any]:
         "end_play_m": scene.end_play,
         "sampling_rate_Hz": {
             "vibration": {sensor.name: sensor.rate for sensor in scene.sensors},
-            "force_waveform": RATES[0],
+            "force_waveform": scene.waveform_rate,
         },
         "wheel_diameter_m": operation.wheel_diameter
         if isinstance(operation, QuarterVehicleOperation)

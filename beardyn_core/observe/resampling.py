@@ -12,7 +12,7 @@ from beardyn_core.rail.low_pass import low_pass
 
 DELAY = 12  # output samples: the shortest that gives 70 dB with a passband to 0.4
 _KAISER_BETA = 7.2
-LARGEST_FACTOR = 512
+LARGEST_FACTOR = 4096
 
 
 @cache
@@ -32,7 +32,7 @@ class Decimator:
     Parameters
     ----------
     factor : int
-        Old over new rate, 1 to 512. With 1 the stream passes unchanged, without delay.
+        Old over new rate, 1 to 4096. With 1 the stream passes unchanged, without delay.
     initial : array, shape [channel], optional
         What the stream held before its first sample; 0 by default.
     held_back : int, optional
@@ -124,6 +124,15 @@ class TwoStageDecimator:
         if block.shape[0] % self.factor:
             raise ValueError(f"block has {block.shape[0]} rows; it must be a multiple of {self.factor}")
         return self._second.push(self._first.push(block))
+
+
+AnyDecimator = Decimator | TwoStageDecimator
+
+
+def decimator(factor: int, channels: int, initial: Float, held_back: int) -> AnyDecimator:
+    """Make the cheaper `Decimator` of a factor; arguments as of that."""
+    kind = TwoStageDecimator if factor >= 2 * _SECOND else Decimator
+    return kind(factor, channels, initial, held_back)
 
 
 @cache

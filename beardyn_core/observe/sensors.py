@@ -17,17 +17,17 @@ from beardyn_core.observe.pickup import PickupStream
 from beardyn_core.observe.resampling import DELAY, Decimator
 from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import AXES, PASSBAND, RATES, Accelerometer, steps_do_not_fit
+from beardyn_core.scene.sensor import AXES, PASSBAND, RATES, Accelerometer, rates_do_not_fit, steps_do_not_fit
 
 REST = np.array([0.0, 0.0, GRAVITY])
 BLOCKS_PER_SECOND = 1_000_000_000 // BLOCK_NS
+TREND_RATE = 400
 
 
 def lookahead(scene: Scene) -> int:
-    """Count the samples of 25.6 kHz by which all waveforms wait for what sensors have of their own."""
-    return max(
-        (-(-_late(sensor) * round(RATES[0]) // round(sensor.rate)) for sensor in scene.sensors), default=0
-    )
+    """Count the samples of the force waveform by which all wait for what sensors have of their own."""
+    rate = round(scene.waveform_rate)
+    return max((-(-_late(sensor) * rate // round(sensor.rate)) for sensor in scene.sensors), default=0)
 
 
 def _responds(sensor: Accelerometer) -> bool:
@@ -42,8 +42,8 @@ def _late(sensor: Accelerometer) -> int:
 class Sensors:
     """Accelerometers of a run.
 
-    Specific force at their place, from the box motion decimated for all (25.6 kHz) or from every step
-    (51.2 kHz); measured path, mounting resonance and low pass; electrical pickup, noise and clipping.
+    Specific force at their place, from the box motion decimated for all or from every step (51.2 kHz);
+    measured path, mounting resonance and low pass; electrical pickup, noise and clipping.
 
     Parameters
     ----------
@@ -54,16 +54,19 @@ class Sensors:
     ----------
     delays : list of int
         Samples by which each accelerometer reads late, at its rate.
+    kept : int
+        Rows of earlier motion that `read` needs.
     """
 
     def __init__(self, scene: Scene, delay: int) -> None:
         steps = scene.numerics.steps_per_sample
-        problem = steps_do_not_fit(scene.sensors, steps)
+        problem = rates_do_not_fit(scene.sensors) or steps_do_not_fit(scene.sensors, steps)
         if problem:
             raise ValueError(problem)
-        self._delay = delay
+        self.kept = 1 + max(1, -(-delay * TREND_RATE // round(scene.waveform_rate)))
         self._chains = [
-            _Chain(sensor, number, scene, round(steps), delay) for number, sensor in enumerate(scene.sensors)
+            _Chain(sensor, number, scene, round(steps), delay, self.kept)
+            for number, sensor in enumerate(scene.sensors)
         ]
         self.delays = [chain.delay for chain in self._chains]
 
@@ -75,10 +78,10 @@ class Sensors:
         index : int
             Running number of the block of 20 ms that the signals begin with.
         waves : float64 array, shape [sample, SIGNAL_CHANNELS]
-            At 25.6 kHz.
+            At the rate of the force waveform.
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
-        motion : float64 array, shape [trend + 2, 6]
-            Rotation and angular velocity of the box at 400 Hz; the second row is that before the first step.
+        motion : float64 array, shape [trend + kept, 6]
+            Rotation and angular velocity of the box at 400 Hz; the last one kept is that before the steps.
         speed : float64 array, shape [step + 1]
             Of the shaft, [rad/s].
         """
@@ -99,8 +102,10 @@ class Sensors:
 class _Chain:
     """From the motion of the box to the samples of one accelerometer."""
 
-    def __init__(self, sensor: Accelerometer, number: int, scene: Scene, steps: int, delay: int) -> None:
-        self.sensor, self._number = sensor, number
+    def __init__(
+        self, sensor: Accelerometer, number: int, scene: Scene, steps: int, delay: int, kept: int
+    ) -> None:
+        self.sensor, self._number, self._kept = sensor, number, kept
         self._waves_late = delay
         self._decimator: Decimator | None = None
         wait = lookahead(scene)
@@ -133,10 +138,12 @@ class _Chain:
 
     def push(self, index: int, waves: Float, signals: Float, motion: Float, speed: Float) -> Float:
         """Compute the reading at the rate of the sensor, shape [sample, 3], [m/s^2]."""
+        place = self.sensor.position
         if self._decimator is None:
-            signal = box_force(self.sensor.position, waves, motion, self._waves_late, self._number)
+            signal = box_force(place, waves, motion, self._waves_late, self._number, self._kept)
         else:
-            signal = self._decimator.push(box_force(self.sensor.position, signals, motion, -1, self._number))
+            fine = box_force(place, signals, motion, -1, self._number, self._kept)
+            signal = self._decimator.push(fine)
         signal = self._held_back.push(signal)
         if self._path is not None:
             signal = self._path.push(signal)
@@ -155,25 +162,31 @@ class _Chain:
 
 
 def box_force(
-    position: tuple[float, float, float], signals: Float, motion: Float, delay: int, sensor: int = 0
+    position: tuple[float, float, float],
+    signals: Float,
+    motion: Float,
+    delay: int,
+    sensor: int = 0,
+    kept: int = 2,
 ) -> Float:
     """Compute the specific force at a place of the box [m], see `force_at`, shape [sample, 3], [m/s^2].
 
-    Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of a row; the
-    motion, shape [trend + 2, 6], is as of `Sensors.read` and linear in between. Where the modes of the box
-    shake the seat of each ``sensor``, what they give it stands behind the other signals.
+    Signals, shape [sample, SIGNAL_CHANNELS], come late by ``delay`` samples, at most those of ``kept - 1``
+    rows; the motion, shape [trend + kept, 6], is as of `Sensors.read` and linear in between. Where the modes
+    of the box shake the seat of each ``sensor``, what they give it stands behind the other signals.
     """
     force = np.empty((len(signals), 3))
-    _box_force(*position, signals, motion, len(signals) // (len(motion) - 2), delay, force)
+    stride = len(signals) // (len(motion) - kept)
+    _box_force(*position, signals, motion, stride, (kept - 1) * stride - delay, force)
     if signals.shape[1] > SIGNAL_CHANNELS:
         force += signals[:, SIGNAL_CHANNELS + 3 * sensor : SIGNAL_CHANNELS + 3 * sensor + 3]
     return force
 
 
 @partial(entry, allocates=True)
-def _box_force(px, py, pz, signals, motion, stride, delay, force):
+def _box_force(px, py, pz, signals, motion, stride, first_at, force):
     slope, first = np.empty(6), np.empty(6)
-    at = stride - delay  # samples after the first row
+    at = first_at  # samples after the first row
     row = min(at // stride, len(motion) - 2)
     end = 0
     while end < len(signals):

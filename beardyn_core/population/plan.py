@@ -21,7 +21,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.population.draw import Row, rows_of, scaled_value
 from beardyn_core.population.places import AbsentError, Place, is_place, place_of, with_value
 from beardyn_core.record.tables import SIGNALS, VIBRATION
-from beardyn_core.scene.scene import Free, Scene
+from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sweep import Choice, Scaled, Sweep, Variable
 from beardyn_core.scene.tier import TIER_NAMES
 
@@ -328,7 +328,7 @@ def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:
 def _settled(plan: Plan, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]) -> Plan:
     """Choose what the scene leaves open, once for all runs: no learner must tell a fault by the effects."""
     found = [plan.opened(row) for row in extremes]
-    free = opened.free
+    free = replace(opened.free, rates=False)  # signals of one length
     if not free.anything:
         if opened.step_given:
             return plan
@@ -340,7 +340,7 @@ def _settled(plan: Plan, opened: OpenScene, extremes: list[Row], say: Callable[[
     if free.tier:
         tier = max((choice.tier for choice in choices), key=TIER_NAMES.index)
         if any(choice.tier != tier for choice in choices):  # the step of a tier is chosen for it
-            free = Free(False, free.laminae, free.steps, free.effects)
+            free = replace(free, tier=False)
             scenes = [replace(each.scene, tier=tier) for each in found]
             choices = [choice_for(OpenScene(each, free, opened.step_given, {})) for each in scenes]
     effects = together([choice.effects for choice in choices], found[0].scene.effects)

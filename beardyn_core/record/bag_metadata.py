@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Annotated as A
 from typing import Any
@@ -100,6 +100,17 @@ def qos_profile(entry: Topic) -> dict[str, object]:
         "liveliness_lease_duration": dict(_FOREVER),
         "avoid_ros_namespace_conventions": False,
     }
+
+
+def qos_text(entry: Topic) -> str:
+    """Write the same as YAML."""
+    return _qos_text(replace(entry, name=""))
+
+
+@cache
+def _qos_text(entry: Topic) -> str:
+    """Write the QoS of a topic of any name: those of the boxes of a train differ in nothing else."""
+    return yaml_text([qos_profile(entry)])
 
 
 def yaml_text(content: Any) -> str:

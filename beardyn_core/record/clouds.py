@@ -7,7 +7,7 @@ header's stamp.
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -72,10 +72,14 @@ def points_of(
     return points
 
 
-def fill(points: NDArray[Any], names: Iterable[str], numbers: NDArray[np.float64]) -> None:
-    """Write the columns of an array, shape [point, column], to the columns of these names."""
-    for column, name in enumerate(names):
-        points[name] = numbers[:, column]
+def fill(points: NDArray[Any], names: Sequence[str], numbers: NDArray[np.float64]) -> None:
+    """Write an array, shape [point, column], to the columns of these names: of one type, side by side."""
+    fields = points.dtype.fields
+    assert fields is not None
+    kind, first, *_ = fields[names[0]]
+    begin = first // kind.itemsize
+    columns = points.view(kind).reshape(len(points), points.dtype.itemsize // kind.itemsize)
+    columns[:, begin : begin + len(names)] = numbers
 
 
 def encode_points(points: NDArray[Any], stamp_ns: int, frame: str) -> bytes:

@@ -216,11 +216,13 @@ class BlockEncoder:
         fill(points, POSE_AXES + TWIST_AXES, numbers)
         yield single("bodies", stamp, self._bodies.encode(points, stamp))
 
-        snapshot, row, roller, kind = np.nonzero(np.any(block.contacts[..., 3:6] != 0.0, axis=-1))
+        contacts = block.contacts
+        pressed = (contacts[..., 3] != 0.0) | (contacts[..., 4] != 0.0) | (contacts[..., 5] != 0.0)
+        snapshot, row, roller, kind = np.nonzero(pressed)
         points = points_of(CONTACTS, 0, times[snapshot], stamp)
         points["sample"] = samples[snapshot]
         points["row"], points["roller"], points["kind"] = row, roller, kind
-        fill(points, CONTACT_FIELDS, block.contacts[snapshot, row, roller, kind])
+        fill(points, CONTACT_FIELDS, contacts[pressed])
         yield single("contacts", stamp, self._contacts.encode(points, stamp))
 
 

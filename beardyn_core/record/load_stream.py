@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,12 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
     clouds.fill(points, WRENCH_AXES, history.wrench)
     points["shaft_speed"] = history.shaft_speed
     clouds.fill(points, BOGIE_AXES, history.bogie)
-    return clouds.encode_points(points, stamp, frame)
+    return _template(frame).encode(points, stamp)
+
+
+@cache
+def _template(frame: str) -> clouds.CloudTemplate:
+    return clouds.CloudTemplate(LOAD, frame)
 
 
 def decode_load(cdr: bytes) -> tuple[LoadHistory, NDArray[np.int64]]:

@@ -17,7 +17,7 @@ from beardyn_core.arrays import Int
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import open_to_write
 from beardyn_core.record.background_file import BackgroundFile
-from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_profile, type_hash, yaml_text
+from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_text, type_hash, yaml_text
 from beardyn_core.record.chunk_writing import LEVEL, MESSAGE_BYTES, ChunkWriter
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
@@ -233,7 +233,7 @@ class McapWriter:
             MessageEncoding.CDR,
             schema,
             {
-                "offered_qos_profiles": yaml_text([qos_profile(entry)]),
+                "offered_qos_profiles": qos_text(entry),
                 "topic_type_hash": type_hash(entry.type),
             },
         )

@@ -17,7 +17,7 @@ from beardyn_core.scene.defect import Defect, MissingRoller, doubts_about
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, Operation, SteppedOperation
 from beardyn_core.scene.scatter import Scatter
-from beardyn_core.scene.sensor import Accelerometer, sensor_doubts
+from beardyn_core.scene.sensor import Accelerometer, sensor_doubts, waveform_rate
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
 from beardyn_core.units import UNITS
@@ -84,7 +84,7 @@ class Scene:
         float | None,
         At("Hz", gt=0.0, ge=200.0, le=20_000.0),
         "highest third octave of the vibration that is asked for, when something is auto; as far as the "
-        "sensors hear when left out",
+        "sensors hear when left out. Sensors without rate_kHz are then sampled no faster than that needs",
     ] = None
     operation: A[Operation, "where load and speed come from"]
     background: A[
@@ -171,6 +171,11 @@ class Scene:
         return (*told, *doubts_about(self.defects, self.bearing))
 
     @property
+    def waveform_rate(self) -> float:
+        """Rate of the force waveform, and of every sensor that is not faster, [Hz]."""
+        return waveform_rate(self.sensors)
+
+    @property
     def faults(self) -> tuple[Defect, ...]:
         """Defects and missing rollers."""
         return (*self.defects, *self.missing_rollers)
@@ -201,10 +206,15 @@ class LeftOpen:
     free: Free
     effects: A[EffectSet, "those that were written down, the others of the reference"]
     chosen: A[tuple[str, EffectSet, Numerics], "tier, effects and numerics"]
+    rate: A[float | None, "of all sensors, [Hz]; ``None`` where it was not chosen"] = None
 
     def still(self, scene: Scene) -> bool:
         """Whether a scene still has what was chosen."""
         return bool(self.free.effects) and self.chosen == (scene.tier, scene.effects, scene.numerics)
+
+    def rate_still(self, scene: Scene) -> bool:
+        """Whether the sensors of a scene still have the rate that was chosen."""
+        return self.rate is not None and all(sensor.rate == self.rate for sensor in scene.sensors)
 
 
 @dataclass(frozen=True)
@@ -215,6 +225,7 @@ class Free:
     laminae: bool = True
     steps: bool = True
     effects: A[frozenset[str], "members of the effect set"] = frozenset(EFFECTS)
+    rates: A[bool, "the rate of the sensors, where anything else may be chosen"] = True
 
     @property
     def anything(self) -> bool:
@@ -222,4 +233,4 @@ class Free:
         return self.tier or self.laminae or self.steps or bool(self.effects)
 
 
-NOTHING = Free(tier=False, laminae=False, steps=False, effects=frozenset())
+NOTHING = Free(tier=False, laminae=False, steps=False, effects=frozenset(), rates=False)

@@ -12,11 +12,20 @@ from typing import Any
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.edge import At, Vector
 
-RATES = (25_600.0, 51_200.0)  # [Hz]
+RATES = (25_600.0, 51_200.0)  # the usual one, and the one that needs a fine step [Hz]
+# of a run of which nothing higher is asked for, the force waveform included [Hz]
+SLOW_RATES = (3_200.0, 6_400.0, 12_800.0)
+ALL_RATES = (*SLOW_RATES, *RATES)
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
 PASSBAND = 0.4  # of its rate a sensor hears all alike: what the anti-alias filter leaves as it is
 AXES = ("x", "y", "z")
 FARTHEST = 1.0  # that an axlebox reaches from the bearing [m]
+
+RATE_WORDS = (
+    f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then; below 25.6 the "
+    "same for all sensors, and the force waveform has it too. Left out where something is auto and "
+    "vibration_to_Hz is given: the slowest that holds its third octave"
+)
 
 _Noise = A[float, At("m_per_s2_per_sqrt_Hz", ge=0.0), "white noise of each axis, one-sided"]
 _Range = A[float, At("m_per_s2", gt=0.0), "clipping level of each axis"]
@@ -106,7 +115,7 @@ class Accelerometer:
     rate: A[
         float,
         At("kHz"),
-        f"51.2 needs an even numerics.steps_per_sample of {FINE_STEPS} or more, its default then",
+        RATE_WORDS,
     ] = RATES[0]
     type: A[
         SensorType | None,
@@ -125,9 +134,9 @@ class Accelerometer:
 
     def rules(self) -> Iterator[str]:
         """Check that the rate is available, and that a damping has a resonance to act on."""
-        if self.rate not in RATES:
-            allowed = f"{RATES[0] / 1e3:g} or {RATES[1] / 1e3:g}"
-            yield f"rate_kHz is {self.rate / 1e3:g}; allowed is {allowed}"
+        if self.rate not in ALL_RATES:
+            *others, last = (f"{rate / 1e3:g}" for rate in ALL_RATES)
+            yield f"rate_kHz is {self.rate / 1e3:g}; allowed is {', '.join(others)} or {last}"
         yield from _damping_of_nothing(self)
         axes = [axis for path in self.measured_paths for axis in path.axes]
         for axis in sorted({axis for axis in axes if axes.count(axis) > 1}):
@@ -152,6 +161,25 @@ def _damping_of_nothing(sensor: Accelerometer | SensorType) -> Iterator[str]:
             f"mounting_damping_ratio is {sensor.mounting_damping_ratio:g}; it damps nothing without "
             "mounting_resonance_Hz: give that too, or leave both out for a rigid mounting"
         )
+
+
+def waveform_rate(sensors: Sequence[Accelerometer]) -> float:
+    """Find the rate of the force waveform: that of the sensors, 25.6 kHz where they are faster, [Hz]."""
+    return min((RATES[0], *(sensor.rate for sensor in sensors)))
+
+
+def rates_do_not_fit(sensors: Sequence[Accelerometer]) -> str | None:
+    """Say why sensors cannot be sampled together; ``None`` when they can."""
+    slow = waveform_rate(sensors)
+    if slow == RATES[0]:
+        return None
+    other = next((sensor for sensor in sensors if sensor.rate != slow), None)
+    if other is None:
+        return None
+    return (
+        f"sensor {other.name!r} has {other.rate / 1e3:g} kHz, another one {slow / 1e3:g} kHz; below "
+        f"{RATES[0] / 1e3:g} kHz all sensors have one rate"
+    )
 
 
 def steps_do_not_fit(sensors: tuple[Accelerometer, ...], steps_per_sample: float) -> str | None:

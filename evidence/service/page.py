@@ -28,9 +28,9 @@ range_m_per_s2: 200}`.
 CHAIN = """
 The reading of each axis: specific force of the box at the place of the sensor; measured path, where
 there is one; resonance of the accelerometer on its mounting and low pass of its amplifier; anti-aliasing
-to 25.6 or 51.2 kHz (flat to 0.4 of it, 70 dB down from 0.6); electrical pickup; white noise; clipping at
+to 3.2 to 51.2 kHz (flat to 0.4 of it, 70 dB down from 0.6); electrical pickup; white noise; clipping at
 the range. The same in every tier. Delays are taken out of the time stamps, so blocks come later by 12
-samples of 25.6 kHz for a resonance or low pass and by 64 for a measured path. The lower limit of
+samples for a resonance or low pass and by 64 for a measured path. The lower limit of
 piezoelectric sensors is left out: all of them read gravity.
 
 ## A measured path
