@@ -158,12 +158,12 @@ class FollowerNode(Node):
         self._hear_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._signals.watch.ended and self._twin_is_done() and not self._summed_up:
+        if self._signals.ended and self._twin_is_done() and not self._summed_up:
             self._summed_up = True
             self._publish(self._latest, final=True)
             self._report()
             self._out.wait_until_received("follower/estimate", 1.0)
-        if self._summed_up or self._signals.watch.vanished():
+        if self._summed_up or self._signals.vanished:
             self.finished = bool(self._values.exit_when_done)
 
     def _twin_is_done(self) -> bool:

@@ -119,9 +119,9 @@ class MonitorNode(Node):
             self._report_finding(Finding.of(result))
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._signals.watch.ended and not self._summed_up:
+        if self._signals.ended and not self._summed_up:
             self._sum_up()
-        if self._summed_up or self._signals.watch.vanished():
+        if self._summed_up or self._signals.vanished:
             self.finished = bool(self._values.exit_when_done)
 
     def _report_finding(self, finding: Finding) -> None:

@@ -58,6 +58,7 @@ class TrainSignals:
         self._node, self._hearer = node, hearer
         self._shaft: list[bytes] = []
         self._last_sample = -1
+        self._nothing_waits = True
         self._intake = RawIntake(node, polled=True)
         self.guard = MessageGuard(node)
         for name, handler in {
@@ -80,9 +81,19 @@ class TrainSignals:
         counts, space = self._intake.publisher_counts(), self._node.get_namespace()
         return all(counts.get(topic(name).path(space), 0) for name in _MEASURED)
 
+    @property
+    def ended(self) -> bool:
+        """Whether the twin has ended and all that it has sent is heard: a busy node is behind."""
+        return self.watch.ended and self._nothing_waits
+
+    @property
+    def vanished(self) -> bool:
+        """Whether the twin is gone without a word, and all that it has sent is heard."""
+        return self.watch.vanished() and self._nothing_waits
+
     def sweep(self) -> None:
         """Tell the hearer what has come since the last sweep."""
-        self._intake.sweep()
+        self._nothing_waits = self._intake.sweep() == 0
         if self._shaft:
             turning = run_of_messages({"shaft": self._shaft}, None).shaft
             self._hearer.shaft(turning.time_ns, turning.angle)
