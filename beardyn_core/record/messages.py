@@ -16,7 +16,7 @@ from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from beardyn_core.errors import InputError
-from beardyn_core.strict_json import strict_text
+from beardyn_core.plain_json import strict_text
 
 TIME = "builtin_interfaces/msg/Time"
 HEADER = "std_msgs/msg/Header"

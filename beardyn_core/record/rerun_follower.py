@@ -69,7 +69,8 @@ def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
     high = _LEVEL_STEP * math.ceil(np.nanmax(every) / _LEVEL_STEP + 1e-9)
     across = WIDTH * np.log(middles / middles[0]) / math.log(middles[-1] / middles[0])
     stream.set_time(TIMELINE, duration=float(told["time_s"]))
-    strips, colours, places, words = [], [], [], []
+    strips, places, words = [], [], []
+    colours: list[tuple[int, ...]] = []
     for k, axis in enumerate(told["axes"]):
         top = k * (HEIGHT + BETWEEN)
 
