@@ -108,7 +108,7 @@ def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
 
 def follower_view(quantities: Sequence[str]) -> rrb.Container:
     """Lay out the estimates, the health and the third octaves."""
-    legend = rrb.PlotLegend(rrb.Corner2D.RightTop)
+    legend = rrb.PlotLegend(visible=False)  # it would hide half of a small plot
     curves = [
         rrb.TimeSeriesView(
             origin=f"{ESTIMATES}/{key}",
