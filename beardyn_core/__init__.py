@@ -20,6 +20,7 @@ versions   versions of what computed a run
 arrays     names of array types in signatures
 optional   libraries of an extra, imported when they are needed
 packed     a small file as one word of text, in a recorded scene
+plain_json what strict JSON can hold
 effects    the catalogue of effects and sets of them
 bearing    geometry, kinematics, materials, lubricants
 scene      one bearing under one operation: loads, mounting, defects, sensors

@@ -43,6 +43,7 @@ twin_node             the lifecycle node around a session: topics, services, dia
 twin_watch            is the twin there, has it ended, how
 recording             messages into files, one a run, with proof of what was lost
 recorder_node         every topic into a crash-safe MCAP file
+train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
 follower_node         load, end play and spall from vibration and shaft, as they change
 viewer_node           live view in rerun

@@ -7,20 +7,18 @@ Inputs are ``vibration``, ``shaft`` and ``temperature`` of the axlebox; those of
 
 from __future__ import annotations
 
-import json
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from rclpy.node import Node
 
 from beardyn_core.api.following import follower_of, residual_beside
 from beardyn_core.api.making import scene as make_scene
-from beardyn_core.arrays import Float
+from beardyn_core.arrays import Float, Int
 from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.follow.descriptors import describe
@@ -31,26 +29,19 @@ from beardyn_core.follow.intake import StretchIntake
 from beardyn_core.follow.listening import doubt_of
 from beardyn_core.follow.residual import Residual
 from beardyn_core.follow.told import residual_object, step_object
-from beardyn_core.record.cloud_layout import cloud_points
-from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import (
     Diagnostic,
-    decode,
-    decode_diagnostics,
     encode_diagnostics,
-    encode_string,
+    encode_told,
 )
-from beardyn_core.record.reading import run_of_messages
-from beardyn_core.record.topics import TEMPERATURE, topic
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.diagnostics import OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
-from beardyn_ros.twin_watch import TwinWatch
-from beardyn_ros.wire import RawIntake, TopicPublishers
+from beardyn_ros.train_signals import BEARING, EXIT_WHEN_DONE, Hearer, TrainSignals
+from beardyn_ros.wire import TopicPublishers
 
 FOLLOWER = "follower"
 TICK_S = 0.05
@@ -59,7 +50,7 @@ LAST_COMPARISON_S = 15.0  # longest wait at the end; the recorder waits 20 s for
 KEPT_ROWS = 4  # stretches that are compared with the twin beside
 
 PARAMETERS = (
-    NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
+    BEARING,
     NodeParameter("estimator", "", "file of `beardyn train`; empty: the one shipped for the bearing"),
     NodeParameter("mileage", 0.0, "of the bearing so far", "km", minimum=0.0, maximum=1e8),
     NodeParameter(
@@ -75,7 +66,7 @@ PARAMETERS = (
         minimum=1.0,
         maximum=1e6,
     ),
-    NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
+    EXIT_WHEN_DONE,
 )
 
 
@@ -90,21 +81,9 @@ class FollowerNode(Node):
         self._service = Service(1e3 * self._values.mileage, 1e-3 * self._values.wheel_diameter)
         self._worker = ThreadPoolExecutor(1)
         self._out = TopicPublishers(self, "follower/estimate", "follower/residual", "/diagnostics")
-        self._intake = RawIntake(self, polled=True)
-        self._guard = MessageGuard(self)
         self._begin()
-        for name, handler in (
-            ("vibration", self._on_vibration),
-            ("shaft", self._on_shaft),
-            ("temperature", self._on_temperature),
-            ("/diagnostics", self._on_diagnostics),
-        ):
-            entry = topic(name)
-            self._intake.add(entry, self._guard.guarded(entry, handler), keep_all=name != "/diagnostics")
-        self._watch = TwinWatch(
-            diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
-        )
+        hearer = Hearer(self._begin, self._hear_vibration, self._hear_shaft, self._hear_temperature)
+        self._signals = TrainSignals(self, hearer)
         self._reported_at = 0.0
         wall_timer(self, TICK_S, self._tick)
         known = ", ".join(self._follower.names)
@@ -124,11 +103,9 @@ class FollowerNode(Node):
             raise InputError(problems) from None
         self._twin = self._scene_of_twin()
         self._stretches = StretchIntake(self._follower.estimator)
-        self._shaft: list[bytes] = []
         self._rows: list[Float] = []
         self._latest: Followed | None = None
         self._temperature = math.nan
-        self._last_sample = -1
         self._way = 0.0
         self._compared_at = -math.inf
         self._comparing: Future[Residual] | None = None
@@ -156,40 +133,23 @@ class FollowerNode(Node):
 
     # --- what a train has --------------------------------------------------------------------------
 
-    def _on_vibration(self, cdr: bytes) -> None:
-        points = cloud_points(cdr)
-        if not len(points):
-            return
-        if int(points["sample"][-1]) <= self._last_sample:
-            self.get_logger().info("the vibration starts again, so does the follower")
-            self._begin()
-        self._last_sample = int(points["sample"][-1])
-        acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
+    def _hear_vibration(self, time_ns: Int, acceleration: Float) -> None:
         try:
-            self._stretches.push_vibration(cloud_times(cdr, points), acceleration)
+            self._stretches.push_vibration(time_ns, acceleration)
             self._unheard = ""
         except InputError as error:
             self._unheard = str(error)
 
-    def _on_shaft(self, cdr: bytes) -> None:
-        self._shaft.append(cdr)
+    def _hear_shaft(self, time_ns: Int, angle: Float) -> None:
+        self._stretches.push_shaft(time_ns, angle)
 
-    def _on_temperature(self, cdr: bytes) -> None:
-        message = decode(TEMPERATURE, cdr)
-        if message.header.frame_id.rpartition("/")[2] == "axlebox":
-            self._temperature = float(message.temperature)
-
-    def _on_diagnostics(self, cdr: bytes) -> None:
-        self._watch.take_statuses(decode_diagnostics(cdr)[1])
+    def _hear_temperature(self, _stamp_ns: int, celsius: float) -> None:
+        self._temperature = celsius
 
     # --- what it knows -----------------------------------------------------------------------------
 
     def _tick(self) -> None:
-        self._intake.sweep()
-        if self._shaft:
-            turning = run_of_messages({"shaft": self._shaft}, None).shaft
-            self._stretches.push_shaft(turning.time_ns, turning.angle)
-            self._shaft = []
+        self._signals.sweep()
         while (stretch := self._stretches.stretch()) is not None:
             estimator = self._follower.estimator
             row = describe(stretch, estimator.orders, estimator.plate, estimator.axes)
@@ -198,12 +158,12 @@ class FollowerNode(Node):
         self._hear_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.ended and self._twin_is_done() and not self._summed_up:
+        if self._signals.ended and self._twin_is_done() and not self._summed_up:
             self._summed_up = True
             self._publish(self._latest, final=True)
             self._report()
             self._out.wait_until_received("follower/estimate", 1.0)
-        if self._summed_up or self._watch.vanished():
+        if self._summed_up or self._signals.vanished:
             self.finished = bool(self._values.exit_when_done)
 
     def _twin_is_done(self) -> bool:
@@ -227,7 +187,7 @@ class FollowerNode(Node):
 
     def _publish(self, step: Followed | None, final: bool = False) -> None:
         told = {} if step is None else step_object(step)
-        self._out.publish("follower/estimate", _encoded({"final": final, **told}))
+        self._out.publish("follower/estimate", encode_told({"final": final, **told}))
 
     def _compare(self, base: Scene, known: Estimates, rows: Float) -> Residual:
         """Run the twin beside, in the thread of the worker."""
@@ -246,13 +206,11 @@ class FollowerNode(Node):
             return
         self._trouble = ""
         told = {"time_s": self._compared_at, **residual_object(self._residual)}
-        self._out.publish("follower/residual", _encoded(told))
+        self._out.publish("follower/residual", encode_told(told))
 
     def _report(self) -> None:
         self._reported_at = time.monotonic()
         namespace = self.get_namespace()
-        counts = self._intake.publisher_counts()
-        heard = all(counts.get(topic(name).path(namespace), 0) for name in ("vibration", "shaft"))
         step = self._latest
         health = WAITING if step is None else step.health
         doubts = () if step is None else step.doubts
@@ -261,10 +219,10 @@ class FollowerNode(Node):
         told = "; ".join([*doubts, *unexplained, *troubles])
         status = Diagnostic(
             diagnostic_name(namespace, FOLLOWER),
-            OK if health in (WAITING, SOUND) and not told and not self._guard.total else WARN,
+            OK if health in (WAITING, SOUND) and not told and not self._signals.guard.total else WARN,
             f"{health}{': ' if told else ''}{told}",
             (
-                ("connected", "true" if heard else "false"),
+                ("connected", "true" if self._signals.connected else "false"),
                 ("health", health),
                 ("stretches", str(self._follower.stretches)),
                 ("unfit_stretches", str(self._stretches.unfit)),
@@ -272,7 +230,7 @@ class FollowerNode(Node):
                 ("surprise", "" if step is None else f"{step.surprise:.2f}"),
                 ("temperature", "" if math.isnan(self._temperature) else f"{self._temperature:.1f}"),
                 ("explained_by_twin", "" if self._residual is None else f"{self._residual.explained:.3f}"),
-                *self._guard.values(),
+                *self._signals.guard.values(),
             ),
         )
         stamp = 0 if step is None else round(1e9 * step.time)
@@ -282,21 +240,6 @@ class FollowerNode(Node):
         """Wait for the twin beside, which is short."""
         self._worker.shutdown(wait=True, cancel_futures=True)
         return False
-
-
-def _encoded(content: Mapping[str, Any]) -> bytes:
-    return encode_string(json.dumps(_plain(content), allow_nan=False))
-
-
-def _plain(value: Any) -> Any:
-    """Convert to what strict JSON can hold: NaN and infinity to null, arrays and tuples to lists."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(each) for key, each in value.items()}
-    if hasattr(value, "tolist"):
-        return _plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def main(argv: Sequence[str]) -> int:

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from rclpy.node import Node
 
+from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
 from beardyn_core.errors import InputError
@@ -24,34 +25,30 @@ from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import (
     Diagnostic,
     decode,
-    decode_diagnostics,
     encode_diagnostics,
     header_stamp,
 )
-from beardyn_core.record.reading import run_of_messages
-from beardyn_core.record.topics import TEMPERATURE, WRENCH, topic
+from beardyn_core.record.topics import WRENCH
 from beardyn_core.study.monitored_recording import HOT_BOX, WAITING, Finding, Tally
-from beardyn_ros.diagnostics import MONITOR, OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.diagnostics import MONITOR, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
-from beardyn_ros.twin_watch import TwinWatch
-from beardyn_ros.wire import RawIntake, TopicPublishers
+from beardyn_ros.train_signals import BEARING, EXIT_WHEN_DONE, Hearer, TrainSignals
+from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
 ZERO_CELSIUS = 273.15
-INPUTS = ("vibration", "shaft", "load/blocks")
 
 PARAMETERS = (
-    NodeParameter("bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"),
+    BEARING,
     NodeParameter(
         "algorithm",
         "",
         "module:function in place of the reference chain, a beardyn_core.observe.chain.Chain for one",
     ),
-    NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended"),
+    EXIT_WHEN_DONE,
 )
 
 
@@ -76,21 +73,9 @@ class MonitorNode(Node):
             raise InputError(problems)
         self._orders = fault_frequencies(self._bearing)
         self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
-        self._intake = RawIntake(self, polled=True)
-        self._guard = MessageGuard(self)
-        for name, handler in (
-            ("vibration", self._on_vibration),
-            ("shaft", self._on_shaft),
-            ("load/blocks", self._on_load),
-            ("load/wrench", self._on_wrench),
-            ("temperature", self._on_temperature),
-            ("/diagnostics", self._on_diagnostics),
-        ):
-            entry = topic(name)
-            self._intake.add(entry, self._guard.guarded(entry, handler), keep_all=name != "/diagnostics")
-        self._watch = TwinWatch(
-            diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("vibration").path(self.get_namespace())),
+        hearer = Hearer(self._begin, self._push_vibration, self._push_shaft, self._push_temperature)
+        self._signals = TrainSignals(
+            self, hearer, {"load/blocks": self._on_load, "load/wrench": self._on_wrench}
         )
         self._begin()
         self._reported_at = 0.0
@@ -103,31 +88,18 @@ class MonitorNode(Node):
     def _begin(self) -> None:
         self._monitor = Monitor(self._orders, self._bearing.roller_count, algorithm=self._algorithm)
         self._tally = Tally()
-        self._last_sample = -1
-        self._shaft: list[bytes] = []
         self._summed_up = False
 
     # --- what a train has --------------------------------------------------------------------------
 
-    def _on_vibration(self, cdr: bytes) -> None:
-        points = cloud_points(cdr)
-        if not len(points):
-            return
-        if int(points["sample"][-1]) <= self._last_sample:
-            self.get_logger().info("the vibration starts again, so does the monitor")
-            self._begin()
-        self._last_sample = int(points["sample"][-1])
-        acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
-        self._monitor.push_vibration(cloud_times(cdr, points), acceleration)
+    def _push_vibration(self, time_ns: Int, acceleration: Float) -> None:
+        self._monitor.push_vibration(time_ns, acceleration)
 
-    def _on_shaft(self, cdr: bytes) -> None:
-        self._shaft.append(cdr)
+    def _push_shaft(self, time_ns: Int, angle: Float) -> None:
+        self._monitor.push_shaft(time_ns, angle)
 
-    def _push_shaft(self) -> None:
-        if self._shaft:
-            turning = run_of_messages({"shaft": self._shaft}, None).shaft
-            self._monitor.push_shaft(turning.time_ns, turning.angle)
-            self._shaft = []
+    def _push_temperature(self, stamp_ns: int, celsius: float) -> None:
+        self._monitor.push_temperature(stamp_ns, celsius + ZERO_CELSIUS)
 
     def _on_load(self, cdr: bytes) -> None:
         points = cloud_points(cdr)
@@ -138,27 +110,18 @@ class MonitorNode(Node):
         vertical = float(decode(WRENCH, cdr).wrench.force.z)
         self._monitor.push_load(np.array([header_stamp(cdr)]), np.array([vertical]))
 
-    def _on_temperature(self, cdr: bytes) -> None:
-        message = decode(TEMPERATURE, cdr)
-        if message.header.frame_id.rpartition("/")[2] == "axlebox":
-            self._monitor.push_temperature(header_stamp(cdr), float(message.temperature) + ZERO_CELSIUS)
-
-    def _on_diagnostics(self, cdr: bytes) -> None:
-        self._watch.take_statuses(decode_diagnostics(cdr)[1])
-
     # --- what it says ------------------------------------------------------------------------------
 
     def _tick(self) -> None:
-        self._intake.sweep()
-        self._push_shaft()
+        self._signals.sweep()
         result = self._monitor.update()
         if result is not None:
             self._report_finding(Finding.of(result))
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.ended and not self._summed_up:
+        if self._signals.ended and not self._summed_up:
             self._sum_up()
-        if self._summed_up or self._watch.vanished():
+        if self._summed_up or self._signals.vanished:
             self.finished = bool(self._values.exit_when_done)
 
     def _report_finding(self, finding: Finding) -> None:
@@ -190,21 +153,19 @@ class MonitorNode(Node):
 
     def _report(self) -> None:
         self._reported_at = time.monotonic()
-        counts = self._intake.publisher_counts()
         namespace = self.get_namespace()
-        connected = all(counts.get(topic(name).path(namespace), 0) for name in INPUTS[:2])
         latest = self._tally.latest or Finding(WAITING, "listening", 0.0)
         status = Diagnostic(
             diagnostic_name(namespace, MONITOR),
-            WARN if self._monitor.lost or self._monitor.refused or self._guard.total else OK,
+            WARN if self._monitor.lost or self._monitor.refused or self._signals.guard.total else OK,
             latest.reason,
             (
-                ("connected", "true" if connected else "false"),
+                ("connected", "true" if self._signals.connected else "false"),
                 ("verdict", latest.verdict),
                 ("analyses", str(self._tally.analyses)),
                 ("gaps_in_vibration", str(self._monitor.lost)),
                 ("refused_blocks", str(self._monitor.refused)),
-                *self._guard.values(),
+                *self._signals.guard.values(),
             ),
         )
         stamp = round(latest.time * 1e9)

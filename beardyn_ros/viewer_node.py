@@ -37,6 +37,8 @@ DRAWN = (
     "contacts",
     "load/blocks",
     "monitor/result",
+    "follower/estimate",
+    "follower/residual",
 )
 
 PARAMETERS = (

@@ -23,3 +23,21 @@ def save_small(source: Path, target: Path, colours: int) -> None:
     with Image.open(source) as picture:
         small = picture.convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE)
     small.save(target, optimize=True)
+
+
+def with_section(page: str, title: str, written: str, before: str) -> str:
+    """Put a section in the place of the one of its title, or before another where there is none yet.
+
+    Parameters
+    ----------
+    page : str
+    title : str
+        Line with which the section begins.
+    written : str
+        The section, title and blank line at its end included.
+    before : str
+        Line with which the section after it begins.
+    """
+    end = page.index(before)
+    start = page.index(title) if title in page else end
+    return page[:start] + written + page[end:]

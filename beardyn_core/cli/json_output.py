@@ -7,10 +7,10 @@ in dB; what has no unit (counts, ratios, shares of 1) has none in its key. Every
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Mapping
 from typing import Any
+
+from beardyn_core.plain_json import strict_text
 
 SCHEMA_VERSION = 1
 """Raised when a key is renamed, removed or changes its meaning; a new key does not raise it."""
@@ -21,23 +21,7 @@ def json_text(command: str, content: Mapping[str, Any], indent: int | None = Non
 
     Arrays, tuples and paths are converted, NaN and infinity become null; files are indented.
     """
-    whole = {"schema_version": SCHEMA_VERSION, "command": command, **content}
-    return json.dumps(plain(whole), indent=indent, allow_nan=False)
-
-
-def plain(value: Any) -> Any:
-    """Convert a value to what strict JSON can hold: NaN and infinity to null, arrays and tuples to lists."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(each) for key, each in value.items()}
-    if hasattr(value, "tolist"):  # an array or a number of NumPy
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple, set, frozenset)):
-        return [plain(each) for each in value]
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if value is None or isinstance(value, (bool, int, str)):
-        return value
-    return str(value)
+    return strict_text({"schema_version": SCHEMA_VERSION, "command": command, **content}, indent)
 
 
 def renamed(value: Any, names: Mapping[str, str]) -> Any:

@@ -19,8 +19,10 @@ following    the filter of one bearing: load, end play, spall as they change
 residual     what is heard beside a twin at the state that is known
 told         estimates, steps and residuals for JSON
 intake       stretches out of blocks as they come
-training     an estimator of a set of runs, judged on bearings that it has not seen
+learning     numbers and condition from labelled runs, intervals from runs not learnt from
+judging      errors and coverage on runs that were neither learnt from nor calibrated with
+training     an estimator of a set of runs, with its card
 ============ ==================================================================
 
-scikit-learn is imported by `training` alone and when it is needed; an estimate needs NumPy.
+scikit-learn is imported by `learning` alone and when it is needed; an estimate needs NumPy.
 """

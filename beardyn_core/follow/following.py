@@ -73,8 +73,9 @@ class Follower:
     Notes
     -----
     Each stretch is an observation of every number that the estimator tells, as wide as its interval. Part of
-    its error stays with the run: it is a number of its own in the filter, which no repetition takes away, so
-    that the intervals do not shrink to nothing; another recording has another one (`begin`). Loads, end play
+    its error stays with bearing and box, and part with the run: they are numbers of their own in the filter,
+    which no repetition takes away, so that the intervals do not shrink to nothing. Another recording has
+    another part of the run (`begin`), and the same one of bearing and box. Loads, end play
     and temperature wander; the width of a spall grows by `GrowthLaw` with a rate that is learnt. A number
     missed by three standard deviations twice in a row on one side has made a step, and is learnt anew.
     The filter is written out here: prediction by cubature points, correction in closed form, as every
@@ -97,11 +98,14 @@ class Follower:
         self._spread = np.array([np.ptp(each) / (2.0 * NORMAL_90) for each in ends])
         unexplained = np.array([1.0 - known[name]["explained"] for name in self.names])
         shared = np.array([known[name].get("shared", _LEAST_SHARED) for name in self.names])
-        self._common = np.clip(shared, _LEAST_SHARED, 1.0) * unexplained * self._spread**2
+        # of the errors' variance, what bearing and box have in all recordings, and what a run adds
+        whole = unexplained * self._spread**2
+        kept, added = np.clip(shared, 0.0, 1.0) * whole, np.maximum(_LEAST_SHARED - shared, 0.0) * whole
+        self._common = kept + added
         self._grows = {"width", "length"} <= set(self.names)
         rate = [(log(self.law.rate), log(self.law.rate_spread) / NORMAL_90)] if self._grows else []
-        mean = np.concatenate([self._middle, np.zeros(len(self.names)), [each[0] for each in rate]])
-        variance = np.concatenate([self._spread**2, self._common, [each[1] ** 2 for each in rate]])
+        mean = np.concatenate([self._middle, np.zeros(2 * len(self.names)), [each[0] for each in rate]])
+        variance = np.concatenate([self._spread**2, added, kept, [each[1] ** 2 for each in rate]])
         self._unknown = self.belief = Belief(mean, np.diag(variance))
         rule = self.estimator.part
         self.condition = None if rule is None else ConditionBelief(rule.conditions)
@@ -111,7 +115,8 @@ class Follower:
     def begin(self) -> None:
         """Begin another recording: load, end play, temperature and what a run adds may all be others by now.
 
-        They are as unknown as at first. Condition, spall and rate of growth stay as they are believed.
+        They are as unknown as at first. Condition, spall, its rate of growth and what bearing and box add
+        stay as they are believed.
         """
         count = len(self.names)
         wander = [k for k, name in enumerate(self.names) if name in _WANDERS]
@@ -192,7 +197,7 @@ class Follower:
         count = len(self.names)
         rows, observed, variance = np.zeros((len(told), len(self.belief.mean))), [], []
         for row, k in zip(rows, told, strict=True):
-            row[k] = row[count + k] = 1.0
+            row[[k, count + k, 2 * count + k]] = 1.0
             each = heard[self.names[k]]
             low, high = each.quantity.scaled(np.array(each.intervals[-1]))
             whole = ((high - low) / (2.0 * NORMAL_90) * max(heard.strangeness, 1.0)) ** 2

@@ -37,6 +37,7 @@ envelope           envelope order spectrum of a whole recording
 meshes             triangle meshes of the bearing's parts from its recorded shape
 rerun_bearing      the bearing in 3-D: motion, loads, contact forces
 rerun_plots        curves beside it, and the envelope spectrum
+rerun_follower     what a follower says over time, heard beside twin
 rerun_view         a whole recording with its blueprint; where it goes: a window, a page, a file
 rerun_live         a running twin, fed with messages
 rerun_rolling      coin and roller of the contact laboratory as an animation

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
 import numpy as np
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from beardyn_core.record.messages import Diagnostic
 
 Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
+Told = tuple[Mapping[str, Any], ...]  # JSON objects, in the order of time
 
 
 @contextmanager

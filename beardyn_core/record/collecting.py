@@ -133,6 +133,12 @@ class BlockSource:
         """Give `Run.results`: none, for no monitor ran beside."""
         return ()
 
+    def followed(self) -> arrays.Told:
+        """Give `Run.followed`: nothing, for no follower ran beside."""
+        return ()
+
+    residuals = followed
+
     def duration(self) -> float:
         return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
 

@@ -29,7 +29,7 @@ from beardyn_core.record.encoding import (
     joint_template,
 )
 from beardyn_core.record.load_stream import decode_load, joined_load
-from beardyn_core.record.messages import Template, decode, decode_diagnostics, header_stamp
+from beardyn_core.record.messages import Template, decode, decode_diagnostics, decode_told, header_stamp
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 
@@ -192,6 +192,14 @@ class MessageSource:
 
     def results(self) -> arrays.Diagnostics:
         return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
+
+    def followed(self) -> arrays.Told:
+        """Give `Run.followed`; the last word, which repeats what was said, is left out."""
+        told = (decode_told(cdr) for cdr in self._of("follower/estimate"))
+        return tuple(each for each in told if not each["final"])
+
+    def residuals(self) -> arrays.Told:
+        return tuple(decode_told(cdr) for cdr in self._of("follower/residual"))
 
     def duration(self) -> float:
         """Give `Run.duration`: a block ends with its last snapshot."""

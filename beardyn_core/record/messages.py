@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
+
+from beardyn_core.errors import InputError
+from beardyn_core.plain_json import strict_text
 
 TIME = "builtin_interfaces/msg/Time"
 HEADER = "std_msgs/msg/Header"
@@ -79,6 +83,28 @@ def encode_string(text: str) -> bytes:
 def decode_string(cdr: bytes) -> str:
     """Decode the text of a ``std_msgs/String``."""
     return str(decode(STRING, cdr).data)
+
+
+def encode_told(content: Mapping[str, Any]) -> bytes:
+    """Encode one strict JSON object as a ``std_msgs/String``."""
+    return encode_string(strict_text(content))
+
+
+def decode_told(cdr: bytes) -> Mapping[str, Any]:
+    """Decode the JSON object of a ``std_msgs/String``.
+
+    Raises
+    ------
+    InputError
+        Its text is no JSON object.
+    """
+    try:
+        found = json.loads(decode_string(cdr))
+    except ValueError as error:
+        raise InputError(f"a message that should be a JSON object is none ({error})") from None
+    if not isinstance(found, dict):
+        raise InputError(f"a message that should be a JSON object is a {type(found).__name__}")
+    return found
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,19 @@
-"""The rerun view of a twin that is running: fed with messages, drawn in batches."""
+"""The rerun view of a twin that is running, or of a follower: fed with messages, drawn in batches."""
 
 from __future__ import annotations
 
 from collections import defaultdict, deque
+from collections.abc import Mapping
 from time import monotonic
+from typing import Any
 
 import rerun as rr
 
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.messages import decode_diagnostics, decode_string, header_stamp
+from beardyn_core.record.messages import decode_diagnostics, decode_string, decode_told, header_stamp
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
+from beardyn_core.record.rerun_follower import log_estimates, log_residual, quantities_of
 from beardyn_core.record.rerun_plots import log_curves, log_spectrum, log_styles, order_spectrum
 from beardyn_core.record.rerun_view import blueprint
 
@@ -18,6 +21,7 @@ BATCH_SECONDS = 0.25
 SPECTRUM_SECONDS = 2.0
 SPECTRUM_WINDOW_NS = 4_000_000_000
 SPECTRUM_TOPICS = ("vibration", "shaft")
+FOLLOWED = ("follower/estimate", "follower/residual")
 
 
 class LiveView:
@@ -25,7 +29,8 @@ class LiveView:
 
     The caller has connected the stream to where it goes (``spawn``, ``serve_grpc``, ``save``) and calls
     `feed` with every message, and `flush` at the end or from a timer. Messages before the first
-    ``truth`` are dropped: without it the bearing is not known.
+    ``truth`` are dropped: without it the bearing is not known. What a follower says is drawn at once, for a
+    real axlebox has no ``truth``.
     """
 
     def __init__(self, stream: rr.RecordingStream) -> None:
@@ -35,6 +40,7 @@ class LiveView:
         self._window: dict[str, deque[bytes]] = {name: deque() for name in SPECTRUM_TOPICS}
         self._drawn = self._spectrum_drawn = monotonic()
         self._largest = 0.0
+        self._estimates: tuple[str, ...] = ()
         self.dropped = 0
 
     def feed(self, name: str, cdr: bytes) -> None:
@@ -47,6 +53,9 @@ class LiveView:
         """
         if name == "truth":
             self._describe(RunDescription.from_json(decode_string(cdr)))
+            return
+        if name in FOLLOWED:
+            self._follow(name, decode_told(cdr))
             return
         if self._run is None:
             self.dropped += 1
@@ -88,11 +97,32 @@ class LiveView:
         self._batch.clear()
         for kept in self._window.values():
             kept.clear()
-        self._stream.send_blueprint(
-            blueprint(run.shape.outer_diameter, follow=True, sensors=run.sensor_names)
-        )
+        self._lay_out()
         log_parts(self._stream, run)
         log_styles(self._stream, run.sensor_names)
+
+    def _lay_out(self) -> None:
+        self._stream.send_blueprint(
+            blueprint(
+                None if self._run is None else self._run.shape.outer_diameter,
+                follow=True,
+                sensors=() if self._run is None else self._run.sensor_names,
+                estimates=self._estimates,
+            )
+        )
+
+    def _follow(self, name: str, told: Mapping[str, Any]) -> None:
+        """Draw what a follower says; the page for it is laid out when the first numbers come."""
+        if name == FOLLOWED[1]:
+            log_residual(self._stream, told)
+            return
+        if told["final"]:  # the last word, which repeats what was said
+            return
+        quantities = quantities_of((told,))
+        if quantities and quantities != self._estimates:
+            self._estimates = quantities
+            self._lay_out()
+        log_estimates(self._stream, (told,))
 
     def _draw_spectrum(self, run: RunDescription) -> None:
         window = run_of_messages({name: list(kept) for name, kept in self._window.items()}, run)

@@ -17,6 +17,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
+from beardyn_core.record.rerun_follower import follower_view, log_follower, quantities_of
 from beardyn_core.record.rerun_plots import bounds, log_plots
 from beardyn_core.record.run import Run
 from beardyn_core.record.viewer import require_display, waiting_window, web_viewer
@@ -124,27 +125,46 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
         log_motion(stream, run)
         log_loads(stream, run)
     log_plots(stream, run)
+    log_follower(stream, run.followed, run.residuals)
     stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
 
 
 def blueprint(
-    outer_diameter: float,
+    outer_diameter: float | None,
     span: tuple[float, float] | None = None,
     follow: bool = False,
     sensors: tuple[str, ...] = (),
+    estimates: tuple[str, ...] = (),
 ) -> rrb.Blueprint:
-    """Lay out the view: the bearing on the left, curves on the right.
+    """Lay out the view: a page of the bearing and its curves, and one of what a follower says.
 
-    The outer diameter [m] sets the distance of the eye; the curves show a window of time [s], by default all
-    there is, and the newest data of a running twin with ``follow``. ``sensors`` names all accelerometers.
+    The outer diameter [m] sets the distance of the eye, `None`: the bearing is not known; the curves show a
+    window of time [s], by default all there is, and the newest data of a running twin with ``follow``.
+    ``sensors`` names all accelerometers, ``estimates`` the keys of what a follower says.
     """
+    whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
+    pages = [] if outer_diameter is None else [_bearing_view(outer_diameter, whole, sensors)]
+    pages += [follower_view(estimates)] if estimates else []
+    play: dict[str, Any] = {"play_state": "following"} if follow else {"playback_speed": PLAYBACK_SPEED}
+    return rrb.Blueprint(
+        rrb.Tabs(*pages) if len(pages) > 1 else pages[0],
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.TimePanel(state="collapsed", timeline=TIMELINE, **play),
+        auto_views=False,
+    )
+
+
+def _bearing_view(
+    outer_diameter: float, whole: rrb.archetypes.TimeAxis | None, sensors: tuple[str, ...]
+) -> rrb.Container:
+    """Lay out the bearing on the left, curves on the right."""
     eye = rrb.EyeControls3D(
         kind=rrb.Eye3DKind.Orbital,
         position=np.array([1.12, 1.10, 0.62]) * outer_diameter,
         look_target=np.array([0.0, 0.0, 0.08]) * outer_diameter,
         eye_up=(0.0, 0.0, 1.0),
     )
-    whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
     close = _window(rr.TimeRangeBoundary.cursor_relative, -CLOSE_WINDOW / 2, CLOSE_WINDOW / 2)
 
     def curves(entity: str, name: str, axis: rrb.archetypes.TimeAxis | None = whole) -> rrb.TimeSeriesView:
@@ -177,14 +197,7 @@ def blueprint(
         ),
         row_shares=[1.0, 1.1, 1.0, 1.0],
     )
-    play: dict[str, Any] = {"play_state": "following"} if follow else {"playback_speed": PLAYBACK_SPEED}
-    return rrb.Blueprint(
-        rrb.Horizontal(bearing, right, column_shares=[1.15, 1.0]),
-        rrb.BlueprintPanel(state="collapsed"),
-        rrb.SelectionPanel(state="collapsed"),
-        rrb.TimePanel(state="collapsed", timeline=TIMELINE, **play),
-        auto_views=False,
-    )
+    return rrb.Horizontal(bearing, right, column_shares=[1.15, 1.0], name="bearing")
 
 
 def _window(boundary: Callable[..., Any], start: float, end: float) -> rrb.archetypes.TimeAxis:
@@ -197,7 +210,12 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
     described = run.described()
-    return blueprint(described.shape.outer_diameter, span, sensors=described.sensor_names)
+    return blueprint(
+        described.shape.outer_diameter,
+        span,
+        sensors=described.sensor_names,
+        estimates=quantities_of(run.followed),
+    )
 
 
 def save(run: Run, target: Path | str, *, replace: bool = True) -> Path:

@@ -214,6 +214,16 @@ class Run:
         return self._take(self._source.results)
 
     @cached_property
+    def followed(self) -> arrays.Told:
+        """What a follower that ran beside said: ``steps[]`` of `beardyn follow --json`."""
+        return self._take(self._source.followed)
+
+    @cached_property
+    def residuals(self) -> arrays.Told:
+        """Third octaves that a follower heard beside those of its twin, each with its ``time_s``."""
+        return self._take(self._source.residuals)
+
+    @cached_property
     def truth(self) -> Mapping[str, Any]:
         """Facts of the run that no train could measure: faults and excitation, with labels of load and speed.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,6 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.plain_json import strict_text
 from evidence.hard.case import RUN_AS, HardCase
 from evidence.hard.refinement import Change
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED, Outcome
@@ -109,18 +109,8 @@ def write_json(path: Path, cases: Sequence[HardCase], outcomes: Sequence[Outcome
         }
         for case, outcome in zip(cases, outcomes, strict=True)
     ]
-    text = json.dumps(_plain({**about, "cases": found}), indent=1, allow_nan=False)
+    text = strict_text({**about, "cases": found}, indent=1)
     path.write_text(text + "\n", encoding="utf-8")
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {key: _plain(inner) for key, inner in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(inner) for inner in value]
-    return value
 
 
 def outcome_from(stored: Mapping[str, Any]) -> Outcome:

@@ -1,4 +1,4 @@
-"""When the trend alarms in the runs to failure of PRONOSTIA, beside a threshold on the rms alone.
+"""When the trend alarms in the runs to failure of PRONOSTIA, and how steadily what it hears then grows.
 
 ``python -m evidence.measured.run_to_failure --pronostia DIR`` writes docs/run_to_failure.md. DIR has
 ``Learning_set`` and ``Full_Test_Set`` with a folder of ``acc_*.csv`` for each run.
@@ -12,8 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
+from typing import NamedTuple
 
 import numpy as np
+from scipy.stats import spearmanr
 
 from beardyn_core.arrays import Float
 from beardyn_core.observe.trend import ALARM, Trend, TrendSettings, record_levels
@@ -23,6 +25,8 @@ PAGE = DOCS / "run_to_failure.md"
 SETS = ("Learning_set", "Full_Test_Set")
 RATE, EVERY_S, G = 25_600.0, 10.0, 9.80665
 RMS_RISE = 6.0  # [dB]
+_FEWEST = 10  # records to judge growth by
+_STEADY = 0.7  # rank correlation from which growth is called steady, a round number
 _SYNTHETIC = (20, 2000, 1.0)  # runs, records of each, deviation of a level [dB]
 
 
@@ -49,6 +53,17 @@ class Judged:
         off = np.flatnonzero(~alarmed)
         stays = (int(off[-1]) + 1 if len(off) else 0) if alarmed[-1] else None
         return cls(int(alarmed.argmax()) if alarmed.any() else None, stays, float(alarmed.mean()))
+
+
+@dataclass(frozen=True)
+class Grown:
+    """How steadily a number grew towards the end of a run; 1 is without a step back."""
+
+    quarter: A[float, "Spearman's rank correlation with time, last quarter"]
+    tenth: A[float, "the same of the last tenth"]
+    alarmed: A[float, "the same from where the alarm stays, NaN in fewer than 10 records"]
+    fall: A[float, "largest step back from an earlier peak in the last tenth, [dB]"]
+    end: A[float, "at the end, [dB]"]
 
 
 def read_record(path: Path) -> Float:
@@ -89,6 +104,41 @@ def by_rms(levels: Levels) -> Judged:
     return Judged.of([bool((rms - start > RMS_RISE).any()) for rms in levels.rms])
 
 
+def added_energy(levels: Levels) -> Float:
+    """Give what the bands have over their first records, median of the last few, shape [record], [dB].
+
+    It stands for the size of the damage, whose widths nobody measured: powers of all bands and axes that are
+    above those of the baseline, in sum, over the power of the baseline; 0 dB is nothing added.
+    """
+    settings = TrendSettings()
+    power = 10.0 ** (0.1 * levels.bands.reshape(len(levels.bands), -1))
+    power = power[:, np.isfinite(power).all(axis=0)]
+    base = np.median(power[: settings.baseline], axis=0)
+    added = 10.0 * np.log10(1.0 + np.maximum(power - base, 0.0).sum(axis=1) / base.sum())
+    first = np.repeat(added[:1], settings.smooth - 1)
+    windows = np.lib.stride_tricks.sliding_window_view(np.concatenate([first, added]), settings.smooth)
+    return np.asarray(np.median(windows, axis=1))
+
+
+def grown(levels: Levels, stays: int | None) -> Grown:
+    """Judge how steadily the added energy grows."""
+    added = added_energy(levels)
+    tenth, quarter = (added[-max(round(share * len(added)), _FEWEST) :] for share in (0.1, 0.25))
+    alarmed = added[stays:] if stays is not None else added[:0]
+    return Grown(
+        _rank_correlation(quarter),
+        _rank_correlation(tenth),
+        _rank_correlation(alarmed) if len(alarmed) >= _FEWEST else np.nan,
+        float(np.max(np.maximum.accumulate(tenth) - tenth)),
+        float(added[-1]),
+    )
+
+
+def _rank_correlation(values: Float) -> float:
+    """Compute Spearman's rank correlation with time: 1 where values only grow."""
+    return float(spearmanr(np.arange(len(values)), values).statistic)
+
+
 def synthetic_alarms(seed: int = 1) -> int:
     """Count the alarms in steady levels that scatter, one record independent of the other."""
     random = np.random.default_rng(seed)
@@ -103,8 +153,17 @@ def synthetic_alarms(seed: int = 1) -> int:
     return found
 
 
-def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
-    """Write the page of all runs: by set and name the number of records, the trend, the rms alone."""
+class Found(NamedTuple):
+    """What there is to say of a run."""
+
+    records: int
+    trend: Judged
+    rms: Judged
+    grown: Grown
+
+
+def page(found: dict[str, dict[str, Found]]) -> str:
+    """Write the page of all runs, by set and name."""
     every = [each for runs in found.values() for each in runs.values()]
     settings = TrendSettings()
     runs, records, deviation = _SYNTHETIC
@@ -139,16 +198,17 @@ def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
             "| run | records | first | left min | stays from | in alarm | rms: first | rms: stays from |",
             "|---|--:|--:|--:|--:|--:|--:|--:|",
         ]
-        for run, (count, trend, rms) in each.items():
+        for run, (count, trend, rms, _) in each.items():
             left = "-" if trend.first is None else f"{(count - trend.first) * EVERY_S / 60.0:.0f}"
             lines.append(
                 f"| {run} | {count} | {_share(trend.first, count)} | {left} | {_share(trend.stays, count)} | "
                 f"{100.0 * trend.share:.0f} % | {_share(rms.first, count)} | {_share(rms.stays, count)} |"
             )
         lines.append("")
-    stay = sum(trend.stays is not None for _, trend, _ in every)
-    rms_stay = sum(rms.stays is not None for _, _, rms in every)
-    broken = sum(trend.first != trend.stays for _, trend, _ in every)
+    stay = sum(each.trend.stays is not None for each in every)
+    rms_stay = sum(each.rms.stays is not None for each in every)
+    broken = sum(each.trend.first != each.trend.stays for each in every)
+    lines += _growth(found)
     lines += [
         "## What it says, and what not",
         "",
@@ -169,6 +229,47 @@ def page(found: dict[str, dict[str, tuple[int, Judged, Judged]]]) -> str:
     return "\n".join(lines)
 
 
+def _growth(found: dict[str, dict[str, Found]]) -> list[str]:
+    """Write how steadily the added energy grows."""
+    every = [each.grown for runs in found.values() for each in runs.values()]
+    tenth, quarter = (sum(getattr(each, name) >= _STEADY for each in every) for name in ("tenth", "quarter"))
+    alarmed = [each.alarmed for each in every if np.isfinite(each.alarmed)]
+    settings = TrendSettings()
+    lines = [
+        "## Does it grow with the damage?",
+        "",
+        "Nobody measured the spalls of these bearings, and beardyn does not either: entry and exit of a "
+        "roller (`beardyn_core.observe.severity`) are told apart for rollers from 15 mm on and in 40 "
+        "passages; these balls have 3.5 mm and pass some 17 times in a record. What stands for the size here "
+        "is the **added energy**: power of all bands over that of the first "
+        f"{settings.baseline} records, in sum, over the power of those, median of {settings.smooth} records. "
+        "It tells that damage grows, not how wide it is. In the table Spearman's rank correlation with time: "
+        "1 where it only grows, 0 without direction, negative where it falls; *back*: largest step back from "
+        "an earlier peak in the last tenth of the run.",
+        "",
+        "| run | last quarter | last tenth | while the alarm stays | back dB | at the end dB |",
+        "|---|--:|--:|--:|--:|--:|",
+    ]
+    for runs in found.values():
+        for run, each in runs.items():
+            now = each.grown
+            told = "-" if np.isnan(now.alarmed) else f"{now.alarmed:.2f}"
+            lines.append(
+                f"| {run} | {now.quarter:.2f} | {now.tenth:.2f} | {told} | {now.fall:.1f} | {now.end:.1f} |"
+            )
+    steady = sum(each >= _STEADY for each in alarmed)
+    return [
+        *lines,
+        "",
+        f"From {_STEADY:g} on, a round number, growth is called steady here: in the last quarter of "
+        f"{quarter} of {len(every)} runs, in the last tenth of {tenth}, and while the alarm stays in {steady}"
+        f" of the {len(alarmed)} that have {_FEWEST} records of it. In the others the level stays until the "
+        "last records, or falls again before the end: it is no width, and a width proxy that is monotone "
+        "towards the end of every run is not shown.",
+        "",
+    ]
+
+
 def _share(record: int | None, count: int) -> str:
     return "never" if record is None else f"{100.0 * record / count:.1f} %"
 
@@ -181,7 +282,7 @@ def main() -> None:
         "--keep", metavar="DIR", type=Path, help="keep the levels here, and take them from here"
     )
     args = parser.parse_args()
-    found: dict[str, dict[str, tuple[int, Judged, Judged]]] = {}
+    found: dict[str, dict[str, Found]] = {}
     for name in SETS:
         folders = sorted(each for each in (args.pronostia / name).glob("Bearing*") if each.is_dir())
         if not folders:
@@ -189,7 +290,10 @@ def main() -> None:
         found[name] = {}
         for folder in folders:
             levels = levels_of_run(folder, args.keep)
-            found[name][folder.name] = (len(levels.rms), by_trend(levels), by_rms(levels))
+            trend = by_trend(levels)
+            found[name][folder.name] = Found(
+                len(levels.rms), trend, by_rms(levels), grown(levels, trend.stays)
+            )
             print(folder.name, *found[name][folder.name][1:], flush=True)
     PAGE.write_text(page(found), encoding="utf-8")
 

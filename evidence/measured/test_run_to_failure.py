@@ -40,7 +40,24 @@ def test_an_alarm_that_ends_does_not_stay():
     assert run_to_failure.Judged.of([True, False]).stays is None
 
 
+def test_added_energy_stands_still_jumps_with_the_change_and_tells_how_steadily_it_grows(run):
+    added = run_to_failure.added_energy(run)
+    assert added.shape == (70,)
+    assert np.abs(added[:60]).max() < 1.0  # of steady noise, which scatters
+    assert added[-1] == pytest.approx(12.0, abs=0.5)  # four times as loud
+    bands = np.zeros((100, 2, 5))
+    bands[50:] += np.arange(50)[:, None, None]
+    rises = run_to_failure.grown(run_to_failure.Levels(bands, bands[..., 0]), 60)
+    assert (rises.quarter, rises.tenth, rises.alarmed) == pytest.approx((1.0, 1.0, 1.0))
+    assert rises.fall == 0.0
+    bands[90:] -= 20.0 * np.arange(10)[:, None, None] / 10.0
+    falls = run_to_failure.grown(run_to_failure.Levels(bands, bands[..., 0]), 95)
+    assert falls.tenth < 0.0 < falls.fall
+    assert np.isnan(falls.alarmed)  # too few records of it
+
+
 def test_the_page_is_in_the_documentation():
     text = run_to_failure.PAGE.read_text(encoding="utf-8")
-    assert text.count("| Bearing") == 17
+    assert text.count("| Bearing") == 2 * 17
     assert "in alarm at the end of 17 of 17 runs" in text
+    assert "in the last quarter of 6 of 17 runs, in the last tenth of 11" in text

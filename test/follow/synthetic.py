@@ -11,8 +11,8 @@ from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described
+from beardyn_core.follow.learning import calibrated, trained
 from beardyn_core.follow.quantities import QUANTITIES
-from beardyn_core.follow.training import calibrated, trained
 
 PLATE = load_plate("HS130x230")
 NAMES = names_of(AXES)

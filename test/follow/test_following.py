@@ -23,7 +23,9 @@ from beardyn_core.follow.following import (
 )
 from beardyn_core.follow.forecast import Service
 from beardyn_core.follow.growth import GrowthLaw
-from test.follow.synthetic import drawn, heard, taught
+from test.follow.synthetic import NAMES, drawn, heard, taught
+
+NORMAL_OF_TEN = np.array([-1.64, -1.04, -0.67, -0.39, -0.13, 0.13, 0.39, 0.67, 1.04, 1.64])  # quantiles
 
 
 @pytest.fixture(scope="module")
@@ -112,6 +114,38 @@ def test_a_load_of_another_recording_is_no_step_of_the_last_one(estimator: Estim
     assert june[0].estimates["vertical_load"].value == pytest.approx(8e4, rel=0.2)
     width = [np.ptp(np.log(each.estimates["width"].intervals[-1])) for each in (may[0], june[0])]
     assert width[1] < width[0]  # the spall is the one of May
+
+
+def over_recordings(estimator: Estimator, offset: float, seed: int, count: int) -> Followed:
+    """Follow a spall of 6 mm over recordings of two stretches, in which box and bearing sound too wide."""
+    follower = Follower(estimator)
+    rows = stretches(seed, "cup", 2 * count)
+    for name in ("kurtosis", "way_cup"):
+        rows[:, NAMES.index(name)] += offset
+    for k, row in enumerate(rows):
+        if k and k % 2 == 0:
+            follower.begin()
+        last = follower.take(row, 1.5 * (k + 1), 80.0 * (k + 1))
+    return last
+
+
+def test_what_box_and_bearing_add_is_in_all_recordings_and_repetition_does_not_take_it_away(
+    estimator: Estimator,
+) -> None:
+    quantities = dict(estimator.card["quantities"])
+    quantities["width"] = {**quantities["width"], "shared": 0.9, "explained": 0.6}
+    shy = replace(estimator, card={**estimator.card, "quantities": quantities})
+    low, high = np.log(np.array(quantities["width"]["ranges"][-1]))
+    least = np.sqrt(0.9 * 0.4) * (high - low)  # of an interval of 90 %
+    for count in (2, 10, 40):
+        width = np.ptp(np.log(over_recordings(shy, 0.0, 3, count).estimates["width"].intervals[-1]))
+        assert 0.85 * least < width < 1.2 * least
+    # boxes that differ by a third of the width: many recordings of one do not make it surely wrong
+    held = 0
+    for seed, offset in enumerate(2.0 * NORMAL_OF_TEN):
+        last = over_recordings(shy, offset, seed, 10).estimates["width"]
+        held += last.intervals[-1][0] <= 6e-3 <= last.intervals[-1][1]
+    assert held >= 9
 
 
 def test_a_step_of_the_load_is_followed_within_three_stretches(estimator: Estimator) -> None:

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.arrays import Float
 from beardyn_core.cli import main as command
 from beardyn_core.errors import InputError
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.residual import Residual, residual_of
+from test.cli.json_page import check
 from test.follow.synthetic import RATE, drawn, taught
 
 
@@ -52,14 +57,24 @@ def test_mileages_that_cannot_be_are_refused_by_the_name_of_their_option(
 
 
 def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    def beside(estimator: Estimator, rows: Float, *_: object) -> Residual:
+        return residual_of(estimator, rows, rows)
+
+    monkeypatch.setattr("beardyn_core.api.following.residual_beside", beside)
     runs = [str(recording(tmp_path, "HS130x230", seed)) for seed in (1, 2)]
     taught(drawn(60, 2), runs=80).save(tmp_path / "one.npz")
+    every: list[dict[str, Any]] = []
     words = ["follow", *runs, "--estimator", str(tmp_path / "one.npz"), "--json"]
-    for options, begin in ((["--at-km", "400000", "412000"], 1.2e7), (["--widest-mm", "12"], 0.0)):
+    cases = ((["--at-km", "400000", "412000", "--twin", "smooth_run"], 1.2e7), (["--widest-mm", "12"], 0.0))
+    for options, begin in cases:
         assert command.main([*words, *options]) == 0
         told = json.loads(capsys.readouterr().out)
+        every.append(told)
         assert len(told["steps"]) == 4
         assert 0.0 < told["steps"][2]["distance_m"] - begin < 500.0
     assert told["steps"][-1]["forecast"]["widest_m"] == pytest.approx(12e-3)
+    check("follow", *every)
+    assert every[0]["residual"]["explained"] == 1.0
+    assert every[1]["residual"] is None

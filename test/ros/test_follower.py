@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from beardyn_core.record.messages import decode_string
+from beardyn_core.cli.json_output import SCHEMA_VERSION
+from beardyn_core.record.messages import decode_told
 from beardyn_core.record.reporting import report
+from test.cli.json_page import check
 from test.ros.graph import Graph
 
 ALLOWED = {f"/axlebox/{name}" for name in ("vibration", "shaft", "temperature")}
 HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
+HEAD = {"schema_version": SCHEMA_VERSION, "command": "follow"}
+COMPILED_IN_S = 240.0  # a set of kernels that no other test has, on a machine that does much besides
 
 
 def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Graph, tmp_path: Path) -> None:
@@ -35,7 +39,7 @@ def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Gra
     graph.fake_load(duration=5.0)
     assert graph.exit_code("follower") == 0
     assert graph.exit_code("recorder") == 0
-    told = [json.loads(decode_string(cdr)) for cdr in graph.messages["follower/estimate"]]
+    told = [decode_told(cdr) for cdr in graph.messages["follower/estimate"]]
     assert told.pop()["final"]  # the last word again, for who waits for it
     assert [each["time_s"] for each in told] == pytest.approx([1.5, 3.0, 4.5], abs=0.02)
     assert told[0]["health"] == "waiting"
@@ -48,6 +52,44 @@ def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Gra
     assert any(each.value("health") == "unexplained" for each in graph.statuses("follower"))
     counts = {each.name: each.count for each in report(file).topics}
     assert counts["/axlebox/follower/estimate"] == 4
+
+
+@pytest.mark.usefixtures("compiled_kernels")
+def test_a_twin_runs_beside_and_what_is_heard_is_compared_with_it(graph: Graph) -> None:
+    graph.listen("follower/estimate", "follower/residual")
+    graph.fake_twin(speed_factor=4.0)
+    words = {"twin": "smooth_run", "twin_tier": "lumped", "exit_when_done": False}
+    graph.node_process("follower", bearing="HS130x230", **words)
+    graph.until(
+        lambda: any(each.value("connected") == "true" for each in graph.statuses("follower")),
+        "the connection of the follower",
+    )
+    graph.fake_load(duration=5.0)
+    graph.until(lambda: graph.messages["follower/residual"], "a comparison", timeout=COMPILED_IN_S)
+    estimates, residuals = (
+        [dict(decode_told(cdr)) for cdr in graph.messages[f"follower/{name}"]]
+        for name in ("estimate", "residual")
+    )
+    residual, step = residuals[0], estimates[1]  # from the second stretch on
+    assert residual.pop("time_s") == step["time_s"]
+    assert not step.pop("final")
+    check("follow", {**HEAD, "recordings": ["live"], "steps": [step], "residual": residual})
+    assert residual["axes"] == ["x", "y", "z"]
+    for name in ("measured_dB", "twin_dB"):
+        levels = np.array(residual[name], float)
+        assert levels.shape == (3, len(residual["frequency_Hz"]))
+        assert np.isfinite(levels).mean() > 0.5
+    # an artificial signal is no axlebox: the twin at the state that is believed does not explain it
+    assert residual["explained"] < 1.0
+    assert residual["sentences"]
+    told = f"{residual['explained']:.3f}"
+    graph.until(
+        lambda: any(each.value("explained_by_twin") == told for each in graph.statuses("follower")),
+        "the share in the diagnostics",
+    )
+    status = next(each for each in graph.statuses("follower") if each.value("explained_by_twin") == told)
+    assert residual["sentences"][0] in status.message
+    assert "Traceback" not in graph.processes.log("follower")
 
 
 def test_mistakes_are_refused_with_the_parameter(graph: Graph) -> None:

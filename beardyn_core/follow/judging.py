@@ -1,0 +1,138 @@
+"""Judge an estimator by runs that it has neither learnt from nor been calibrated with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.arrays import Float, Int
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.labelled import Described, taken
+from beardyn_core.follow.learning import calibrated, known
+from beardyn_core.follow.quantities import BY_NAME, Quantity
+from beardyn_core.follow.regression import Guess
+
+_CROSSWISE = 10  # parts of a calibration set, each judged by the others
+
+
+class Score(NamedTuple):
+    """How an estimate does on runs that were not learnt from."""
+
+    runs: int
+    explained: float  # share of the variance
+    error: float  # median, relative or in SI
+    bias: float  # median, the same
+    coverage: tuple[float, ...]  # share of runs whose truth lies inside of the intervals of 50 and 90 %
+
+
+class Guessed(NamedTuple):
+    """A number of runs that were not learnt from beside its truth, on the scale on which it is learnt."""
+
+    guess: Guess
+    truth: Float  # shape [run]
+    places: Int  # shape [run], of each among the runs that judge
+
+    def taken(self, inside: NDArray[np.bool_]) -> Guessed:
+        """Take some of the runs, shape [run]."""
+        return Guessed(
+            Guess(*(each[..., inside] for each in self.guess)), self.truth[inside], self.places[inside]
+        )
+
+
+def scores(estimator: Estimator, runs: Described) -> dict[str, Score]:
+    """Judge an estimator by runs that it has neither learnt from nor been calibrated with."""
+    found = guessed(estimator, runs)
+    return {name: score_of(BY_NAME[name], each) for name, each in found.items() if len(each.truth) > 1}
+
+
+def crosswise(estimator: Estimator, runs: Described) -> dict[str, Score]:
+    """Judge by the runs that calibrate: see `guessed_crosswise`."""
+    return {name: score_of(BY_NAME[name], each) for name, each in guessed_crosswise(estimator, runs).items()}
+
+
+def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
+    """Guess every number of runs that have one, by quantity."""
+    standard = estimator.standardised(runs.descriptors)
+    found = {}
+    for name, each in estimator.regressions.items():
+        values, inside = known(BY_NAME[name], runs)
+        if inside.any():
+            found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
+    return found
+
+
+def guessed_crosswise(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
+    """Guess the runs that calibrate: a tenth of their bearings at a time, put right by the rest of them.
+
+    Parameters
+    ----------
+    estimator : Estimator
+        That is not calibrated yet.
+    runs : Described
+    """
+    names = sorted(set(runs.bearings.tolist()))
+    pieces = []
+    for k in range(min(_CROSSWISE, len(names))):
+        inside = np.isin(runs.bearings, names[k::_CROSSWISE])
+        by = calibrated(estimator, taken(runs, ~inside), straightened=True)
+        places = np.flatnonzero(inside)
+        pieces.append(
+            {
+                name: each._replace(places=places[each.places])
+                for name, each in guessed(by, taken(runs, inside)).items()
+            }
+        )
+    return {
+        name: _joined([each[name] for each in pieces if name in each])
+        for name in BY_NAME
+        if any(name in each for each in pieces)
+    }
+
+
+def _joined(pieces: Sequence[Guessed]) -> Guessed:
+    guess = Guess(
+        *(np.concatenate([each.guess[k] for each in pieces], axis=-1) for k in range(len(Guess._fields)))
+    )
+    return Guessed(
+        guess,
+        np.concatenate([each.truth for each in pieces]),
+        np.concatenate([each.places for each in pieces]),
+    )
+
+
+def score_of(quantity: Quantity, found: Guessed) -> Score:
+    """Judge guesses by the truth."""
+    value, low, high = found.guess
+    truth = found.truth
+    missed = quantity.restored(value) - quantity.restored(truth)
+    if quantity.relative:
+        missed = missed / quantity.restored(truth)
+    held = (low <= truth) & (truth <= high)
+    return Score(
+        len(truth),
+        1.0 - float(np.mean((value - truth) ** 2) / np.var(truth)),
+        float(np.median(np.abs(missed))),
+        float(np.median(missed)),
+        tuple(held.mean(axis=1).tolist()),
+    )
+
+
+def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
+    """Judge which conditions are named, and which are in the sets of each level; `None` without a rule."""
+    part = estimator.part
+    if part is None or not len(runs.conditions):
+        return None
+    probability = part.probabilities(estimator.standardised(runs.descriptors))
+    named = np.array(part.conditions)[probability.argmax(axis=1)]
+    held = [
+        [truth in each for each in part.sets(row)]
+        for row, truth in zip(probability, runs.conditions, strict=True)
+    ]
+    return {
+        "runs": len(named),
+        "named": float(np.mean(named == runs.conditions)),
+        "coverage": np.mean(held, axis=0).tolist(),
+    }

@@ -1,0 +1,219 @@
+"""Learn numbers and condition from labelled runs, and set their intervals by runs not learnt from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.arrays import Float
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.estimator import Estimator, farthest_of
+from beardyn_core.follow.labelled import Described
+from beardyn_core.follow.part import PartRule, least_of
+from beardyn_core.follow.quantities import QUANTITIES, Quantity
+from beardyn_core.follow.regression import LEVELS, Regression, reach_of
+from beardyn_core.optional import library
+
+LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
+FEWEST = 40  # runs to learn a number from
+_FOLDS = 5
+# what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
+_SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
+_DOUBT_RIDGE = 3.0
+_LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
+_OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way")  # descriptors that tell the parts apart
+_USUAL = 20  # principal directions that strangeness looks along
+
+
+def trained(
+    train: Described, plate: NamePlate, axes: tuple[str, ...], rate: float, stretch: float
+) -> Estimator:
+    """Learn every quantity from the runs of a training part; intervals are not calibrated yet."""
+    descriptors = train.descriptors
+    with np.errstate(invalid="ignore"):
+        middle, spread = np.nanmean(descriptors, axis=0), np.nanstd(descriptors, axis=0)
+    middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
+    standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
+    sizes, usual = _principal(standard)
+    regressions, card = {}, {}
+    for quantity in QUANTITIES:
+        values, inside = known(quantity, train)
+        if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
+            continue
+        bearings = train.bearings[inside]
+        learnt, errors = _learnt(standard[inside], values[inside], bearings)
+        explained = 1.0 - float(np.mean(errors**2) / np.var(values[inside]))
+        ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
+        ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
+        card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
+                               "shared": shared_of(errors, bearings)}  # fmt: skip
+        if explained >= LEAST_EXPLAINED:
+            regressions[quantity.name] = learnt
+    farthest = farthest_of(standard @ usual.T / sizes)
+    return Estimator(
+        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, regressions,
+        _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
+    )  # fmt: skip
+
+
+def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
+    """Set the widths of the intervals by runs that were not learnt from.
+
+    With `straightened` those runs are of a truer tier, and they have more to say. Each number is put on the
+    line that fits them, which takes out what a tier that learns has too much or too little of, or learnt from
+    them alone where that errs less on bearings left out; one that neither explains is not told any more.
+    """
+    standard = estimator.standardised(runs.descriptors)
+    found, card = {}, {name: dict(each) for name, each in estimator.card["quantities"].items()}
+    for quantity in QUANTITIES:
+        if quantity.name not in card:
+            continue
+        values, inside = known(quantity, runs)
+        each, errors = estimator.regressions.get(quantity.name), None
+        if each is not None:
+            given = each.value(standard[inside])
+            errors = values[inside] - given
+            if straightened:
+                each, errors = _straightened(each, given, values[inside])
+        if straightened:
+            each, errors = _truer(each, errors, standard[inside], values[inside], runs.bearings[inside])
+            variance = float(np.var(values[inside])) if inside.any() else 0.0
+            explained = 0.0 if errors is None or not variance else 1.0 - float(np.mean(errors**2)) / variance
+            card[quantity.name]["explained"] = explained
+            if explained < LEAST_EXPLAINED:
+                continue
+        if each is not None and errors is not None:
+            expected = each.expected_error(standard[inside])
+            found[quantity.name] = replace(each, reach=reach_of(errors, expected))
+    part = estimator.part
+    if part is not None:
+        inside = np.isin(runs.conditions, part.conditions)
+        places = [part.conditions.index(each) for each in runs.conditions[inside]]
+        truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
+        part = replace(part, least=least_of(truth))
+    return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
+
+
+def _truer(
+    learnt: Regression | None, errors: Float | None, standard: Float, values: Float, bearings: NDArray[Any]
+) -> tuple[Regression | None, Float | None]:
+    """Learn a number from runs of a truer tier alone, where that errs less than what is there."""
+    if len(values) < FEWEST or np.ptp(values) < 1e-12:
+        return learnt, errors
+    alone, left_out = _learnt(standard, values, bearings)
+    better = errors is None or float(np.mean(left_out**2)) < float(np.mean(errors**2))
+    return (alone, left_out) if better else (learnt, errors)
+
+
+def _straightened(learnt: Regression, given: Float, values: Float) -> tuple[Regression, Float]:
+    """Put a regression on the line through runs not learnt from; gives their errors too, each left out."""
+    table = np.stack([np.ones(len(given)), given], axis=1)
+    turn = np.linalg.pinv(table)
+    offset, slope = turn @ values
+    errors = (values - table @ (turn @ values)) / (1.0 - np.einsum("ij,ji->i", table, turn))
+    return replace(learnt, weights=slope * learnt.weights, mean=offset + slope * learnt.mean), errors
+
+
+def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:
+    """Give the truth of a quantity on the scale of learning, and which runs have one."""
+    values = quantity.scaled(runs.truth[quantity.name])
+    return values, np.isfinite(values)
+
+
+def _principal(standard: Float) -> tuple[Float, Float]:
+    """Find the directions in which runs differ most, shape [direction, descriptor], and their spreads."""
+    _, size, turn = np.linalg.svd(standard - standard.mean(axis=0), full_matrices=False)
+    count = min(_USUAL, int(np.count_nonzero(size > 1e-6 * size[0])))
+    return size[:count] / np.sqrt(len(standard)), turn[:count]
+
+
+def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
+    """Find the share of the errors' variance that runs of one bearing and box have in common, 0 to 1.
+
+    It is their correlation from run to run, half where no bearing has two; two runs of a bearing differ in
+    load, speed, track and fault.
+    """
+    together = [errors[bearings == each] for each in set(bearings.tolist())]
+    several = [each for each in together if len(each) > 1]
+    pairs = [(each.sum() ** 2 - each @ each) / (len(each) * (len(each) - 1)) for each in several]
+    return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 0.5
+
+
+def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, Float]:
+    """Learn a number; gives with it the errors on bearings that are left out."""
+    library("sklearn.cross_decomposition", "training", "sweep")
+    from sklearn.model_selection import GroupKFold
+
+    folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
+    best, errors = np.inf, np.zeros(len(values))
+    screen, chosen = _SCREENS[0], (_DIRECTIONS[0], _WIDTHS[0], _RIDGES[0])
+    for kept in _SCREENS:
+        directions = [_directions(standard[fit], values[fit], kept) for fit, _ in folds]
+        for setting in product(_DIRECTIONS, _WIDTHS, _RIDGES):
+            missed = np.empty(len(values))
+            for (fit, rest), along in zip(folds, directions, strict=True):
+                learnt = _fitted(standard[fit], values[fit], along, setting)
+                missed[rest] = values[rest] - learnt.value(standard[rest])
+            if (square := float(np.mean(missed**2))) < best:
+                best, errors, screen, chosen = square, missed, kept, setting
+    learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
+    return _doubting(learnt, standard, errors, float(np.std(values))), errors
+
+
+def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:
+    """Learn which part is spalled from what a monitor works out; `None` of one condition alone."""
+    if len(set(conditions)) < 2:
+        return None
+    from sklearn.linear_model import LogisticRegression
+
+    heard = [k for k, name in enumerate(names) if name.startswith(_OF_MONITOR)]
+    learnt = LogisticRegression(max_iter=2000).fit(standard[:, heard], conditions)
+    slope = np.zeros((len(learnt.classes_), len(names)))
+    # of two conditions the library keeps the second one's power alone
+    slope[-len(learnt.coef_) :, heard], offset = learnt.coef_, np.zeros(len(slope))
+    offset[-len(learnt.intercept_) :] = learnt.intercept_
+    return PartRule(tuple(map(str, learnt.classes_)), slope, offset, np.zeros(len(LEVELS)))
+
+
+def _directions(standard: Float, values: Float, kept: int) -> Float:
+    """Find the directions that vary with a number, shape [descriptor, direction], the first ones most.
+
+    Descriptors beyond the `kept` that are best correlated with the number are left out: where runs are few,
+    hundreds of them fit any number.
+    """
+    from sklearn.cross_decomposition import PLSRegression
+
+    centred = standard - standard.mean(axis=0)
+    size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
+    heard = np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:kept]
+    count = min(max(_DIRECTIONS), len(standard) - 1, len(heard))
+    found = PLSRegression(count, scale=False).fit(standard[:, heard], values).x_rotations_
+    directions = np.zeros((standard.shape[1], count))
+    directions[heard] = found / np.std(standard[:, heard] @ found, axis=0)
+    return directions
+
+
+def _fitted(
+    standard: Float, values: Float, directions: Float, setting: tuple[int, float, float]
+) -> Regression:
+    """Fit the number alone, its error everywhere alike."""
+    count, width, ridge = setting
+    directions = directions[:, :count]
+    mean, reach = float(values.mean()), width * np.sqrt(directions.shape[1])
+    nothing = np.zeros(len(standard))
+    empty = Regression(
+        directions, standard @ directions, nothing, nothing, reach, mean, 0.0, np.ones(len(LEVELS))
+    )
+    return replace(empty, weights=empty.solved(standard, values - mean, ridge))
+
+
+def _doubting(learnt: Regression, standard: Float, errors: Float, spread: float) -> Regression:
+    """Learn where the number errs more and where less, from errors on bearings not learnt from."""
+    size = np.log(np.maximum(np.abs(errors), _LEAST_ERROR * spread))
+    mean = float(size.mean())
+    return replace(learnt, doubt_weights=learnt.solved(standard, size - mean, _DOUBT_RIDGE), doubt=mean)

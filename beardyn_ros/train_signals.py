@@ -1,0 +1,123 @@
+"""What a train has of one axlebox: vibration, shaft and temperature, for the nodes that listen to it.
+
+Nothing else is heard: no ``truth``, no ``contacts``, ``bodies`` or ``joint_states``. Of the twin it is known
+whether it has ended; a real axlebox has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from rclpy.node import Node
+
+from beardyn_core.arrays import Float, Int
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import cloud_times
+from beardyn_core.record.messages import decode, decode_diagnostics, header_stamp
+from beardyn_core.record.reading import run_of_messages
+from beardyn_core.record.topics import TEMPERATURE, topic
+from beardyn_ros.diagnostics import TWIN, diagnostic_name
+from beardyn_ros.message_guard import MessageGuard
+from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.twin_watch import TwinWatch
+from beardyn_ros.wire import RawIntake
+
+BEARING = NodeParameter(
+    "bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"
+)
+EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
+_MEASURED = ("vibration", "shaft")  # without these nothing is heard
+_BOX = "axlebox"  # of the temperatures, that of the box is measured
+
+
+class Hearer(NamedTuple):
+    """Who is told what comes in."""
+
+    restart: Callable[[], None]  # the vibration starts again
+    vibration: Callable[[Int, Float], None]  # times [ns], acceleration of shape [sample, 3], [m/s^2]
+    shaft: Callable[[Int, Float], None]  # times [ns], angles [rad], after the vibration of a sweep
+    temperature: Callable[[int, float], None]  # time [ns], of the box, [degrees Celsius]
+
+
+class TrainSignals:
+    """Subscriptions of a node to what a train has.
+
+    Parameters
+    ----------
+    node : Node
+    hearer : Hearer
+    further : mapping
+        Handlers of further topics by name, such as ``load/blocks``.
+    """
+
+    def __init__(
+        self, node: Node, hearer: Hearer, further: Mapping[str, Callable[[bytes], None]] | None = None
+    ) -> None:
+        self._node, self._hearer = node, hearer
+        self._shaft: list[bytes] = []
+        self._last_sample = -1
+        self._nothing_waits = True
+        self._intake = RawIntake(node, polled=True)
+        self.guard = MessageGuard(node)
+        for name, handler in {
+            "vibration": self._on_vibration,
+            "shaft": self._shaft_comes,
+            **(further or {}),
+            "temperature": self._on_temperature,
+            "/diagnostics": self._on_diagnostics,
+        }.items():
+            entry = topic(name)
+            self._intake.add(entry, self.guard.guarded(entry, handler), keep_all=name != "/diagnostics")
+        space = node.get_namespace()
+        self.watch = TwinWatch(
+            diagnostic_name(space, TWIN), lambda: node.count_publishers(topic("vibration").path(space))
+        )
+
+    @property
+    def connected(self) -> bool:
+        """Whether somebody publishes vibration and shaft."""
+        counts, space = self._intake.publisher_counts(), self._node.get_namespace()
+        return all(counts.get(topic(name).path(space), 0) for name in _MEASURED)
+
+    @property
+    def ended(self) -> bool:
+        """Whether the twin has ended and all that it has sent is heard: a busy node is behind."""
+        return self.watch.ended and self._nothing_waits
+
+    @property
+    def vanished(self) -> bool:
+        """Whether the twin is gone without a word, and all that it has sent is heard."""
+        return self.watch.vanished() and self._nothing_waits
+
+    def sweep(self) -> None:
+        """Tell the hearer what has come since the last sweep."""
+        self._nothing_waits = self._intake.sweep() == 0
+        if self._shaft:
+            turning = run_of_messages({"shaft": self._shaft}, None).shaft
+            self._hearer.shaft(turning.time_ns, turning.angle)
+            self._shaft = []
+
+    def _on_vibration(self, cdr: bytes) -> None:
+        points = cloud_points(cdr)
+        if not len(points):
+            return
+        if int(points["sample"][-1]) <= self._last_sample:
+            self._node.get_logger().info(f"the vibration starts again, so does the {self._node.get_name()}")
+            self._shaft = []
+            self._hearer.restart()
+        self._last_sample = int(points["sample"][-1])
+        acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
+        self._hearer.vibration(cloud_times(cdr, points), acceleration)
+
+    def _shaft_comes(self, cdr: bytes) -> None:
+        self._shaft.append(cdr)
+
+    def _on_temperature(self, cdr: bytes) -> None:
+        message = decode(TEMPERATURE, cdr)
+        if message.header.frame_id.rpartition("/")[2] == _BOX:
+            self._hearer.temperature(header_stamp(cdr), float(message.temperature))
+
+    def _on_diagnostics(self, cdr: bytes) -> None:
+        self.watch.take_statuses(decode_diagnostics(cdr)[1])
