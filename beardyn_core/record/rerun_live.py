@@ -12,6 +12,7 @@ from beardyn_core.record.messages import decode_diagnostics, decode_string, head
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
 from beardyn_core.record.rerun_plots import log_curves, log_spectrum, log_styles, order_spectrum
+from beardyn_core.record.rerun_scale import log_scale
 from beardyn_core.record.rerun_view import blueprint
 
 BATCH_SECONDS = 0.25
@@ -72,7 +73,10 @@ class LiveView:
         part = run_of_messages(batch, self._run)
         if len(part.bodies):
             load = roller_loads(part)
-            self._largest = max(self._largest, float(load.max()))
+            largest = float(load.max())
+            if largest > self._largest:
+                self._largest = largest
+                log_scale(self._stream, largest)
             log_motion(self._stream, part)
             log_loads(self._stream, part, self._largest)
         log_curves(self._stream, part)
@@ -88,9 +92,7 @@ class LiveView:
         self._batch.clear()
         for kept in self._window.values():
             kept.clear()
-        self._stream.send_blueprint(
-            blueprint(run.shape.outer_diameter, follow=True, sensors=run.sensor_names)
-        )
+        self._stream.send_blueprint(blueprint(run, follow=True))
         log_parts(self._stream, run)
         log_styles(self._stream, run.sensor_names)
 
