@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A spalled bearing, heard and judged
 #
-# An axlebox bearing with a spall on its cup, the outer ring, under a train that slows down from 200 km/h: simulated, looked
-# at, and given to a monitor that does not know of the spall. `pip install '.[data]'` in a clone of the repository; the
-# first run compiles its kernels, half a minute.
+# An axlebox bearing with a spall on its cup, the outer ring, under a train that slows down from 200 km/h:
+# simulated, looked at, and given to a monitor that does not know of the spall. `pip install '.[data]'` in a
+# clone of the repository; the first run compiles its kernels, half a minute.
 
 # %%
 import matplotlib.pyplot as plt
@@ -12,14 +12,15 @@ from scipy.signal import butter, hilbert, sosfiltfilt
 
 import beardyn_core as bd
 
-run = bd.simulate("cup_spall", tier="quasistatic", duration=4.0)
+run = bd.simulate("cup_spall", tier="quasistatic", effects="standard", duration=4.0)
 print(run)
 
 # %% [markdown]
 # ## What each roller carries
 #
-# `run.contacts.load` has the load of every roller on every surface, `run.rollers.angle` where it is. The first row has
-# the spall; one roller through six turns of the shaft shows the load zone, and the notch where the spall lets it go.
+# `run.contacts.load` has the load of every roller on every surface, `run.rollers.angle` where it is. The
+# first row has the spall; one roller through six turns of the shaft shows the load zone, and the notch where
+# the spall lets it go.
 
 # %%
 load = run.contacts.load[:, 0, 3, run.contacts.of("cup")] / 1e3
@@ -33,7 +34,8 @@ plt.show()
 # %% [markdown]
 # ## What the box shakes with
 #
-# An accelerometer on top of the axlebox hears the strikes among the shaking that the wheel brings from the track.
+# An accelerometer on top of the axlebox hears the strikes among the shaking that the wheel brings from the
+# track.
 
 # %%
 vertical, rate = run.vibration.values[:, 2], run.vibration.rate
@@ -47,8 +49,8 @@ plt.show()
 # %% [markdown]
 # ## Its envelope spectrum
 #
-# A band in which the box rings, its envelope, and the spectrum of that over orders of the shaft: the lines stand where the
-# geometry of the bearing puts a fault of the cup (BPFO).
+# A band in which the box rings, its envelope, and the spectrum of that over orders of the shaft: the lines
+# stand where the geometry of the bearing puts a fault of the cup (BPFO).
 
 # %%
 band = butter(4, (2000, 8000), "bandpass", fs=rate, output="sos")
@@ -70,7 +72,8 @@ plt.show()
 # %% [markdown]
 # ## What the monitor says
 #
-# It gets vibration, shaft angle and load, and the name plate of the bearing. `run.truth` has what it cannot know.
+# It gets vibration, shaft angle and load, and the name plate of the bearing. `run.truth` has what it cannot
+# know.
 
 # %%
 conclusion = bd.monitor(run)

@@ -1,10 +1,13 @@
 # %% [markdown]
 # # Vibration that was measured
 #
-# A file of vibration, the speed of the shaft and the geometry of the bearing are enough for the monitor. This one is
-# written here by the twin, so that the notebook runs anywhere: put your own in its place. `pip install '.[data]'`.
+# A file of vibration, the speed of the shaft and the geometry of the bearing are enough for the monitor. This
+# one is written here by the twin, so that the notebook runs anywhere: put your own in its place. `pip install
+# '.[data]'`.
 
 # %%
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -14,13 +17,13 @@ twin = bd.simulate("cone_spall", tier="quasistatic", effects="standard", duratio
 table = np.column_stack((twin.vibration.time, twin.vibration.values))
 np.savetxt("vibration.csv", table, delimiter=",", header="time,ax,ay,az", comments="", fmt="%.7g")
 speed = twin.truth["speed"]["rpm"]["mean"]
-print(open("vibration.csv").read(120), f"...\nshaft: {speed:.0f} rpm")
+print(Path("vibration.csv").read_text(encoding="utf-8")[:120], f"...\nshaft: {speed:.0f} rpm")
 
 # %% [markdown]
 # ## In
 #
-# What is not in the file is said: unit, speed, bearing. Anything that is missing, or that could be meant in two ways, is an
-# error with a sentence.
+# What is not in the file is said: unit, speed, bearing. Anything that is missing, or that could be meant in
+# two ways, is an error with a sentence.
 
 # %%
 run = bd.read_measured("vibration.csv", unit="m/s2", speed_rpm=speed, bearing="HS130x230")
@@ -33,8 +36,8 @@ except bd.InputError as error:
 # %% [markdown]
 # ## Judged
 #
-# A speed that is typed in is a mean: this train slows down, so its lines smear. With the angle of the shaft, from a
-# tachometer or a second column, they are sharp; the twin has it.
+# A speed that is typed in is a mean: this train slows down, so its lines smear. With the angle of the shaft,
+# from a tachometer or a second column, they are sharp; the twin has it.
 
 # %%
 for what, each in (("mean speed", run), ("shaft angle", twin)):
@@ -45,7 +48,8 @@ for what, each in (("mean speed", run), ("shaft angle", twin)):
 # %% [markdown]
 # ## How wide
 #
-# What a monitor has found is measured as well, by the time between a roller's entry into the spall and its exit.
+# What a monitor has found is measured as well, by the time between a roller's entry into the spall and its
+# exit.
 
 # %%
 measured = bd.severity(twin)
