@@ -27,6 +27,7 @@ LONG_FILES = (
     "test/analytic/test_symmetries_of_effects.py",
     "test/ros/test_recorder.py",
     "test/kernels/test_defect.py",
+    "test/kernels/test_patch_power.py",
     "test/ros/test_twin_node.py",
     "test/kernels/test_joint_lamina.py",
     "test/ros/test_wall_time.py",

@@ -1,8 +1,9 @@
-"""Write docs/examples/sweep.ipynb from docs/examples/sweep.py: ``python docs/write_notebook.py``.
+"""Write the notebooks of docs/examples from the scripts beside them: ``python docs/write_notebook.py``.
 
-The outputs of cells whose text is as it was stay. ``--run`` executes the notebook, in a new folder, and keeps
-what it answers (needs the extras ``docs`` and ``sweep``); ``--check`` writes nothing and ends with 1 when the
-notebook is not what the script says.
+Names may follow (``first_run``), else it is all of `NAMES`. The outputs of cells whose text is as it was
+stay. ``--run`` executes the notebooks, each in a new folder, and keeps what they answer (needs the extras
+``docs``, ``data`` and ``sweep``); ``--check`` writes nothing and ends with 1 when a notebook is not what its
+script says.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from typing import Any
 
 from PIL import Image
 
-SCRIPT = Path(__file__).parent / "examples" / "sweep.py"
+EXAMPLES = Path(__file__).parent / "examples"
+NAMES = ("first_run", "own_data", "sweep")
 COLOURS = 16
-NOTEBOOK = SCRIPT.with_suffix(".ipynb")
 _MARK = re.compile(r"^# %%( \[markdown\])?\n", re.MULTILINE)
 
 
@@ -48,11 +49,11 @@ def notebook(text: str, kept: dict[str, Any]) -> str:
     return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
 
 
-def outputs() -> dict[str, Any]:
-    """Find what the cells of the notebook have answered, by their text."""
-    if not NOTEBOOK.exists():
+def outputs(path: Path) -> dict[str, Any]:
+    """Find what the cells of a notebook have answered, by their text."""
+    if not path.exists():
         return {}
-    made = json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]
+    made = json.loads(path.read_text(encoding="utf-8"))["cells"]
     return {"".join(cell["source"]): cell["outputs"] for cell in made if cell["cell_type"] == "code"}
 
 
@@ -88,12 +89,17 @@ def small(output: Any) -> Any:
 
 def main(arguments: list[str]) -> int:
     """Write, run, or check."""
-    script = SCRIPT.read_text(encoding="utf-8")
-    text = notebook(script, executed(script) if arguments == ["--run"] else outputs())
-    if arguments == ["--check"]:
-        return int(not NOTEBOOK.exists() or NOTEBOOK.read_text(encoding="utf-8") != text)
-    NOTEBOOK.write_text(text, encoding="utf-8")
-    return 0
+    options = {each for each in arguments if each.startswith("--")}
+    code = 0
+    for name in [each for each in arguments if each not in options] or NAMES:
+        path = EXAMPLES / f"{name}.ipynb"
+        script = path.with_suffix(".py").read_text(encoding="utf-8")
+        text = notebook(script, executed(script) if "--run" in options else outputs(path))
+        if "--check" in options:
+            code |= int(not path.exists() or path.read_text(encoding="utf-8") != text)
+        else:
+            path.write_text(text, encoding="utf-8")
+    return code
 
 
 if __name__ == "__main__":

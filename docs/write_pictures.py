@@ -1,48 +1,47 @@
-"""Make the pictures of README and first run from a demo run: ``python docs/write_pictures.py DEMO_FOLDER``.
+"""Make the picture of the README: ``python docs/write_pictures.py``; needs a display or Xvfb.
 
-DEMO_FOLDER is what ``make demo`` or ``beardyn demo`` wrote; its rerun picture needs a display or Xvfb. Of it
-the bearing is taken: messages of the viewer pop up over the plots beside it.
+It is the view of `SCENE` as ``beardyn view`` opens it, whole, at the beginning. With the folder that
+``make demo`` or ``beardyn demo`` wrote, the summary of the demo for desk.md as well.
 """
 
 from __future__ import annotations
 
 import sys
+import tempfile
 from pathlib import Path
 
 from PIL import Image
 
+import beardyn_core as bd
+from beardyn_core.record.rerun_view import save
+from beardyn_core.record.viewer import take_picture
+
 FOLDER = Path(__file__).with_name("pictures")
-WHOLE = (0.0, 0.0, 1.0, 1.0)
-BEARING = (0.0, 0.065, 0.535, 0.935)  # left, top, right, bottom, of the picture
-PICTURES = {
-    "view.png": ("demo_view.png", BEARING, 800),
-    "summary.png": ("demo_summary.png", WHOLE, 1200),
-}
-COLOURS = 128
+SCENE, TIER, EFFECTS, SECONDS = "cup_spall", "quasistatic", "standard", 2.0
+SUMMARY = "summary.png"
+WIDTH = 1200
+COLOURS = 256
 
 
-def shrink(source: Path, target: Path, part: tuple[float, float, float, float], width: int) -> None:
-    """Scale a part of a picture to a width and a small palette."""
+def shrink(source: Path, target: Path) -> None:
+    """Scale a picture to `WIDTH` and a palette."""
     picture = Image.open(source).convert("RGB")
-    left, top, right, bottom = part
-    wide, high = picture.size
-    picture = picture.crop((round(left * wide), round(top * high), round(right * wide), round(bottom * high)))
-    height = round(picture.height * width / picture.width)
-    small = picture.resize((width, height), Image.Resampling.LANCZOS)
-    small.quantize(COLOURS).save(target, optimize=True)
+    small = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.Resampling.LANCZOS)
+    small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
 
 
-def main() -> None:
-    """Shrink both pictures into docs/pictures."""
-    if len(sys.argv) != 2:
-        sys.exit(str(__doc__))
-    demo = Path(sys.argv[1])
+def main(arguments: list[str]) -> None:
+    """Draw the view, and shrink the summary of a demo that is given."""
     FOLDER.mkdir(exist_ok=True)
-    for name, (target, part, width) in PICTURES.items():
-        if not (demo / name).exists():
-            sys.exit(f"{demo / name} is missing: run the demo with a display or Xvfb first")
-        shrink(demo / name, FOLDER / target, part, width)
+    with tempfile.TemporaryDirectory() as place:
+        run = bd.simulate(
+            SCENE, tier=TIER, effects=EFFECTS, duration=SECONDS, record=Path(place) / "cup_spall.mcap"
+        )
+        view = save(run, Path(place) / "cup_spall.rrd")
+        shrink(take_picture(view, Path(place) / "view.png"), FOLDER / "demo_view.png")
+    for folder in arguments:
+        shrink(Path(folder) / SUMMARY, FOLDER / "demo_summary.png")
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

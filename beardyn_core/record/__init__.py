@@ -36,6 +36,7 @@ reporting          what a recording holds, in words and as JSON
 envelope           envelope order spectrum of a whole recording
 meshes             triangle meshes of the bearing's parts from its recorded shape
 rerun_bearing      the bearing in 3-D: motion, loads, contact forces
+rerun_scale        scale of the colours, key of the arrows, round axes
 rerun_plots        curves beside it, and the envelope spectrum
 rerun_follower     what a follower says over time, heard beside twin
 rerun_view         a whole recording with its blueprint; where it goes: a window, a page, a file

@@ -15,6 +15,7 @@ from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, roller_loads
 from beardyn_core.record.rerun_follower import log_estimates, log_residual, quantities_of
 from beardyn_core.record.rerun_plots import log_curves, log_spectrum, log_styles, order_spectrum
+from beardyn_core.record.rerun_scale import log_scale
 from beardyn_core.record.rerun_view import blueprint
 
 BATCH_SECONDS = 0.25
@@ -81,7 +82,10 @@ class LiveView:
         part = run_of_messages(batch, self._run)
         if len(part.bodies):
             load = roller_loads(part)
-            self._largest = max(self._largest, float(load.max()))
+            largest = float(load.max())
+            if largest > self._largest:
+                self._largest = largest
+                log_scale(self._stream, largest)
             log_motion(self._stream, part)
             log_loads(self._stream, part, self._largest)
         log_curves(self._stream, part)
@@ -102,14 +106,7 @@ class LiveView:
         log_styles(self._stream, run.sensor_names)
 
     def _lay_out(self) -> None:
-        self._stream.send_blueprint(
-            blueprint(
-                None if self._run is None else self._run.shape.outer_diameter,
-                follow=True,
-                sensors=() if self._run is None else self._run.sensor_names,
-                estimates=self._estimates,
-            )
-        )
+        self._stream.send_blueprint(blueprint(self._run, follow=True, estimates=self._estimates))
 
     def _follow(self, name: str, told: Mapping[str, Any]) -> None:
         """Draw what a follower says; the page for it is laid out when the first numbers come."""

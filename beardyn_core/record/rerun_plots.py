@@ -7,15 +7,17 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
+from beardyn_core.arrays import Float
 from beardyn_core.observe.features import OrderSpectrum
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.rerun_bearing import roller_loads, send
+from beardyn_core.record.rerun_scale import nice_ticks, round_range
 from beardyn_core.record.run import Run
 
 Colour = tuple[int, int, int]
 
 ENTITY = "plots/envelope"
-WIDTH, HEIGHT = 1000.0, 175.0
+WIDTH, HEIGHT = 1000.0, 240.0
 SPECTRUM_COLOUR: Colour = (80, 145, 255)
 FRAME_COLOUR: Colour = (128, 134, 148)
 GRID_COLOUR = (128, 134, 148, 70)
@@ -53,14 +55,6 @@ def bounds() -> rrb.VisualBounds2D:
     return rrb.VisualBounds2D(x_range=[-50.0, WIDTH + 20.0], y_range=[-3.2 * ROW_HEIGHT, HEIGHT + 30.0])
 
 
-def nice_ticks(top: float, wanted: int) -> NDArray[np.float64]:
-    """Round numbers from 0 to at most ``top``, about ``wanted`` of them."""
-    raw = top / wanted
-    power = 10.0 ** np.floor(np.log10(raw))
-    step = min((factor * power for factor in (1.0, 2.0, 5.0, 10.0)), key=lambda size: abs(size - raw))
-    return np.arange(0.0, top * (1.0 + 1e-9), step)
-
-
 def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
     box = np.array([(0.0, 0.0), (0.0, HEIGHT), (WIDTH, HEIGHT)])
     orders, levels = nice_ticks(last, 8), nice_ticks(top, 4)
@@ -71,7 +65,7 @@ def _frame(stream: rr.RecordingStream, last: float, top: float) -> None:
     shown = rr.LineStrips2D([*grid, box], colors=colours, radii=width, draw_order=1.0)
     stream.log(f"{ENTITY}/grid", shown, static=True)
     below = np.stack((orders / last * WIDTH, np.full(len(orders), HEIGHT + 4.0)), axis=1)
-    beside = np.stack((np.full(len(levels), -30.0), HEIGHT * (1.0 - levels / top) - 8.0), axis=1)
+    beside = np.stack((np.full(len(levels), -30.0), HEIGHT * (1.0 - levels / top) - 13.0), axis=1)
     _labels(stream, "order", below, [f"{order:g}" for order in orders], FRAME_COLOUR)
     _labels(stream, "level", beside, [f"{level:.3g}" for level in levels], FRAME_COLOUR)
 
@@ -148,16 +142,35 @@ def log_styles(stream: rr.RecordingStream, sensors: tuple[str, ...] = ()) -> Non
         stream.log(entity, lines, static=True)
 
 
-def log_curves(stream: rr.RecordingStream, run: Run) -> None:
-    """Log the samples of every curve."""
-    _send(stream, FORCE, run.force.time_ns, run.force.values[:, :3] * 1e-3)
+Curves = dict[str, tuple[NDArray[np.int64], Float]]
+
+
+def curves_of(run: Run) -> Curves:
+    """Gather the samples of every curve that the recording has data for: by entity, times [ns] and values."""
+    found: Curves = {FORCE: (run.force.time_ns, run.force.values[:, :3] * 1e-3)}
     for topic, vibration in run.sensor_topics.items():
-        _send(stream, vibration_entity(topic), vibration.time_ns, vibration.values)
-    _send_speeds(stream, run)
+        found[vibration_entity(topic)] = vibration.time_ns, vibration.values
+    if len(run.shaft):
+        found[SHAFT_SPEED] = run.shaft.time_ns, run.shaft.speed[:, None] * 30.0 / np.pi
+    if len(run.cages) and len(run.shaft):
+        found[SPEED_RATIO] = run.cages.time_ns, _speed_ratios(run)
     if len(run.contacts) and len(run.bodies):
         load = roller_loads(run) * 1e-3
         values = np.concatenate((load[:, :, 0], load.max(axis=2)), axis=1)
-        _send(stream, ROLLER_LOAD, run.bodies.time_ns, values)
+        found[ROLLER_LOAD] = run.bodies.time_ns, values
+    return {entity: (time_ns, values) for entity, (time_ns, values) in found.items() if len(time_ns)}
+
+
+def log_curves(stream: rr.RecordingStream, run: Run) -> None:
+    """Log the samples of every curve."""
+    for entity, (time_ns, values) in curves_of(run).items():
+        send(stream, entity, time_ns, rr.Scalars.columns(scalars=values))
+
+
+def ranges_of(run: Run) -> dict[str, tuple[float, float]]:
+    """Choose a round range of every curve, by entity."""
+    ranges = {entity: round_range(values) for entity, (_, values) in curves_of(run).items()}
+    return {entity: each for entity, each in ranges.items() if each is not None}
 
 
 def order_spectrum(run: Run) -> OrderSpectrum | None:
@@ -166,20 +179,10 @@ def order_spectrum(run: Run) -> OrderSpectrum | None:
     return envelope_order_spectrum(run.vibration, run.shaft, highest)
 
 
-def _send_speeds(stream: rr.RecordingStream, run: Run) -> None:
-    if len(run.shaft):
-        _send(stream, SHAFT_SPEED, run.shaft.time_ns, run.shaft.speed[:, None] * 30.0 / np.pi)
-    if not len(run.cages) or not len(run.shaft):
-        return
+def _speed_ratios(run: Run) -> Float:
+    """Compute the speeds of cages and of the mean roller of each row over those of pure rolling."""
     shaft = np.interp(run.cages.time_ns, run.shaft.time_ns, run.shaft.speed)
     nominal = run.described().shape.fault_frequencies["FTF"] * shaft
     nominal = np.where(np.abs(nominal) > 1e-6, nominal, np.nan)
-    speeds = np.concatenate((run.cages.speed, run.rollers.speed.mean(axis=2)), axis=1)
-    _send(stream, SPEED_RATIO, run.cages.time_ns, speeds / nominal[:, None])
-
-
-def _send(
-    stream: rr.RecordingStream, entity: str, time_ns: NDArray[np.int64], values: NDArray[np.float64]
-) -> None:
-    if len(time_ns):
-        send(stream, entity, time_ns, rr.Scalars.columns(scalars=values))
+    ratios: Float = np.concatenate((run.cages.speed, run.rollers.speed.mean(axis=2)), axis=1)
+    return ratios / nominal[:, None]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,10 +15,12 @@ import rerun.blueprint as rrb
 
 from beardyn_core.errors import InputError
 from beardyn_core.outputs import as_a_whole
+from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts
+from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts, roller_loads
 from beardyn_core.record.rerun_follower import follower_view, log_follower, quantities_of
-from beardyn_core.record.rerun_plots import bounds, log_plots
+from beardyn_core.record.rerun_plots import bounds, log_plots, ranges_of
+from beardyn_core.record.rerun_scale import log_scale, scale_view
 from beardyn_core.record.run import Run
 from beardyn_core.record.viewer import require_display, waiting_window, web_viewer
 
@@ -108,7 +110,7 @@ def _check_writable(path: Path, name: Path) -> None:
 
 
 BACKGROUND = (16, 19, 26)
-CLOSE_WINDOW = 0.2
+CLOSE_WINDOW = (-0.02, 0.18)  # about the time that is shown, [s]
 PLAYBACK_SPEED = 0.05
 
 
@@ -124,28 +126,37 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
     if len(run.bodies):
         log_motion(stream, run)
         log_loads(stream, run)
+        log_scale(stream, float(roller_loads(run).max(initial=0.0)))
     log_plots(stream, run)
     log_follower(stream, run.followed, run.residuals)
     stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
 
 
+def title(run: RunDescription) -> str:
+    """Say in a line what is shown."""
+    faults = ", ".join(each.described() for each in run.defects) or "no fault"
+    return f"{run.scene}: bearing {run.shape.name}, {faults}"
+
+
 def blueprint(
-    outer_diameter: float | None,
+    run: RunDescription | None,
     span: tuple[float, float] | None = None,
     follow: bool = False,
-    sensors: tuple[str, ...] = (),
+    ranges: Mapping[str, tuple[float, float]] | None = None,
     estimates: tuple[str, ...] = (),
 ) -> rrb.Blueprint:
     """Lay out the view: a page of the bearing and its curves, and one of what a follower says.
 
-    The outer diameter [m] sets the distance of the eye, `None`: the bearing is not known; the curves show a
-    window of time [s], by default all there is, and the newest data of a running twin with ``follow``.
-    ``sensors`` names all accelerometers, ``estimates`` the keys of what a follower says.
+    ``run`` is `None` where the bearing is not known. The curves show a window of time [s], by default all
+    there is, and the newest data of a running twin with ``follow``; else the time stands at the beginning.
+    ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
-    pages = [] if outer_diameter is None else [_bearing_view(outer_diameter, whole, sensors)]
+    pages = [] if run is None else [_bearing_view(run, whole, ranges or {})]
     pages += [follower_view(estimates)] if estimates else []
-    play: dict[str, Any] = {"play_state": "following"} if follow else {"playback_speed": PLAYBACK_SPEED}
+    play: dict[str, Any] = {"play_state": "following"}
+    if not follow:
+        play = {"play_state": "paused", "playback_speed": PLAYBACK_SPEED}
     return rrb.Blueprint(
         rrb.Tabs(*pages) if len(pages) > 1 else pages[0],
         rrb.BlueprintPanel(state="collapsed"),
@@ -156,25 +167,32 @@ def blueprint(
 
 
 def _bearing_view(
-    outer_diameter: float, whole: rrb.archetypes.TimeAxis | None, sensors: tuple[str, ...]
+    run: RunDescription,
+    whole: rrb.archetypes.TimeAxis | None,
+    ranges: Mapping[str, tuple[float, float]],
 ) -> rrb.Container:
-    """Lay out the bearing on the left, curves on the right."""
+    """Lay out the bearing with the scale of its colours on the left, curves on the right."""
+    outer_diameter, sensors = run.shape.outer_diameter, run.sensor_names
     eye = rrb.EyeControls3D(
         kind=rrb.Eye3DKind.Orbital,
         position=np.array([1.12, 1.10, 0.62]) * outer_diameter,
         look_target=np.array([0.0, 0.0, 0.08]) * outer_diameter,
         eye_up=(0.0, 0.0, 1.0),
     )
-    close = _window(rr.TimeRangeBoundary.cursor_relative, -CLOSE_WINDOW / 2, CLOSE_WINDOW / 2)
+    close = _window(rr.TimeRangeBoundary.cursor_relative, *CLOSE_WINDOW)
 
     def curves(entity: str, name: str, axis: rrb.archetypes.TimeAxis | None = whole) -> rrb.TimeSeriesView:
         legend = rrb.PlotLegend(rrb.Corner2D.RightTop)
-        return rrb.TimeSeriesView(origin=f"plots/{entity}", name=name, axis_x=axis, plot_legend=legend)
+        level = ranges.get(f"plots/{entity}")
+        axis_y = None if level is None else rrb.ScalarAxis(range=level)
+        return rrb.TimeSeriesView(
+            origin=f"plots/{entity}", name=name, axis_x=axis, axis_y=axis_y, plot_legend=legend
+        )
 
     bearing = rrb.Spatial3DView(
         origin="/",
         contents=[f"{ROOT}/**"],
-        name="bearing",
+        name=title(run),
         background=BACKGROUND,
         line_grid=False,
         eye_controls=eye,
@@ -188,16 +206,17 @@ def _bearing_view(
             name="envelope spectrum, m/s² over orders of the shaft",
             visual_bounds=bounds(),
         ),
-        curves("force", "force on the cup, kN"),
         rrb.Tabs(
             curves("roller_load", "roller load, kN"),
+            curves("force", "force on the cup, kN"),
             curves("speed_ratio", "speed ratio to pure rolling"),
             curves("shaft_speed", "shaft speed, rpm"),
             rrb.TextDocumentView(origin="about", name="about"),
         ),
-        row_shares=[1.0, 1.1, 1.0, 1.0],
+        row_shares=[1.0, 1.0, 1.0],
     )
-    return rrb.Horizontal(bearing, right, column_shares=[1.15, 1.0], name="bearing")
+    left = rrb.Vertical(bearing, scale_view(), row_shares=[1.0, 0.13])
+    return rrb.Horizontal(left, right, column_shares=[1.15, 1.0], name="bearing")
 
 
 def _window(boundary: Callable[..., Any], start: float, end: float) -> rrb.archetypes.TimeAxis:
@@ -209,13 +228,7 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     """Make the blueprint of a recording, with its time window."""
     times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
-    described = run.described()
-    return blueprint(
-        described.shape.outer_diameter,
-        span,
-        sensors=described.sensor_names,
-        estimates=quantities_of(run.followed),
-    )
+    return blueprint(run.described(), span, ranges=ranges_of(run), estimates=quantities_of(run.followed))
 
 
 def save(run: Run, target: Path | str, *, replace: bool = True) -> Path:

@@ -47,11 +47,11 @@ class Region:
         ]
 
 
-BEARING = Region(0.02, 0.52, 0.08, 0.95)
-VIBRATION = Region(0.55, 0.96, 0.08, 0.26)
-SPECTRUM = Region(0.54, 0.99, 0.30, 0.51)
-FORCE = Region(0.55, 0.96, 0.55, 0.73)
-ROLLER_LOAD = Region(0.55, 0.92, 0.79, 0.95)
+BEARING = Region(0.02, 0.52, 0.08, 0.84)
+SCALE = Region(0.01, 0.28, 0.88, 0.95)
+VIBRATION = Region(0.55, 0.96, 0.08, 0.33)
+SPECTRUM = Region(0.54, 0.99, 0.38, 0.64)
+ROLLER_LOAD = Region(0.55, 0.92, 0.70, 0.95)
 
 
 def share_like(pixels: np.ndarray, colour: tuple[int, int, int], tolerance: float = 0.16) -> float:
@@ -80,7 +80,9 @@ def drawn(pixels: np.ndarray) -> dict[str, bool]:
         "vibration": share_like(VIBRATION.of(pixels), (96, 156, 255)) > 0.01,
         "spectrum": share_like(SPECTRUM.of(pixels), (80, 145, 255)) > 0.001,
         "fault markers": share_like(SPECTRUM.of(pixels), (220, 70, 90), 0.25) > 0.0005,
-        "force": share_like(FORCE.of(pixels), (96, 156, 255)) > 0.001,
+        "scale of the colours": all(
+            share_like(SCALE.of(pixels), colour) > 0.005 for colour in ((225, 40, 35), (245, 215, 60))
+        ),
         "roller load": colourful(ROLLER_LOAD.of(pixels)) > 0.005,
     }
 

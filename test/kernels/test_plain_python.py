@@ -18,6 +18,7 @@ CLAIMS = (
     "test_solve.py",
     "test_film_and_traction.py",
     "test_defect.py",
+    "test_patch_power.py",
     "test_losses.py",
     "test_losses_step.py",
     "test_stage_timer.py",

@@ -21,7 +21,8 @@ from beardyn_core.record.messages import encode_string
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.rerun_bearing import load_colours, log_parts, roller_loads
 from beardyn_core.record.rerun_live import LiveView
-from beardyn_core.record.rerun_plots import nice_ticks, order_spectrum
+from beardyn_core.record.rerun_plots import order_spectrum
+from beardyn_core.record.rerun_scale import nice_ticks, round_range
 from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.viewer import picture_problem, take_picture, viewer_executable
 from beardyn_core.scene.defect import MissingRoller, Spall
@@ -128,6 +129,27 @@ def test_colour_grows_from_grey_to_red() -> None:
     assert load_colours(np.zeros(3), 0.0).shape == (3, 3)
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "labels"),
+    [(-52.0, 93.0, 2), (0.0, 10.7, 2), (1141.0, 1153.0, 2), (-2.0, 66.0, 7), (0.99, 1.003, 2), (3.0, 3.0, 2)],
+)
+def test_an_axis_holds_its_curve_and_two_labels_or_more(low: float, high: float, labels: int) -> None:
+    """The viewer labels powers of ten that are 20 pixels apart: a ninth of a row; the upper edge is cut."""
+    found = round_range(np.array([low, np.nan, high]))
+    assert found is not None
+    first, last = found
+    assert first <= low <= high <= last
+    assert high - low > 0.3 * (last - first) or low == high
+    step = 10.0 ** np.ceil(np.log10((last - first) / 11.5))
+    seen = [n for n in range(-2000, 2000) if first - 1e-9 <= n * step < last - 0.02 * step]
+    assert len(seen) >= labels
+    assert len(seen) <= 12
+
+
+def test_an_axis_of_no_number_has_no_range() -> None:
+    assert round_range(np.array([np.nan, np.inf])) is None
+
+
 def test_ticks_are_round_and_inside() -> None:
     assert nice_ticks(9.3, 4).tolist() == [0.0, 2.0, 4.0, 6.0, 8.0]
     assert nice_ticks(0.05, 5)[-1] <= 0.05
@@ -170,6 +192,8 @@ def test_view_saves_a_file_with_every_part(recording: Path, tmp_path: Path) -> N
         "/plots/roller_load",
         "/plots/envelope/spectrum",
         "/plots/envelope/BPFO",
+        "/scale/bar",
+        "/scale/text/ticks",
     ):
         assert entity in listing, entity
     assert target.stat().st_size < 10e6 * 1.2  # 30 MB for 3 s is the limit; this run has 1.2 s
@@ -228,6 +252,7 @@ def test_a_live_view_draws_the_same_entities(tmp_path: Path, monkeypatch: pytest
         "/bearing/rollers/roller_0_3",
         "/plots/vibration",
         "/plots/envelope/spectrum",
+        "/scale/bar",
     ):
         assert entity in listing, entity
 
