@@ -1,0 +1,263 @@
+"""The fit of one axlebox: scatter of the twin, search, what is determined, search with the rest left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Annotated as A
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from beardyn_core.arrays import Float
+from beardyn_core.calibration.identify import Identified, identified, slopes
+from beardyn_core.calibration.search import Tried, misfit, search, weights
+from beardyn_core.calibration.spectra import tolerance_of
+from beardyn_core.calibration.twin import Beside
+from beardyn_core.calibration.unknowns import NOISE, Unknown
+
+SEEDS = 4  # twins on other tracks with other bearings of the lot
+FEWEST_RUNS = 3 * SEEDS + 16  # twins of the smallest budget
+_FIRST = 0.65  # of the search, before what is not determined is left
+_CLOSER = 0.06  # spread of the second search, of the unit box
+_FARTHEST = 0.2  # that one step of least squares goes, of the unit box
+AS_WIDE = 0.8  # of the range: an interval says nothing more than it
+TOGETHER = 0.95  # correlation from which two numbers are not told apart
+_UNDONE = "the search was interrupted before that was known"
+
+Tell = Callable[[str, int], None]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What is known of an unknown."""
+
+    unknown: Unknown
+    base: A[float, "of the scene, at the edge"]
+    value: A[float, "fitted; the base value where it is not determined"]
+    interval: A[tuple[float, float], "of 90 %"]
+    share: A[float, "width of the interval over the range thought of; 1 says nothing"]
+    partner: A[str, "unknown that it is most correlated with; empty with one alone"]
+    correlation: A[float, "with that one"]
+    reason: A[str, "why it is left at its base value; empty when it is fitted"] = ""
+
+    @property
+    def sentence(self) -> str:
+        """Say it in a line."""
+        show, (low, high) = self.unknown.text, self.interval
+        if self.reason:
+            return f"{self.unknown.words}: left at {show(self.base)}, {self.reason}"
+        return (
+            f"{self.unknown.words}: {show(self.value)}, {show(low)} to {show(high)} in 90 of 100; "
+            f"{show(self.base)} in the scene"
+        )
+
+
+class Fitted(NamedTuple):
+    """A fit."""
+
+    fits: tuple[Fit, ...]
+    before: Float  # heard less twin at the base values, shape [ride, axis, band], [dB]
+    after: Float  # the same at the fitted ones
+    tolerance: Float  # of each band, of the same shape, [dB]
+    runs: int  # of twins
+    interrupted: bool
+
+
+def rms(difference: Float) -> float:
+    """Root mean square of all bands, [dB]."""
+    return float(np.sqrt(np.mean(difference**2)))
+
+
+@dataclass
+class Fitter:
+    """Fits unknowns of a scene to what was heard."""
+
+    beside: Beside
+    unknowns: tuple[Unknown, ...]
+    bases: A[tuple[float, ...], "of the unknowns, at the edge"]
+    budget: A[int, "twins"]
+    tell: A[Tell, "told what is done and how many twins have run"] = lambda _what, _runs: None
+    _tried: list[Tried] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._heard = np.stack([ride.middle for ride in self.beside.rides])
+        names = [each.name for each in self.unknowns]
+        self._noise = names.index(NOISE.name) if NOISE.name in names else None
+        self._base_noise = self.beside.scene.sensors[self.beside.sensor].noise_density
+        ends = [
+            [unknown.scaled(end) for end in unknown.ends(base)]
+            for unknown, base in zip(self.unknowns, self.bases, strict=True)
+        ]
+        self._low, self._high = np.array(ends).T
+        scaled = np.array([each.scaled(base) for each, base in zip(self.unknowns, self.bases, strict=True)])
+        self._begin = (scaled - self._low) / (self._high - self._low)
+        self._free = list(range(len(self.unknowns)))
+
+    def fit(self) -> Fitted:
+        """Fit; Ctrl-C ends it with the best so far once the search has begun."""
+        base = self._seeds(self._begin)
+        self._tolerance = tolerance_of(self.beside.rides, base, self.beside.hearing)
+        self._scatter = (base - base.mean(axis=0)).reshape(SEEDS, -1)
+        before = self._heard - base.mean(axis=0)
+        reasons = dict.fromkeys(self._free, _UNDONE)
+        interrupted, best, known = True, self._begin, None
+        try:
+            left = self.budget - 3 * SEEDS
+            first = round(_FIRST * left)
+            best = self._searched(self._begin, first)
+            known = self._identified(best)
+            reasons = self._undetermined(known)
+            for k in reasons:
+                best[k] = self._begin[k]
+            self._free = [k for k in self._free if k not in reasons]
+            if self._free:
+                best = self._searched(self._stepped(best, self._difference(best)), left - first, _CLOSER)
+            best, after = self._settled(best)
+            interrupted = False
+        except KeyboardInterrupt:
+            if not self._tried:
+                raise
+            best = min(self._tried, key=lambda each: each.misfit).point
+            if known is None:
+                known, reasons = self._identified(best), {}
+            after = self._difference(best)
+        last = self._identified(best, after)
+        fits = tuple(self._told(k, best, known, last, reasons.get(k, "")) for k in range(len(self.unknowns)))
+        return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted)
+
+    def values(self, point: Float) -> dict[str, float]:
+        """Take a point of the unit box to values at the edge."""
+        scaled = self._low + point * (self._high - self._low)
+        return {
+            each.name: each.restored(float(value)) for each, value in zip(self.unknowns, scaled, strict=True)
+        }
+
+    def _levels(self, power: Float, point: Float) -> Float:
+        noise = self._base_noise if self._noise is None else self.values(point)[NOISE.name]
+        return self.beside.levels(power, noise)
+
+    def _seeds(self, point: Float) -> Float:
+        """Run twins with other seeds, levels of shape [seed, ride, axis, band], [dB]."""
+        found = []
+        for seed in range(SEEDS):
+            found.append(self.beside.power(self.values(point), seed))
+            self.tell("twins with other tracks and bearings", self.beside.runs)
+        return self._levels(np.stack(found), point)
+
+    def _searched(self, begin: Float, budget: int, spread: float | None = None) -> Float:
+        """Search from a point; gives the best one."""
+        free = [k for k in self._free if k != self._noise]
+        options = {} if spread is None else {"spread": spread}
+        found = []
+        for each in search(self._look, begin, free, budget, **options):
+            found.append(each)
+            self._tried.append(each)
+            least = min(one.misfit for one in found)
+            self.tell(f"search, misfit {least:.2f} of the tolerance", self.beside.runs)
+        return min(found, key=lambda each: each.misfit).point.copy()
+
+    def _look(self, point: Float) -> Tried:
+        power = self.beside.power(self.values(point), 0)
+        if self._noise is not None and self._noise in self._free:  # no twin is needed for it
+            point = point.copy()
+            point[self._noise] = self._noisy(power, point)
+        return Tried(point, power, misfit(self._heard - self._levels(power, point), self._tolerance))
+
+    def _noisy(self, power: Float, point: Float) -> float:
+        """Find the noise that fits best, on the unit box."""
+
+        def misfit_at(noise: float) -> float:
+            at = point.copy()
+            at[self._noise] = noise
+            return misfit(self._heard - self._levels(power, at), self._tolerance)
+
+        grid = np.linspace(0.0, 1.0, 21)
+        best = int(np.argmin([misfit_at(each) for each in grid]))
+        ends = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
+        return float(minimize_scalar(misfit_at, bounds=ends, method="bounded").x)
+
+    def _difference(self, point: Float) -> Float:
+        """Heard less twin with the seed of the search, at the point tried that is nearest, [dB]."""
+        nearest = min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2)))
+        return self._heard - self._levels(nearest.power, point)
+
+    def _identified(self, point: Float, difference: Float | None = None) -> Identified:
+        """Work out what is determined of the free unknowns around a point."""
+        off = self._difference(point) if difference is None else difference
+        slope = self._slopes(point)[:, self._free]
+        weight = weights(off, self._tolerance).ravel()
+        return identified(slope, weight, self._scatter, misfit(off, self._tolerance))
+
+    def _slopes(self, point: Float) -> Float:
+        moved = [k for k in self._free if k != self._noise]
+        points = np.stack([each.point for each in self._tried])
+        levels = np.stack([self._levels(each.power, point).ravel() for each in self._tried])
+        found = slopes(points, levels, point, moved)
+        if self._noise is not None:
+            above, below = point.copy(), point.copy()
+            above[self._noise] += 0.01
+            below[self._noise] -= 0.01
+            nearest = min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2))).power
+            change = self._levels(nearest, above) - self._levels(nearest, below)
+            found[:, self._noise] = change.ravel() / 0.02
+        return found
+
+    def _undetermined(self, known: Identified) -> dict[int, str]:
+        """Find what is to be left, with the reason."""
+        reasons = {
+            k: f"not determined: its interval is {100 * known.share[k]:.0f} % as wide as its range"
+            for k in self._free
+            if known.share[k] >= AS_WIDE
+        }
+        for k in sorted(self._free, key=lambda each: -known.share[each]):
+            others = [j for j in self._free if j != k and j not in reasons]
+            if k in reasons or not others:
+                continue
+            j = max(others, key=lambda each: abs(known.correlation[k, each]))
+            if abs(known.correlation[k, j]) >= TOGETHER:
+                reasons[k] = (
+                    f"not told apart from {self.unknowns[j].name}: correlation {known.correlation[k, j]:.2f}"
+                )
+        return reasons
+
+    def _stepped(self, point: Float, difference: Float) -> Float:
+        """Take a step of least squares from a point."""
+        step = self._identified(point, difference).gain @ difference.ravel()
+        moved = point.copy()
+        moved[self._free] += np.clip(step, -_FARTHEST, _FARTHEST)
+        return np.clip(moved, 0.0, 1.0)
+
+    def _settled(self, point: Float) -> tuple[Float, Float]:
+        """Take the track and the bearing of the seed of the search out of the best point."""
+        found = []
+        for _ in range(2):
+            difference = self._heard - self._seeds(point).mean(axis=0)
+            found.append((misfit(difference, self._tolerance), point, difference))
+            point = self._stepped(point, difference)
+        _, best, after = min(found, key=lambda each: each[0])
+        return best, after
+
+    def _told(self, k: int, point: Float, known: Identified, last: Identified, reason: str) -> Fit:
+        """Tell what is known of an unknown: of one that is left what was known before it was."""
+        fitted = k in self._free
+        place = self._free.index(k) if fitted else k
+        of = last if fitted else known
+        half = of.factor * of.deviation[place]
+        low, high = (self.values(np.clip(point + side * half, 0.0, 1.0)) for side in (-1.0, 1.0))
+        name = self.unknowns[k].name
+        beside = np.abs(known.correlation[k])
+        beside[k] = -1.0
+        partner = int(np.argmax(beside))
+        alone = len(self.unknowns) == 1
+        return Fit(
+            self.unknowns[k],
+            self.bases[k],
+            self.values(point)[name] if fitted else self.bases[k],
+            (low[name], high[name]),
+            float(of.share[place]),
+            "" if alone else self.unknowns[partner].name,
+            0.0 if alone else float(known.correlation[k, partner]),
+            reason,
+        )
