@@ -1,4 +1,4 @@
-"""The fit of one axlebox: scatter of the twin, search, what is determined, search with the rest left."""
+"""The fit of one axlebox: scatter of the twin, search, what is determined, least squares for that."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from beardyn_core.arrays import Float
-from beardyn_core.calibration.identify import Identified, identified, slopes
+from beardyn_core.calibration.identify import Identified, common_slope, identified
 from beardyn_core.calibration.search import Tried, misfit, search, weights
 from beardyn_core.calibration.spectra import tolerance_of
 from beardyn_core.calibration.twin import Beside
-from beardyn_core.calibration.unknowns import NOISE, Unknown
+from beardyn_core.calibration.unknowns import NOISE, UNKNOWNS, Unknown
 
 SEEDS = 4  # twins on other tracks with other bearings of the lot
-FEWEST_RUNS = 3 * SEEDS + 16  # twins of the smallest budget
-_FIRST = 0.65  # of the search, before what is not determined is left
-_CLOSER = 0.06  # spread of the second search, of the unit box
-_FARTHEST = 0.2  # that one step of least squares goes, of the unit box
+_STEPS = 3  # of least squares, behind the search
+FEWEST_RUNS = SEEDS * (1 + _STEPS) + 2 * len(UNKNOWNS) + 16  # twins of the smallest budget
+_FARTHEST = 0.2  # that one of them goes, of the unit box
+_NOISE_STEP = 0.01  # of the unit box
 AS_WIDE = 0.8  # of the range: an interval says nothing more than it
 TOGETHER = 0.95  # correlation from which two numbers are not told apart
 _UNDONE = "the search was interrupted before that was known"
@@ -94,6 +94,9 @@ class Fitter:
         scaled = np.array([each.scaled(base) for each, base in zip(self.unknowns, self.bases, strict=True)])
         self._begin = (scaled - self._low) / (self._high - self._low)
         self._free = list(range(len(self.unknowns)))
+        self._simulated = [k for k in self._free if k != self._noise]
+        self._slope = np.zeros((self._heard.size, len(self.unknowns)))
+        self._besides = SEEDS * (1 + _STEPS) + 2 * (1 + len(self._simulated))
 
     def fit(self) -> Fitted:
         """Fit; Ctrl-C ends it with the best so far once the search has begun."""
@@ -104,26 +107,23 @@ class Fitter:
         reasons = dict.fromkeys(self._free, _UNDONE)
         interrupted, best, known = True, self._begin, None
         try:
-            left = self.budget - 3 * SEEDS
-            first = round(_FIRST * left)
-            best = self._searched(self._begin, first)
-            known = self._identified(best)
+            best = self._searched(self._begin, self.budget - self._besides)
+            self._slope = self._sensed(best)
+            known = self._identified(self._difference(best))
             reasons = self._undetermined(known)
             for k in reasons:
                 best[k] = self._begin[k]
             self._free = [k for k in self._free if k not in reasons]
-            if self._free:
-                best = self._searched(self._stepped(best, self._difference(best)), left - first, _CLOSER)
             best, after = self._settled(best)
             interrupted = False
         except KeyboardInterrupt:
             if not self._tried:
                 raise
             best = min(self._tried, key=lambda each: each.misfit).point
-            if known is None:
-                known, reasons = self._identified(best), {}
             after = self._difference(best)
-        last = self._identified(best, after)
+        if known is None:
+            known, reasons = self._identified(after), {}
+        last = self._identified(after)
         fits = tuple(self._told(k, best, known, last, reasons.get(k, "")) for k in range(len(self.unknowns)))
         return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted)
 
@@ -146,21 +146,17 @@ class Fitter:
             self.tell("twins with other tracks and bearings", self.beside.runs)
         return self._levels(np.stack(found), point)
 
-    def _searched(self, begin: Float, budget: int, spread: float | None = None) -> Float:
+    def _searched(self, begin: Float, budget: int) -> Float:
         """Search from a point; gives the best one."""
-        free = [k for k in self._free if k != self._noise]
-        options = {} if spread is None else {"spread": spread}
-        found = []
-        for each in search(self._look, begin, free, budget, **options):
-            found.append(each)
+        for each in search(self._look, begin, self._simulated, budget):
             self._tried.append(each)
-            least = min(one.misfit for one in found)
+            least = min(one.misfit for one in self._tried)
             self.tell(f"search, misfit {least:.2f} of the tolerance", self.beside.runs)
-        return min(found, key=lambda each: each.misfit).point.copy()
+        return min(self._tried, key=lambda each: each.misfit).point.copy()
 
     def _look(self, point: Float) -> Tried:
         power = self.beside.power(self.values(point), 0)
-        if self._noise is not None and self._noise in self._free:  # no twin is needed for it
+        if self._noise is not None:  # no twin is needed for it
             point = point.copy()
             point[self._noise] = self._noisy(power, point)
         return Tried(point, power, misfit(self._heard - self._levels(power, point), self._tolerance))
@@ -179,30 +175,42 @@ class Fitter:
         return float(minimize_scalar(misfit_at, bounds=ends, method="bounded").x)
 
     def _difference(self, point: Float) -> Float:
-        """Heard less twin with the seed of the search, at the point tried that is nearest, [dB]."""
+        """Heard less twin with the seed of the search, at a point that was tried, [dB]."""
         nearest = min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2)))
         return self._heard - self._levels(nearest.power, point)
 
-    def _identified(self, point: Float, difference: Float | None = None) -> Identified:
-        """Work out what is determined of the free unknowns around a point."""
-        off = self._difference(point) if difference is None else difference
-        slope = self._slopes(point)[:, self._free]
-        weight = weights(off, self._tolerance).ravel()
-        return identified(slope, weight, self._scatter, misfit(off, self._tolerance))
+    def _identified(self, difference: Float) -> Identified:
+        """Work out what is determined of the free unknowns."""
+        weight = weights(difference, self._tolerance).ravel()
+        excess = misfit(difference, self._tolerance)
+        return identified(self._slope[:, self._free], weight, self._scatter, excess)
 
-    def _slopes(self, point: Float) -> Float:
-        moved = [k for k in self._free if k != self._noise]
-        points = np.stack([each.point for each in self._tried])
-        levels = np.stack([self._levels(each.power, point).ravel() for each in self._tried])
-        found = slopes(points, levels, point, moved)
+    def _sensed(self, point: Float) -> Float:
+        """Work out how levels change with each unknown at a point, shape [level, unknown], [dB]."""
+        weight = weights(self._difference(point), self._tolerance).ravel()
+        found = np.zeros((2, weight.size, len(self.unknowns)))
+        powers = []
+        for seed, slope in enumerate(found):
+            powers.append(self._run(point, seed))
+            at = self._levels(powers[-1], point)
+            for k in self._simulated:
+                step = self.unknowns[k].step * (1.0 if point[k] < 0.5 else -1.0)
+                moved = point.copy()
+                moved[k] += step
+                slope[:, k] = (self._levels(self._run(moved, seed), point) - at).ravel() / step
         if self._noise is not None:
             above, below = point.copy(), point.copy()
-            above[self._noise] += 0.01
-            below[self._noise] -= 0.01
-            nearest = min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2))).power
-            change = self._levels(nearest, above) - self._levels(nearest, below)
-            found[:, self._noise] = change.ravel() / 0.02
-        return found
+            above[self._noise] += _NOISE_STEP
+            below[self._noise] -= _NOISE_STEP
+            for power, slope in zip(powers, found, strict=True):
+                change = self._levels(power, above) - self._levels(power, below)
+                slope[:, self._noise] = change.ravel() / (2.0 * _NOISE_STEP)
+        return common_slope(found[0], found[1], weight)
+
+    def _run(self, point: Float, seed: int) -> Float:
+        power = self.beside.power(self.values(point), seed)
+        self.tell("how spectra change with each number", self.beside.runs)
+        return power
 
     def _undetermined(self, known: Identified) -> dict[int, str]:
         """Find what is to be left, with the reason."""
@@ -224,15 +232,15 @@ class Fitter:
 
     def _stepped(self, point: Float, difference: Float) -> Float:
         """Take a step of least squares from a point."""
-        step = self._identified(point, difference).gain @ difference.ravel()
+        step = self._identified(difference).gain @ difference.ravel()
         moved = point.copy()
         moved[self._free] += np.clip(step, -_FARTHEST, _FARTHEST)
         return np.clip(moved, 0.0, 1.0)
 
     def _settled(self, point: Float) -> tuple[Float, Float]:
-        """Take the track and the bearing of the seed of the search out of the best point."""
+        """Go by least squares from the best point, by the mean of twins on several tracks."""
         found = []
-        for _ in range(2):
+        for _ in range(_STEPS):
             difference = self._heard - self._seeds(point).mean(axis=0)
             found.append((misfit(difference, self._tolerance), point, difference))
             point = self._stepped(point, difference)

@@ -12,41 +12,29 @@ from beardyn_core.arrays import Float
 
 PRIOR = 1.0 / np.sqrt(12.0)  # standard deviation of what is anywhere in the unit box alike
 LEVEL = 0.9  # of the intervals
-_NEAREST = 6  # points for each coefficient of the local law
 
 
-def slopes(points: Float, levels: Float, at: Float, free: list[int]) -> Float:
-    """Work out how levels change with unknowns at a point, from the points tried around it.
+def common_slope(one: Float, other: Float, weight: Float) -> Float:
+    """Take from two slopes, of twins with different seeds, what they have in common.
 
-    A law of second order without products is put through the nearest points, the nearer the more.
+    Each slope is a difference of two runs, and rollers make it a little by chance. A number that nothing
+    follows from would seem to be determined by that; what two seeds agree in is no chance.
 
     Parameters
     ----------
-    points : float64 array, shape [point, unknown]
-    levels : float64 array, shape [point, level]
-        [dB].
-    at : float64 array, shape [unknown]
-    free : list of int
-        Unknowns that the points differ in.
+    one, other : float64 array, shape [level, unknown]
+        [dB] over the unit box.
+    weight : float64 array, shape [level]
+        [1/dB^2].
 
     Returns
     -------
     float64 array, shape [level, unknown]
-        [dB] over the unit box; 0 for unknowns that the points do not differ in.
+        Their mean, times the share of its weighted square that both agree in.
     """
-    found = np.zeros((levels.shape[1], points.shape[1]))
-    if not free:
-        return found
-    away = points[:, free] - at[free]
-    distance = np.sqrt((away**2).mean(axis=1))
-    wanted = min(len(points), _NEAREST * (1 + 2 * len(free)))
-    reach = max(float(np.sort(distance)[wanted - 1]), 1e-3)
-    weight = np.exp(-((distance / reach) ** 2))
-    terms = np.concatenate([np.ones((len(points), 1)), away, away**2], axis=1) * weight[:, None]
-    ridge = 1e-6 * np.trace(terms.T @ terms) * np.eye(terms.shape[1])
-    law = np.linalg.solve(terms.T @ terms + ridge, terms.T @ (levels * weight[:, None]))
-    found[:, free] = law[1 : 1 + len(free)].T
-    return found
+    mean = 0.5 * (one + other)
+    agreed, whole = weight @ (one * other), weight @ mean**2
+    return np.asarray(mean * np.clip(agreed / np.maximum(whole, 1e-12), 0.0, 1.0), np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +58,7 @@ def identified(slope: Float, weight: Float, scatter: Float, excess: float) -> Id
     Parameters
     ----------
     slope : float64 array, shape [level, unknown]
-        See `slopes`.
+        See `common_slope`.
     weight : float64 array, shape [level]
         [1/dB^2].
     scatter : float64 array, shape [seed, level]

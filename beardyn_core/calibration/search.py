@@ -48,7 +48,6 @@ def search(
     begin: Float,
     free: Sequence[int],
     budget: int,
-    spread: float = _SPREAD,
 ) -> Iterator[Tried]:
     """Try points, as many as the budget at most, and give each.
 
@@ -62,8 +61,6 @@ def search(
         Unknowns that are searched for.
     budget : int
         Twins.
-    spread : float
-        Of the first points around it.
 
     References
     ----------
@@ -77,7 +74,7 @@ def search(
         return look(point)
 
     if len(chosen) < 2:  # the strategy needs two
-        for share in np.linspace(-2.0, 2.0, budget) * spread if chosen else (0.0,):
+        for share in np.linspace(-2.0, 2.0, budget) * _SPREAD if chosen else (0.0,):
             yield take(np.clip(begin[chosen] + share, 0.0, 1.0))
         return
     options = {
@@ -90,7 +87,7 @@ def search(
         "verb_log": 0,
     }
     strategy = library("cma", "a calibration", "calibrate").CMAEvolutionStrategy(
-        begin[chosen], spread, options
+        begin[chosen], _SPREAD, options
     )
     while budget > 0 and not strategy.stop():
         asked = strategy.ask()

@@ -28,6 +28,7 @@ class Unknown:
     span: A[tuple[float, float], "lowest and highest: factors on the base value, or what is added to it"]
     place: A[Place, "of the key in a scene file"]
     power: A[float, "of the value that stands there"] = 1.0
+    step: A[float, "by which it is moved to see what follows from it, of its range"] = 0.12
     absent: A[str, "why a scene may not have it"] = ""
 
     def base_of(self, scene: Scene, sensor: int) -> float | None:
@@ -77,6 +78,7 @@ FREQUENCY = Unknown(
     (0.8, 1.25),
     ("effects", "structure", "stiffness_factor"),
     2.0,
+    0.04,  # as wide as the peaks of the box
     "has no modes of a box (effects: structure: {kind: modes, table: ...})",
 )
 DAMPING = Unknown(
