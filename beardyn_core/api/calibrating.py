@@ -110,7 +110,7 @@ def calibrate(
     tier : str
         Of the twin.
     budget : int
-        Runs of twins of a second or more.
+        Runs of twins at each speed of the recordings, of a second or more.
     bearing, sensor
         See `beardyn_core.monitor`.
     force : bool
@@ -146,8 +146,8 @@ def calibrate(
     say = _say if progress else _nothing
     beside = Beside(twin, hearing, number, rides)
     bases = tuple(float(each.base_of(twin, number) or 0.0) for each in wanted)
-    fitter = Fitter(beside, wanted, bases, budget, lambda what, count: say(f"{count}/{budget} twins, {what}"))
-    found = fitter.fit()
+    total = budget * len(rides)
+    found = Fitter(beside, wanted, bases, budget, lambda what, run: say(f"{run}/{total} twins, {what}")).fit()
     folder = Path(output).parent if output else Path()
     with interrupts.whole():  # what an interrupted search has found is written too
         data = scene_keys(base, twin, found.fits, number, folder)

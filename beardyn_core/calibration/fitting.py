@@ -19,12 +19,12 @@ from beardyn_core.calibration.unknowns import NOISE, UNKNOWNS, Unknown
 
 SEEDS = 4  # twins on other tracks with other bearings of the lot
 _STEPS = 3  # of least squares, behind the search
-FEWEST_RUNS = SEEDS * (1 + _STEPS) + 2 * len(UNKNOWNS) + 16  # twins of the smallest budget
+FEWEST_RUNS = SEEDS * (1 + _STEPS) + 2 * len(UNKNOWNS) + 16  # twins at each speed, of the smallest budget
 _FARTHEST = 0.2  # that one of them goes, of the unit box
 _NOISE_STEP = 0.01  # of the unit box
+_HEARD = 2.0  # halves of an interval, by which noise is above none
 AS_WIDE = 0.8  # of the range: an interval says nothing more than it
 TOGETHER = 0.95  # correlation from which two numbers are not told apart
-_UNDONE = "the search was interrupted before that was known"
 
 Tell = Callable[[str, int], None]
 
@@ -77,7 +77,7 @@ class Fitter:
     beside: Beside
     unknowns: tuple[Unknown, ...]
     bases: A[tuple[float, ...], "of the unknowns, at the edge"]
-    budget: A[int, "twins"]
+    budget: A[int, "twins at each speed"]
     tell: A[Tell, "told what is done and how many twins have run"] = lambda _what, _runs: None
     _tried: list[Tried] = field(default_factory=list)
 
@@ -104,13 +104,12 @@ class Fitter:
         self._tolerance = tolerance_of(self.beside.rides, base, self.beside.hearing)
         self._scatter = (base - base.mean(axis=0)).reshape(SEEDS, -1)
         before = self._heard - base.mean(axis=0)
-        reasons = dict.fromkeys(self._free, _UNDONE)
-        interrupted, best, known = True, self._begin, None
+        reasons, interrupted, known = dict[int, str](), True, None
         try:
             best = self._searched(self._begin, self.budget - self._besides)
             self._slope = self._sensed(best)
             known = self._identified(self._difference(best))
-            reasons = self._undetermined(known)
+            reasons = self._undetermined(known, best)
             for k in reasons:
                 best[k] = self._begin[k]
             self._free = [k for k in self._free if k not in reasons]
@@ -119,11 +118,12 @@ class Fitter:
         except KeyboardInterrupt:
             if not self._tried:
                 raise
-            best = min(self._tried, key=lambda each: each.misfit).point
+            best = min(self._tried, key=lambda each: each.misfit).point.copy()
+            for k in reasons:
+                best[k] = self._begin[k]
             after = self._difference(best)
-        if known is None:
-            known, reasons = self._identified(after), {}
         last = self._identified(after)
+        known = known or last
         fits = tuple(self._told(k, best, known, last, reasons.get(k, "")) for k in range(len(self.unknowns)))
         return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted)
 
@@ -176,14 +176,17 @@ class Fitter:
 
     def _difference(self, point: Float) -> Float:
         """Heard less twin with the seed of the search, at a point that was tried, [dB]."""
-        nearest = min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2)))
-        return self._heard - self._levels(nearest.power, point)
+        return self._heard - self._levels(self._nearest(point).power, point)
+
+    def _nearest(self, point: Float) -> Tried:
+        return min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2)))
 
     def _identified(self, difference: Float) -> Identified:
         """Work out what is determined of the free unknowns."""
         weight = weights(difference, self._tolerance).ravel()
         excess = misfit(difference, self._tolerance)
-        return identified(self._slope[:, self._free], weight, self._scatter, excess)
+        slope, model = self._slope[:, self._free], self.beside.hearing.model
+        return identified(slope, weight, self._scatter, excess, model, difference.shape)
 
     def _sensed(self, point: Float) -> Float:
         """Work out how levels change with each unknown at a point, shape [level, unknown], [dB]."""
@@ -212,13 +215,15 @@ class Fitter:
         self.tell("how spectra change with each number", self.beside.runs)
         return power
 
-    def _undetermined(self, known: Identified) -> dict[int, str]:
+    def _undetermined(self, known: Identified, point: Float) -> dict[int, str]:
         """Find what is to be left, with the reason."""
         reasons = {
             k: f"not determined: its interval is {100 * known.share[k]:.0f} % as wide as its range"
             for k in self._free
             if known.share[k] >= AS_WIDE
         }
+        if self._noise is not None and self._noise not in reasons and self._silent(known, point):
+            reasons[self._noise] = "not determined: it is not heard beside all else"
         for k in sorted(self._free, key=lambda each: -known.share[each]):
             others = [j for j in self._free if j != k and j not in reasons]
             if k in reasons or not others:
@@ -229,6 +234,13 @@ class Fitter:
                     f"not told apart from {self.unknowns[j].name}: correlation {known.correlation[k, j]:.2f}"
                 )
         return reasons
+
+    def _silent(self, known: Identified, point: Float) -> bool:
+        """Tell whether an accelerometer without noise would be heard alike: its logarithm has no such end."""
+        power = self._nearest(point).power
+        change = self._levels(power, point) - self.beside.levels(power, 0.0)
+        shift = float(known.gain[self._noise] @ change.ravel())
+        return shift < _HEARD * known.factor * float(known.deviation[self._noise])
 
     def _stepped(self, point: Float, difference: Float) -> Float:
         """Take a step of least squares from a point."""

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from beardyn_core.arrays import Float
+from beardyn_core.calibration.spectra import SHARE
 
 PRIOR = 1.0 / np.sqrt(12.0)  # standard deviation of what is anywhere in the unit box alike
 LEVEL = 0.9  # of the intervals
@@ -52,7 +53,9 @@ class Identified:
         return np.asarray(np.minimum(self.deviation / PRIOR, 1.0), np.float64)
 
 
-def identified(slope: Float, weight: Float, scatter: Float, excess: float) -> Identified:
+def identified(
+    slope: Float, weight: Float, scatter: Float, excess: float, model: Float, shape: tuple[int, ...]
+) -> Identified:
     """Work out what is determined.
 
     Parameters
@@ -65,12 +68,17 @@ def identified(slope: Float, weight: Float, scatter: Float, excess: float) -> Id
         Levels of twins on other tracks with other bearings of the lot, less their mean, [dB].
     excess : float
         Mean square of what the fit leaves over that of the tolerance, [-].
+    model : float64 array, shape [band]
+        By which a right twin is off, over an octave alike, [dB].
+    shape : tuple of int
+        Of levels: rides, axes, bands.
 
     Returns
     -------
     Identified
         With the deviation that the scatter gives estimates by `gain`, once for the recordings and a share for
-        the twins, times the root of the excess where it is above 1, and with what the box leaves open.
+        the twins, and what octaves of the model give, times the root of the excess where it is above 1, and
+        with what the box leaves open.
 
     Notes
     -----
@@ -82,7 +90,10 @@ def identified(slope: Float, weight: Float, scatter: Float, excess: float) -> Id
     posterior = np.linalg.inv(information + np.eye(len(information)) / PRIOR**2)
     gain = posterior @ (slope.T * weight)
     drawn = scatter @ gain.T
-    moved = drawn.T @ drawn / max(count - 1, 1) * (1.0 + 1.0 / count) * max(excess, 1.0)
+    by_band = gain.reshape(-1, *shape).sum(axis=1) * model
+    octaves = np.add.reduceat(by_band, np.arange(0, shape[-1], SHARE), axis=-1).reshape(len(gain), -1)
+    moved = drawn.T @ drawn / max(count - 1, 1) * (1.0 + 1.0 / count) + octaves @ octaves.T
+    moved = moved * max(excess, 1.0)
     left = posterior @ posterior / PRIOR**2  # of the box, where levels say nothing
     covariance = moved + left
     deviation = np.sqrt(np.diag(covariance))

@@ -43,6 +43,11 @@ class Hearing(NamedTuple):
         half = 2.0 ** (0.5 / SHARE)
         return np.array(self.middles) * (half - 1.0 / half)
 
+    @property
+    def model(self) -> Float:
+        """By which a right twin may be off, shape [band], [dB]."""
+        return np.asarray(np.where(np.array(self.middles) <= _MODEL_TO, *_MODEL), np.float64)
+
 
 @dataclass(frozen=True, eq=False)
 class Ride:
@@ -109,12 +114,11 @@ def tolerance_of(rides: tuple[Ride, ...], twins: Float, hearing: Hearing) -> Flo
     float64 array, shape [ride, axis, band]
         Standard deviation of a difference between the two, [dB].
     """
-    model = np.where(np.array(hearing.middles) <= _MODEL_TO, *_MODEL)
     found = []
     for ride, twin in zip(rides, np.moveaxis(twins, 1, 0), strict=True):
         count = len(ride.levels)
         own = ride.levels.var(axis=0, ddof=1) / count if count > 1 else 0.0
         variance = twin.var(axis=0, ddof=1) * (1.0 + 1.0 / len(twin)) + own
         even = uniform_filter1d(variance, _SMOOTH, axis=-1, mode="nearest")
-        found.append(np.sqrt(even + model**2))
+        found.append(np.sqrt(even + hearing.model**2))
     return np.stack(found)

@@ -22,7 +22,7 @@ from beardyn_core.population.batch import simulated
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
-_SETTLING = 0.4  # [s], until load and box have come to their places
+_SETTLING = 0.3  # [s], until load and box have come to their places
 _SPARE = 0.05  # [s], what filters of the accelerometer keep at the end
 _SPEEDS = ("timetable", "measured_speed")  # what else may say the speed
 Values = Mapping[str, float]

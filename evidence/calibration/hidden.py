@@ -17,7 +17,7 @@ from beardyn_core.edge import written
 
 BASE = "service_high_speed"
 SECONDS = 5.0
-BUDGET = 64
+BUDGET = 60
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from beardyn_core.arrays import Float
 from beardyn_core.calibration.fitting import FEWEST_RUNS, Fitted
 from beardyn_core.calibration.identify import PRIOR, common_slope, identified
 from beardyn_core.calibration.spectra import Heard, Hearing, levels_of, rides_of
@@ -102,10 +103,16 @@ def test_intervals_widen_with_what_the_fit_leaves_and_with_scatter() -> None:
     random = np.random.default_rng(2)
     slope, weight = random.normal(0.0, 20.0, (100, 2)), np.ones(100)
     scatter = random.normal(0.0, 1.0, (4, 100))
-    usual = identified(slope, weight, scatter, 1.0).deviation
-    assert (identified(slope, weight, 2.0 * scatter, 1.0).deviation > 1.5 * usual).all()
-    assert (identified(slope, weight, scatter, 4.0).deviation > 1.5 * usual).all()
-    assert identified(0.0 * slope, weight, scatter, 1.0).deviation == pytest.approx(PRIOR)
+    model = np.full(50, 1e-3)
+
+    def deviation(slope: Float, scatter: Float, excess: float, model: Float) -> Float:
+        return identified(slope, weight, scatter, excess, model, (1, 2, 50)).deviation
+
+    usual = deviation(slope, scatter, 1.0, model)
+    assert (deviation(slope, 2.0 * scatter, 1.0, model) > 1.5 * usual).all()
+    assert (deviation(slope, scatter, 4.0, model) > 1.5 * usual).all()
+    assert (deviation(slope, scatter, 1.0, 3e3 * model) > 1.5 * usual).all()
+    assert deviation(0.0 * slope, scatter, 1.0, model) == pytest.approx(PRIOR)
 
 
 def test_slopes_that_two_seeds_do_not_agree_in_say_nothing() -> None:
