@@ -235,8 +235,8 @@ def _rides(
                 f"{scene.name} at {rate:.0f} Hz; what lies between is not in the signal"
             )
         else:
-            measured = np.isfinite(np.asarray(signal.values)).any(axis=0)
-            axes &= {axis for axis, there in zip(AXES, measured, strict=True) if there}
+            measured = np.isfinite(np.asarray(signal.values))
+            axes &= {axis for k, axis in enumerate(AXES) if measured[:, k].any()}
             turned = np.unwrap(run.shaft.angle)
             seconds = 1e-9 * float(run.shaft.time_ns[-1] - run.shaft.time_ns[0])
             speeds.append(abs(float(turned[-1] - turned[0])) / (2.0 * np.pi * seconds))

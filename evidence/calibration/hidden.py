@@ -44,7 +44,7 @@ BOXES = (
 def play(box: Hidden, path: Path) -> None:
     """Simulate an axlebox in the tier `full`, and record it."""
     base: dict[str, Any] = written(bd.scene(BASE))
-    structure = {"kind": "modes", "table": "high_speed"}
+    structure: dict[str, Any] = {"kind": "modes", "table": "high_speed"}
     structure |= {"stiffness_factor": box.frequency**2, "damping_factor": box.damping}
     sensor = {**base["sensors"][0], "noise_density_m_per_s2_per_sqrt_Hz": box.noise}
     bd.simulate(

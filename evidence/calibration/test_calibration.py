@@ -43,5 +43,5 @@ def test_every_box_is_unlike_the_scene_in_every_number() -> None:
 
 
 def test_the_page_has_a_place_for_the_tables() -> None:
-    page = with_table(PAGE.read_text(encoding="utf-8"), "nothing but this")
+    page = with_table(PAGE.read_text(encoding="utf-8"), "nothing but this\n")
     assert f"{BEGIN}\nnothing but this\n\n{END}" in page

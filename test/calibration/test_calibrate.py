@@ -97,7 +97,7 @@ def test_a_fault_that_the_monitor_hears_is_refused(tmp_path: Path, monkeypatch: 
 def test_the_library_that_lacks_is_named_with_its_extra(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "cma", None)
+    monkeypatch.setitem(sys.modules, "cma", None)
     with pytest.raises(InputError, match=r"needs cma, which is not installed.*beardyn\[calibrate\]"):
         bd.calibrate(recording(tmp_path), SCENE)
 
@@ -118,7 +118,8 @@ def test_written_keys_are_those_of_the_scene_and_the_fitted_values(tmp_path: Pat
 
 def test_files_beside_the_scene_are_found_from_another_folder(tmp_path: Path) -> None:
     here, there = tmp_path / "here", tmp_path / "there"
-    here.mkdir(), there.mkdir()
+    here.mkdir()
+    there.mkdir()
     table = find("structures", "high_speed").with_suffix(".csv")
     (here / "box.csv").write_bytes(table.read_bytes())
     text = find("scenes", SCENE).read_text(encoding="utf-8").replace("table: high_speed}", "table: box.csv}")
