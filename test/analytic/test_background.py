@@ -179,5 +179,7 @@ def test_an_amplitude_factor_is_on_roughness_and_every_force_alike() -> None:
     assert np.std(loud - silent) == pytest.approx(2.0 * np.std(usual - silent), rel=0.02)
     bare = replace(scene.background, roughness=None, drive=None, other_bearing=None, knocks=None)
     without = load_of_scene(replace(scene, background=bare), 0.6)  # at a lower rate, for it has no forces
-    share = np.std(np.interp(without.time, np.arange(len(silent)) / RATE, silent) - without.wrench[:, 2])
+    share = np.std(
+        np.interp(1e-9 * without.time_ns, np.arange(len(silent)) / RATE, silent) - without.wrench[:, 2]
+    )
     assert share < 0.05 * np.std(usual - silent)
