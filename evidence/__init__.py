@@ -21,6 +21,7 @@ automatic   docs/automatic.md: what `effects: auto` chooses, on trial
 trial       docs/trial.md: the monitor on trial
 population  docs/sweep.md: what a learner makes of a set, how fast sets are made
 follow      docs/estimate.md: a train played in full, followed from what its sensor hears
+calibration docs/estimate.md: scenes fitted to recordings of hidden axleboxes
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs
 standard    shipped scenes with the standard effects

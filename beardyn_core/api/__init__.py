@@ -11,6 +11,7 @@ statics     stiffness, torque, life, film and load distribution, no run needed
 sweeping    sets of labelled runs over a population of bearings
 estimating  load, end play and spall from a run, what remains; training
 following   the same over many stretches and runs, with a twin beside
+calibrating the scene of one measured axlebox, fitted to its healthy recordings
 heat        steady temperatures and losses by source, no run needed either
 =========== ==================================================================
 

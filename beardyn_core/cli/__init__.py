@@ -23,6 +23,7 @@ report           what a recording holds
 monitor          what a monitor says over a recording
 estimate         load, end play and spall of a recording, what remains
 follow           the same over successive stretches and recordings, health, residual beside a twin
+calibrate        the scene of one measured axlebox, fitted to its healthy recordings
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing
 structure        modes of an axlebox

@@ -24,7 +24,7 @@ DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
 COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
-    "recordings": ("import", "view", "report", "monitor", "estimate", "follow", "export"),
+    "recordings": ("import", "view", "report", "monitor", "estimate", "follow", "calibrate", "export"),
     "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
     "populations": ("sweep", "baseline", "train"),
     "files": ("schema",),

@@ -62,7 +62,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
         for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):
-            levels = _bands(heard, stretch.rate, middles, share)
+            levels = band_levels(heard, stretch.rate, middles, share)
             found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
         found |= {f"{name}_{axis}": value for name, value in _lines(heard, stretch, orders).items()}
     return np.array([found[name] for name in names_of(axes)])
@@ -91,7 +91,7 @@ def _ways(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) -> dict[
     return found
 
 
-def _bands(signal: Float, rate: float, middles: tuple[float, ...], share: int) -> dict[float, float]:
+def band_levels(signal: Float, rate: float, middles: tuple[float, ...], share: int) -> dict[float, float]:
     """Measure bands, so many to an octave, against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
     power = np.abs(rfft(signal * np.hanning(len(signal)))) ** 2 / len(signal) ** 2 * (2.0 * 8.0 / 3.0)
     frequency, half = np.arange(len(power)) * rate / len(signal), 2.0 ** (0.5 / share)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from scipy.signal import resample_poly
@@ -25,19 +26,41 @@ _SAME_RATE = 1e-3
 _LEAST_LENGTH = 0.95  # of a stretch
 
 
+class Ear(Protocol):
+    """What is heard at once: an estimator is one."""
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Axes of the accelerometer."""
+
+    @property
+    def rate(self) -> float:
+        """Sampling rate, [Hz]."""
+
+    @property
+    def stretch(self) -> float:
+        """Length, [s]."""
+
+
 def doubt_of(estimator: Estimator, bearing: Bearing | NamePlate) -> str:
     """Say why an estimator is not for a bearing; empty when it is."""
     plate = estimator.plate
-    sizes = ("roller_count", "pitch_diameter", "roller_diameter")
-    if all(abs(getattr(plate, name) / getattr(bearing, name) - 1.0) < _ALIKE for name in sizes):
+    if alike(plate, bearing):
         return ""
     return (
-        f"the estimator is for {plate.name}, {_described(plate)}; the run is of {bearing.name}, "
-        f"{_described(bearing)}"
+        f"the estimator is for {plate.name}, {sizes_text(plate)}; the run is of {bearing.name}, "
+        f"{sizes_text(bearing)}"
     )
 
 
-def _described(bearing: Bearing | NamePlate) -> str:
+def alike(one: Bearing | NamePlate, other: Bearing | NamePlate) -> bool:
+    """Tell whether two bearings are of the same sizes."""
+    sizes = ("roller_count", "pitch_diameter", "roller_diameter")
+    return all(abs(getattr(one, name) / getattr(other, name) - 1.0) < _ALIKE for name in sizes)
+
+
+def sizes_text(bearing: Bearing | NamePlate) -> str:
+    """Write the sizes by which bearings are told apart."""
     pitch, roller = 1e3 * bearing.pitch_diameter, 1e3 * bearing.roller_diameter
     return f"{bearing.roller_count} rollers of {roller:.1f} mm on {pitch:.0f} mm"
 
@@ -64,7 +87,7 @@ def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, s
     return estimator.estimates(np.stack(rows))
 
 
-def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[Stretch]:
+def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch]:
     """Cut a run into stretches of the length and sampling rate that an estimator hears.
 
     Where samples are lost, or are NaN, a new stretch begins.
@@ -93,7 +116,7 @@ def stretches_of(run: Run, estimator: Estimator, sensor: str = "") -> Iterator[S
             yield from _cut(*piece, int(time_ns[begin]), estimator)
 
 
-def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Estimator) -> Iterator[Stretch]:
+def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[Stretch]:
     """Cut what nothing is lost of into stretches."""
     length = round(estimator.stretch * estimator.rate) + 1
     for k in range(max(1, len(heard) // length)):
@@ -104,7 +127,7 @@ def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Estimator) -> Ite
             yield Stretch(estimator.rate, *forward, np.nan, end_ns)
 
 
-def unmeasured(heard: Float, estimator: Estimator) -> str:
+def unmeasured(heard: Float, estimator: Ear) -> str:
     """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
     for axis, values in zip(estimator.axes, heard.T, strict=True):
         if len(values) and np.isnan(values).all():

@@ -37,7 +37,7 @@ def background_force(background: Background, bearing: Bearing, time: Float, spee
         force += _other_bearing(background.other_bearing, bearing, angle, speed, step, _random(seed, _OTHER))
     if background.knocks is not None:
         force += _knocks(background.knocks, time, _random(seed, _KNOCKS))
-    return force
+    return background.amplitude_factor * force
 
 
 def _random(seed: int, source: int) -> np.random.Generator:

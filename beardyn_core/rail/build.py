@@ -15,7 +15,7 @@ from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
-from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS, Background, Roughness
+from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS, Background
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory, sampled_load
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (
@@ -88,8 +88,7 @@ def load_history(
     elif isinstance(operation, SteppedOperation):
         history = _stepped(operation, count, rate)
     elif isinstance(operation, QuarterVehicleOperation):
-        roughness = background.roughness if background else None
-        history = _quarter_vehicle(operation, mounting, count, rate, seed, roughness, bearing)
+        history = _quarter_vehicle(operation, mounting, count, rate, seed, background, bearing)
     else:
         history = replayed(operation, count, rate)
     if background is not None:
@@ -143,7 +142,7 @@ def ride_steps(
     mounting: Mounting,
     steps: int,
     seed: int,
-    roughness: Roughness | None = None,
+    background: Background | None = None,
     bearing: Bearing | None = None,
 ) -> tuple[Ride, Running | None]:
     """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
@@ -155,8 +154,9 @@ def ride_steps(
         radius = 0.5 * operation.wheel_diameter
         height = height + wheel_height(operation.wheel_defects, radius, position, patch)
         height += rail_height(operation.rail_defects, position, patch)
-    if roughness is not None:
-        height = height + roughness_height(roughness, operation, position, seed)
+    if background is not None and background.roughness is not None:
+        rough = roughness_height(background.roughness, operation, position, seed)
+        height = height + background.amplitude_factor * rough
     fade = _rise(time, FADE_IN)
     height = (height - height[0]) * fade
     besides = running(operation, mounting, time, fade, seed)
@@ -170,7 +170,7 @@ def _quarter_vehicle(
     count: int,
     rate: float,
     seed: int,
-    roughness: Roughness | None,
+    background: Background | None,
     bearing: Bearing | None,
 ) -> LoadHistory:
     """Compute the wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
@@ -186,7 +186,7 @@ def _quarter_vehicle(
     kernel = thinning_kernel(factor)
     # run past the end by what the filter looks ahead
     steps = (count - 1) * factor + 1 + len(kernel) // 2
-    response, besides = ride_steps(operation, mounting, steps, seed, roughness, bearing)
+    response, besides = ride_steps(operation, mounting, steps, seed, background, bearing)
     vehicle = quarter_vehicle(operation, mounting, bearing)
     force, bogie = np.zeros((count, 3)), np.zeros((count, 3))
     if besides is not None:

@@ -139,6 +139,11 @@ class Background:
     other_bearing: A[OtherBearing | None, "of the same wheelset"] = None
     knocks: A[Knocks | None, "of the running gear"] = None
     pickup: A[Pickup | None, "electrical, in the sensors' cables"] = None
+    amplitude_factor: A[
+        float,
+        At(ge=0.0, le=100.0),
+        "on roughness and every force, not on the pickup: for a train that is louder or quieter",
+    ] = 1.0
     sources: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:

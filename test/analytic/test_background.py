@@ -165,3 +165,21 @@ def test_every_part_of_a_shipped_background_names_its_source_or_says_that_it_is_
         if getattr(background, part)
     }
     assert parts == told
+
+
+def test_an_amplitude_factor_is_on_roughness_and_every_force_alike() -> None:
+    scene = load_scene("service_high_speed")
+    assert scene.background is not None
+    loads = []
+    for factor in (0.0, 1.0, 2.0):
+        background = replace(scene.background, amplitude_factor=factor)
+        loads.append(load_of_scene(replace(scene, background=background), 0.6).wrench[:, 2])
+    silent, usual, loud = loads
+    # forces are linear in it; the wheel on the rail is a spring that hardens
+    assert np.std(loud - silent) == pytest.approx(2.0 * np.std(usual - silent), rel=0.02)
+    bare = replace(scene.background, roughness=None, drive=None, other_bearing=None, knocks=None)
+    without = load_of_scene(replace(scene, background=bare), 0.6)  # at a lower rate, for it has no forces
+    share = np.std(
+        np.interp(1e-9 * without.time_ns, np.arange(len(silent)) / RATE, silent) - without.wrench[:, 2]
+    )
+    assert share < 0.05 * np.std(usual - silent)

@@ -18,6 +18,7 @@ EXECUTABLES = ("twin", "load", "recorder", "viewer", "monitor", "car_twin", "car
 # no rosdep key
 FROM_PIP = {
     "asammdf",
+    "cma",
     "distributed",
     "gmsh",
     "mcap",
