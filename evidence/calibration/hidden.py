@@ -12,7 +12,7 @@ import beardyn_core as bd
 from beardyn_core.api.calibrating import calibrate
 from beardyn_core.calibration.unknowns import UNKNOWNS
 from beardyn_core.cli.calibrate import json_object
-from beardyn_core.cli.json_output import plain
+from beardyn_core.plain_json import plain
 from beardyn_core.edge import written
 
 BASE = "service_high_speed"
