@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -12,7 +11,7 @@ from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_told, encode_diagnostics
 from beardyn_core.record.published import MissingMessages, missing_sentence
 from beardyn_core.record.topics import TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
@@ -172,7 +171,7 @@ class RecorderNode(Node):
             elif entry.name == "monitor/result":
                 if any(status.value("final") == "true" for status in decode_diagnostics(cdr)[1]):
                     self._judged.add(entry.name)
-            elif entry.name == "follower/estimate" and json.loads(decode_string(cdr)).get("final"):
+            elif entry.name == "follower/estimate" and decode_told(cdr).get("final"):
                 self._judged.add(entry.name)
 
         return take

@@ -58,7 +58,7 @@ class TrainSignals:
         self._node, self._hearer = node, hearer
         self._shaft: list[bytes] = []
         self._last_sample = -1
-        self._nothing_waits = True
+        self._came, self._nothing_waits = False, True
         self._intake = RawIntake(node, polled=True)
         self.guard = MessageGuard(node)
         for name, handler in {
@@ -93,13 +93,16 @@ class TrainSignals:
 
     def sweep(self) -> None:
         """Tell the hearer what has come since the last sweep."""
-        self._nothing_waits = self._intake.sweep() == 0
+        self._came = False
+        self._intake.sweep()
+        self._nothing_waits = not self._came  # diagnostics of a whole train never pause
         if self._shaft:
             turning = run_of_messages({"shaft": self._shaft}, None).shaft
             self._hearer.shaft(turning.time_ns, turning.angle)
             self._shaft = []
 
     def _on_vibration(self, cdr: bytes) -> None:
+        self._came = True
         points = cloud_points(cdr)
         if not len(points):
             return
@@ -112,6 +115,7 @@ class TrainSignals:
         self._hearer.vibration(cloud_times(cdr, points), acceleration)
 
     def _shaft_comes(self, cdr: bytes) -> None:
+        self._came = True
         self._shaft.append(cdr)
 
     def _on_temperature(self, cdr: bytes) -> None:

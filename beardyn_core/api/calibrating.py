@@ -140,7 +140,7 @@ def calibrate(
     library("cma", "a calibration", "calibrate")
     twin = make_scene(base, tier=tier)
     heard = [heard_of(each, bearing, sensor) for each in several]
-    number = _number_of(twin, heard[0][2])
+    number = _number_of(twin, heard[0][2], asked=bool(sensor))
     wanted, absent = _unknowns(twin, number, fit)
     hearing, rides = _rides(twin, number, heard)
     say = _say if progress else _nothing
@@ -183,7 +183,7 @@ def _asked(fit: Sequence[str] | None, tier: str, budget: int, runs: Sequence[obj
     return problems + ([] if runs else ["runs: there is none; give a recording"])
 
 
-def _number_of(scene: Scene, name: str) -> int:
+def _number_of(scene: Scene, name: str, asked: bool) -> int:
     """Find the accelerometer of the scene that stands for the one that is heard."""
     names = [each.name for each in scene.sensors]
     if scene.faults:
@@ -192,6 +192,8 @@ def _number_of(scene: Scene, name: str) -> int:
         )
     if scene.axleboxes is not None:
         raise InputError(f"scene {scene.name}: has several axleboxes; give the scene of one")
+    if asked and len(names) > 1 and name not in names:
+        raise InputError(f"scene {scene.name}: has no sensor {name!r}; it has {', '.join(names)}")
     return names.index(name) if name in names else 0
 
 

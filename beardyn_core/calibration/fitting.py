@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated as A
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from beardyn_core.calibration.search import Tried, misfit, search, weights
 from beardyn_core.calibration.spectra import tolerance_of
 from beardyn_core.calibration.twin import Beside
 from beardyn_core.calibration.unknowns import NOISE, UNKNOWNS, Unknown
+from beardyn_core.errors import ValidityError
 
 SEEDS = 4  # twins on other tracks with other bearings of the lot
 _STEPS = 3  # of least squares, behind the search
@@ -25,6 +26,7 @@ _NOISE_STEP = 0.01  # of the unit box
 _HEARD = 2.0  # halves of an interval, by which noise is above none
 AS_WIDE = 0.8  # of the range: an interval says nothing more than it
 TOGETHER = 0.95  # correlation from which two numbers are not told apart
+_FAILED = 1.0e6  # misfit of a twin that ended early
 
 Tell = Callable[[str, int], None]
 
@@ -41,6 +43,7 @@ class Fit:
     partner: A[str, "unknown that it is most correlated with; empty with one alone"]
     correlation: A[float, "with that one"]
     reason: A[str, "why it is left at its base value; empty when it is fitted"] = ""
+    unjudged: A[bool, "the search was interrupted before it was known how far this is determined"] = False
 
     @property
     def sentence(self) -> str:
@@ -51,7 +54,7 @@ class Fit:
         return (
             f"{self.unknown.words}: {show(self.value)}, {show(low)} to {show(high)} in 90 of 100; "
             f"{show(self.base)} in the scene"
-        )
+        ) + ("; best so far, how well it is known was not worked out" if self.unjudged else "")
 
 
 class Fitted(NamedTuple):
@@ -105,9 +108,11 @@ class Fitter:
         self._scatter = (base - base.mean(axis=0)).reshape(SEEDS, -1)
         before = self._heard - base.mean(axis=0)
         reasons, interrupted, known = dict[int, str](), True, None
+        sensed = False
         try:
             best = self._searched(self._begin, self.budget - self._besides)
             self._slope = self._sensed(best)
+            sensed = True
             known = self._identified(self._difference(best))
             reasons = self._undetermined(known, best)
             for k in reasons:
@@ -124,7 +129,10 @@ class Fitter:
             after = self._difference(best)
         last = self._identified(after)
         known = known or last
-        fits = tuple(self._told(k, best, known, last, reasons.get(k, "")) for k in range(len(self.unknowns)))
+        fits = tuple(
+            replace(self._told(k, best, known, last, reasons.get(k, "")), unjudged=not sensed)
+            for k in range(len(self.unknowns))
+        )
         return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted)
 
     def values(self, point: Float) -> dict[str, float]:
@@ -155,7 +163,10 @@ class Fitter:
         return min(self._tried, key=lambda each: each.misfit).point.copy()
 
     def _look(self, point: Float) -> Tried:
-        power = self.beside.power(self.values(point), 0)
+        try:
+            power = self.beside.power(self.values(point), 0)
+        except ValidityError:  # far from the scene, a twin may end early
+            return Tried(point, np.full(self._heard.shape, np.nan), _FAILED)
         if self._noise is not None:  # no twin is needed for it
             point = point.copy()
             point[self._noise] = self._noisy(power, point)
@@ -179,7 +190,8 @@ class Fitter:
         return self._heard - self._levels(self._nearest(point).power, point)
 
     def _nearest(self, point: Float) -> Tried:
-        return min(self._tried, key=lambda each: float(np.sum((each.point - point) ** 2)))
+        ran = [each for each in self._tried if each.misfit < _FAILED]
+        return min(ran, key=lambda each: float(np.sum((each.point - point) ** 2)))
 
     def _identified(self, difference: Float) -> Identified:
         """Work out what is determined of the free unknowns."""
@@ -216,23 +228,23 @@ class Fitter:
         return power
 
     def _undetermined(self, known: Identified, point: Float) -> dict[int, str]:
-        """Find what is to be left, with the reason."""
-        reasons = {
-            k: f"not determined: its interval is {100 * known.share[k]:.0f} % as wide as its range"
-            for k in self._free
-            if known.share[k] >= AS_WIDE
-        }
-        if self._noise is not None and self._noise not in reasons and self._silent(known, point):
-            reasons[self._noise] = "not determined: it is not heard beside all else"
+        """Find what is to be left, with the reason: of two that are alike one, then what is still wide."""
+        reasons = dict[int, str]()
         for k in sorted(self._free, key=lambda each: -known.share[each]):
             others = [j for j in self._free if j != k and j not in reasons]
-            if k in reasons or not others:
+            if not others:
                 continue
             j = max(others, key=lambda each: abs(known.correlation[k, each]))
             if abs(known.correlation[k, j]) >= TOGETHER:
                 reasons[k] = (
                     f"not told apart from {self.unknowns[j].name}: correlation {known.correlation[k, j]:.2f}"
                 )
+        self._free = [k for k in self._free if k not in reasons]
+        for k, share in zip(self._free, self._identified(self._difference(point)).share, strict=True):
+            if share >= AS_WIDE:
+                reasons[k] = f"not determined: its interval is {100 * share:.0f} % as wide as its range"
+            elif k == self._noise and self._silent(known, point):
+                reasons[k] = "not determined: it is not heard beside all else"
         return reasons
 
     def _silent(self, known: Identified, point: Float) -> bool:

@@ -49,8 +49,8 @@ class Identified:
 
     @property
     def share(self) -> Float:
-        """Width of each interval over that of what is anywhere in the box, shape [unknown], 1 for no news."""
-        return np.asarray(np.minimum(self.deviation / PRIOR, 1.0), np.float64)
+        """Width of each interval over that of the box, shape [unknown], 1 for no news."""
+        return np.asarray(np.minimum(2.0 * self.factor * self.deviation, 1.0), np.float64)
 
 
 def identified(
@@ -91,7 +91,8 @@ def identified(
     gain = posterior @ (slope.T * weight)
     drawn = scatter @ gain.T
     by_band = gain.reshape(-1, *shape).sum(axis=1) * model
-    octaves = np.add.reduceat(by_band, np.arange(0, shape[-1], SHARE), axis=-1).reshape(len(gain), -1)
+    octaves = np.add.reduceat(by_band, np.arange(0, shape[-1], SHARE), axis=-1)
+    octaves = octaves.reshape(len(gain), int(np.prod(octaves.shape[1:])))  # of no unknown, too
     moved = drawn.T @ drawn / max(count - 1, 1) * (1.0 + 1.0 / count) + octaves @ octaves.T
     moved = moved * max(excess, 1.0)
     left = posterior @ posterior / PRIOR**2  # of the box, where levels say nothing

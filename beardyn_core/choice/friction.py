@@ -22,9 +22,9 @@ _SMALLEST_DRIFT = 0.01  # that a reason mentions, [K]
 _SHORT = 60.0
 # Torque goes about with this power of the viscosity, which falls with `temperature_coefficient`.
 _VISCOSITY_POWER = 0.66
-# What raceways lose by the creep of skewed rollers over what the ribs lose, twice what the audit of `full`
-# found: 0.003 to 0.011 with films, 0.012 to 0.033 without, 5 to 80 kN at 80 to 300 km/h.
-_CREEP, _DRY_CREEP = 0.02, 0.07
+# What raceways lose by the creep of skewed rollers over what the ribs lose: twice what the audit of `full`
+# finds with films and without, see evidence/automatic/torque.py.
+_CREEP, _DRY_CREEP = 0.022, 0.07
 
 
 def traction(evidence: Evidence) -> Rule:

@@ -32,8 +32,8 @@ _REFERENCE_LAMINAE = 40
 _BAND = 0.2316
 # One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
 _QUASISTATIC_SHARE = 0.005
-# Torque that a tier may miss over that of the pockets as the losses estimate it. Beside runs of `full` with
-# every effect, 20 to 80 kN at 80 to 300 km/h: at most 0.67 and 1.95.
+# Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
+# every effect: see evidence/automatic/torque.py.
 _POCKETS = {"quasistatic": 0.7, "lumped": 2.0}
 
 

@@ -47,7 +47,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         metavar="N",
         type=int,
         default=80,
-        help="runs of the twin at each speed of the recordings, of a second or more; default 80",
+        help="runs of the twin at each speed of the recordings, of a second or more; at least 42, default 80",
     )
     parser.add_argument(
         "--tier",

@@ -28,7 +28,7 @@ def envelope_order_spectrum(vibration: Signal, shaft: Turning, highest_order: fl
     Returns
     -------
     OrderSpectrum or None
-        ``None`` when the shaft makes fewer than four revolutions: nothing to resolve then.
+        ``None`` when the shaft makes fewer than four revolutions, or nothing is sampled in the band.
     """
     settings = MonitorSettings()
     if len(vibration) < 1024 or len(shaft) < 2:
@@ -43,5 +43,7 @@ def envelope_order_spectrum(vibration: Signal, shaft: Turning, highest_order: fl
     if (angle[-1] - angle[0]) / (2.0 * np.pi) < LEAST_REVOLUTIONS or np.any(np.diff(angle) <= 0.0):
         return None
     rate = (len(time) - 1) / (time[-1] - time[0])
+    if 0.5 * rate <= settings.band[0]:
+        return None
     tracked = resample_by_angle(envelope(signal, rate, settings.band), angle, settings.samples_per_revolution)
     return order_spectrum(tracked, settings.samples_per_revolution, highest_order, settings.background_width)

@@ -196,7 +196,7 @@ class MessageSource:
     def followed(self) -> arrays.Told:
         """Give `Run.followed`; the last word, which repeats what was said, is left out."""
         told = (decode_told(cdr) for cdr in self._of("follower/estimate"))
-        return tuple(each for each in told if not each["final"])
+        return tuple(each for each in told if not each.get("final"))
 
     def residuals(self) -> arrays.Told:
         return tuple(decode_told(cdr) for cdr in self._of("follower/residual"))

@@ -23,6 +23,7 @@ _COLOURS = ((80, 145, 255), *2 * ((120, 170, 235),), *2 * ((150, 165, 190),))
 _HEARD, _TWIN, _TOLERANCE, _FRAME = (80, 145, 255), (230, 155, 30), (230, 155, 30, 110), (128, 134, 148)
 # ending of a key -> unit that is shown, factor from SI to it, and what is taken away before
 _SHOWN = {"N": ("kN", 1e-3, 0.0), "m": ("mm", 1e3, 0.0), "K": ("°C", 1.0, 273.15)}
+_SHOWN_OF = {"depth_m": ("µm", 1e6, 0.0)}
 _DECADES = (100.0, 1000.0, 10_000.0)
 _LEVEL_STEP = 20.0  # of the labels, [dB]
 
@@ -47,9 +48,11 @@ def log_estimates(stream: rr.RecordingStream, steps: Told) -> None:
     time_ns = np.array([round(1e9 * each["time_s"]) for each in known], np.int64)
     for key in quantities_of(steps):
         _style(stream, key)
-        _, factor, offset = _SHOWN[key.rpartition("_")[2]]
-        rows = (np.array([_row(each["estimates"][key]) for each in known]) - offset) * factor
-        send(stream, f"{ESTIMATES}/{key}", time_ns, rr.Scalars.columns(scalars=rows))
+        _, factor, offset = _shown(key)
+        told = np.array([key in each["estimates"] for each in known])  # another estimator may have taken over
+        rows = [_row(each["estimates"][key]) for each in known if key in each["estimates"]]
+        columns = rr.Scalars.columns(scalars=(np.array(rows) - offset) * factor)
+        send(stream, f"{ESTIMATES}/{key}", time_ns[told], columns)
     for stamp, each in zip(time_ns, known, strict=True):
         stream.set_time(TIMELINE, duration=np.timedelta64(int(stamp), "ns"))
         stream.log(HEALTH, rr.TextLog("; ".join([each["health"], *each["doubts"]])))
@@ -112,7 +115,7 @@ def follower_view(quantities: Sequence[str]) -> rrb.Container:
     curves = [
         rrb.TimeSeriesView(
             origin=f"{ESTIMATES}/{key}",
-            name=f"{key.rpartition('_')[0].replace('_', ' ')}, {_SHOWN[key.rpartition('_')[2]][0]}",
+            name=f"{key.rpartition('_')[0].replace('_', ' ')}, {_shown(key)[0]}",
             plot_legend=legend,
         )
         for key in quantities
@@ -124,6 +127,10 @@ def follower_view(quantities: Sequence[str]) -> rrb.Container:
         row_shares=[3.0, 1.0],
     )
     return rrb.Horizontal(rrb.Grid(*curves), beside, column_shares=[1.2, 1.0], name="follower")
+
+
+def _shown(key: str) -> tuple[str, float, float]:
+    return _SHOWN_OF.get(key) or _SHOWN[key.rpartition("_")[2]]
 
 
 def _row(told: Mapping[str, Any]) -> list[float]:

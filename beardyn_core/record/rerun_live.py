@@ -113,7 +113,7 @@ class LiveView:
         if name == FOLLOWED[1]:
             log_residual(self._stream, told)
             return
-        if told["final"]:  # the last word, which repeats what was said
+        if told.get("final"):  # the last word, which repeats what was said
             return
         quantities = quantities_of((told,))
         if quantities and quantities != self._estimates:

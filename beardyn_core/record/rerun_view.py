@@ -110,7 +110,8 @@ def _check_writable(path: Path, name: Path) -> None:
 
 
 BACKGROUND = (16, 19, 26)
-CLOSE_WINDOW = (-0.02, 0.18)  # about the time that is shown, [s]
+# about the time that is shown, [s]; a running twin has nothing behind it
+CLOSE_WINDOW, LIVE_WINDOW = (-0.02, 0.18), (-0.18, 0.02)
 PLAYBACK_SPEED = 0.05
 
 
@@ -152,7 +153,8 @@ def blueprint(
     ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
-    pages = [] if run is None else [_bearing_view(run, whole, ranges or {})]
+    close = _window(rr.TimeRangeBoundary.cursor_relative, *(LIVE_WINDOW if follow else CLOSE_WINDOW))
+    pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {})]
     pages += [follower_view(estimates)] if estimates else []
     play: dict[str, Any] = {"play_state": "following"}
     if not follow:
@@ -169,6 +171,7 @@ def blueprint(
 def _bearing_view(
     run: RunDescription,
     whole: rrb.archetypes.TimeAxis | None,
+    close: rrb.archetypes.TimeAxis,
     ranges: Mapping[str, tuple[float, float]],
 ) -> rrb.Container:
     """Lay out the bearing with the scale of its colours on the left, curves on the right."""
@@ -179,7 +182,6 @@ def _bearing_view(
         look_target=np.array([0.0, 0.0, 0.08]) * outer_diameter,
         eye_up=(0.0, 0.0, 1.0),
     )
-    close = _window(rr.TimeRangeBoundary.cursor_relative, *CLOSE_WINDOW)
 
     def curves(entity: str, name: str, axis: rrb.archetypes.TimeAxis | None = whole) -> rrb.TimeSeriesView:
         legend = rrb.PlotLegend(rrb.Corner2D.RightTop)

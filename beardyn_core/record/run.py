@@ -135,7 +135,10 @@ class Run:
 
     @cached_property
     def force_waveform(self) -> arrays.Signal:
-        """Force and moment of the rollers on the cup at 25.6 kHz, values [sample, 6], [N, N m]."""
+        """Force and moment of the rollers on the cup, values [sample, 6], [N, N m].
+
+        At 25.6 kHz, or the slower rate of the sensors.
+        """
         return self._take(self._source.force_waveform)
 
     @cached_property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from evidence.automatic import shipped
+from evidence.automatic import shipped, torque
 from evidence.automatic.page import row
 
 
@@ -33,3 +33,8 @@ def test_a_shipped_scene_has_a_row() -> None:
     line = shipped.row("static_5kN")
     assert line.startswith("| `static_5kN`")
     assert line.endswith("|")
+
+
+def test_a_row_of_torques_has_what_is_off_over_the_estimate_of_the_pockets() -> None:
+    line = torque.row("smooth_run", torque.Found(6.0, 0.005, 0.02, 0.36, 0.2, 6.1, 5.7))
+    assert line == "| `smooth_run` | 6.00 | 0.5 | 2.0 | 6.0 | 3.3 | +1.7 (0.50) | -5.0 (1.50) |"

@@ -219,9 +219,10 @@ def main(argv: list[str] | None = None) -> int:
     rows, growth = list[str](), ""
     for name, pieces in ((each, make()) for each, make in DRIFTS.items()):
         found = followed(pieces, rows_of(name, pieces, estimator, args.keep), estimator)
-        rows += told(name, pieces, found, estimator.stretch)
+        of_drift = told(name, pieces, found, estimator.stretch)
+        rows += of_drift
         growth = false_growth(found)  # of the last one, which is sound
-        print("\n".join(rows[-2:]), flush=True)
+        print("\n".join(of_drift), flush=True)
     page = with_section(PAGE.read_text(encoding="utf-8"), TITLE, section(rows, growth), NEXT)
     PAGE.write_text(page, encoding="utf-8")
     return 0

@@ -13,6 +13,7 @@ from beardyn_core.calibration.fitting import Fitter
 from beardyn_core.calibration.spectra import Hearing, Ride
 from beardyn_core.calibration.twin import Beside, Values
 from beardyn_core.calibration.unknowns import BY_NAME
+from beardyn_core.errors import ValidityError
 
 HEARING = Hearing(("y", "z"), 25_600.0, 1.0)
 MODES_HZ, DAMPING = (640.0, 1100.0, 2300.0), 0.03
@@ -28,6 +29,7 @@ class Law(Beside):
     silent: tuple[str, ...] = ()  # unknowns that nothing follows from
     alike: bool = False  # whether damping is heard as the background is
     interrupted_after: int = 10**9
+    most_damping: float = float("inf")  # beyond which twins end early
     _random: dict[int, Float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -38,6 +40,8 @@ class Law(Beside):
         self.runs += 1
         if self.runs > self.interrupted_after:
             raise KeyboardInterrupt
+        if values.get("damping", 1.0) > self.most_damping:
+            raise ValidityError("the twin ended early")
         heard = {
             name: BASES[name] if name in self.silent else values.get(name, BASES[name]) for name in BASES
         }

@@ -65,11 +65,24 @@ def test_one_unknown_alone_is_fitted_and_has_no_partner() -> None:
     assert (each.partner, each.correlation) == ("", 0.0)
 
 
-@pytest.mark.parametrize("runs", [12, 45])
+def test_a_recording_that_determines_nothing_leaves_the_scene_as_it_is() -> None:
+    (each,) = fitter({}, names=("end_play",), silent=("end_play",)).fit().fits
+    assert each.value == each.base
+    assert "not determined" in each.reason
+
+
+def test_a_twin_that_ends_early_costs_no_more_than_its_run() -> None:
+    found = fitter({"damping": 0.7}, most_damping=1.5).fit()
+    damping = next(each for each in found.fits if each.unknown.name == "damping")
+    assert damping.value == pytest.approx(0.7, rel=0.2)
+
+
+@pytest.mark.parametrize("runs", [12, 45, 55])
 def test_an_interrupted_search_leaves_the_best_so_far(runs: int) -> None:
     found = fitter(TRUTH, budget=60, interrupted_after=runs).fit()
     assert found.interrupted
     assert found.runs == runs + 1
+    assert all("best so far" in each.sentence for each in found.fits if not each.reason) == (runs < 50)
     assert np.sqrt(np.mean(found.after**2)) < np.sqrt(np.mean(found.before**2))
 
 
