@@ -24,7 +24,7 @@ _SHORT = 60.0
 _VISCOSITY_POWER = 0.66
 # What raceways lose by the creep of skewed rollers over what the ribs lose: twice what the audit of `full`
 # finds with films and without, see evidence/automatic/torque.py.
-_CREEP, _DRY_CREEP = 0.022, 0.07
+_CREEP, _DRY_CREEP = 0.05, 0.07
 
 
 def traction(evidence: Evidence) -> Rule:

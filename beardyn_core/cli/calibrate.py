@@ -31,7 +31,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--scene",
         metavar="SCENE",
         required=True,
-        help="sound scene of such an axlebox: what is fitted begins there, the rest stays",
+        help="sound scene of such an axlebox: what is fitted begins there, the rest stays; no default",
     )
     parser.add_argument(
         "-o", "--output", metavar="FILE.yaml", type=Path, help="scene to write; default none, it is told only"

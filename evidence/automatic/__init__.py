@@ -1,9 +1,10 @@
 """What `effects: auto` chooses, against the converged reference of the ladder.
 
-======= =======================================================
+======= ===========================================================
 module  responsibility
-======= =======================================================
+======= ===========================================================
 page    cases, their runs, and docs/automatic.md
 shipped what is chosen for every shipped scene: docs/choices.md
-======= =======================================================
+torque  what fast tiers miss of the torque: docs/effects_auto.md
+======= ===========================================================
 """

@@ -1,12 +1,14 @@
 """Write docs/trial.md from the trial.json of trials: ``python -m evidence.trial.page FOLDER [FOLDER ...]``.
 
-Folders are those of ``beardyn trial -o FOLDER``; trial.png of the first becomes docs/pictures/trial.png.
+Folders are those of ``beardyn trial -o FOLDER``. That of `default` makes the page and its picture; of others
+there are sections in it, which stay as they were when their folders are not given.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,10 @@ from evidence.trial.rivals import EVERY, Judged, orders, table
 PAGE = DOCS / "trial.md"
 PICTURE = PICTURES / "trial.png"
 COLOURS = 64
+DEFAULT = "default"
+NEXT = "## The monitor\n"
+# of another trial, or of other monitors
+_SECTION = re.compile(r"^## (?:`\w+`|Beside other monitors)\n(?:(?!## ).*\n)*", re.MULTILINE)
 EXAMPLE = DOCS / "examples" / "my_monitor.py"
 
 ABOUT = """
@@ -122,20 +128,48 @@ LIMITS = """
 
 
 def main() -> None:
-    """Write the page."""
+    """Write the page, or with folders of other trials than `default` their sections alone."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path, nargs="+", help="of `beardyn trial -o`, that of `default` first")
-    parser.add_argument("--rivals", type=Path, help="of `python -m evidence.trial.rivals -o`; default none")
+    parser.add_argument(
+        "--rivals", type=Path, help="of `python -m evidence.trial.rivals -o`; default as it was"
+    )
     args = parser.parse_args()
     folders = args.folder
-    found, *others = (json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders)
+    found = [json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders]
     rivals = [] if args.rivals is None else json.loads(args.rivals.read_text(encoding="utf-8"))
-    PAGE.write_text(page(found, others, [Judged(**each) for each in rivals]), encoding="utf-8")
-    save_small(folders[0] / "trial.png", PICTURE, COLOURS)
+    heard = "\n".join(_rivals([Judged(**each) for each in rivals]))
+    text = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    if found[0]["trial"] == DEFAULT:
+        text = with_old_sections(page(found[0]), text)
+        save_small(folders[0] / "trial.png", PICTURE, COLOURS)
+    others = [each for each in found if each["trial"] != DEFAULT]
+    for section in (heard, *("\n".join(_in_short(each)) for each in others)):
+        text = with_section_of(text, section)
+    PAGE.write_text(text, encoding="utf-8")
 
 
-def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = (), rivals: Sequence[Judged] = ()) -> str:
-    """Write the page of a trial's JSON object, of others in short, and of monitors over the same runs."""
+def with_old_sections(page: str, old: str) -> str:
+    """Take over what another page has of other trials and monitors."""
+    for section in _SECTION.findall(old):
+        page = with_section_of(page, section)
+    return page
+
+
+def with_section_of(page: str, section: str) -> str:
+    """Put a section in the place of that of its title, or behind those of the other trials."""
+    written = section.strip()
+    if not written:
+        return page
+    title = written.partition("\n")[0] + "\n"
+    start = page.find(title)
+    begin = page.index(NEXT) if start < 0 else start
+    end = begin if start < 0 else page.index("\n## ", start) + 1
+    return page[:begin] + written + "\n\n" + page[end:]
+
+
+def page(found: dict[str, Any]) -> str:
+    """Write the page of a trial's JSON object."""
     settings = MonitorSettings()
     about = ABOUT.format(
         rate=settings.false_alarm_rate,
@@ -178,8 +212,6 @@ def page(found: dict[str, Any], others: Sequence[dict[str, Any]] = (), rivals: S
         _analyses(found),
         *_check(found),
         *_invalid(found),
-        *_rivals(rivals),
-        *(line for other in others for line in _in_short(other)),
     ]
     return "\n".join(lines) + "\n" + about + LIMITS
 

@@ -10,7 +10,7 @@ from beardyn_core.choice import load_trial
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
-from evidence.trial.page import page
+from evidence.trial.page import page, with_old_sections, with_section_of
 from evidence.trial.rivals import Judged, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
@@ -33,7 +33,16 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     assert "## `quasistatic` against `full`" in text
     assert "did not come to their end" not in text
     assert "## `quick`" not in text
-    assert page(found, [found]).count("| cup | 6 | 3/3, 100 % (29 to 100) | 0 |") == 2
+
+
+def test_sections_of_other_trials_are_put_in_replaced_and_kept() -> None:
+    page = "# Trial\n\n## `quasistatic` against `full`\n\nchecked\n\n## The monitor\n\nabout\n"
+    one = with_section_of(page, "\n## `shapes`\n\none\n")
+    assert one.index("checked") < one.index("## `shapes`\n\none\n\n## The monitor")
+    two = with_section_of(one, "## `shapes`\n\ntwo\n")
+    assert two == one.replace("one", "two")
+    assert with_old_sections(page, two) == two
+    assert with_section_of(two, "") == two
 
 
 def test_a_spall_adds_its_own_power() -> None:

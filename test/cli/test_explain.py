@@ -16,7 +16,7 @@ def test_explain_says_what_a_fixed_scene_has_and_what_auto_would_choose(
     assert main(["explain", "static_80kN", "--accuracy", "3"]) == DONE
     said = capsys.readouterr().out
     assert "as the scene has it: tier full, 6 laminae" in said
-    assert "what `effects: auto` would choose: tier full" in said
+    assert "what `effects: auto` would choose: tier quasistatic" in said
     assert "within 3 %" in said
     assert "rolling_resistance" in said
     assert "N m of a torque of about" in " ".join(said.split())

@@ -49,7 +49,7 @@ def test_a_hot_box_is_called_beside_the_run_over_its_recording_and_in_a_trial(
 
 
 def test_run_and_blocks_feed_a_monitor_with_the_same_signals() -> None:
-    scene, memory = spalled(), MemorySink()
+    scene, memory = replace(spalled(), duration=1.2), MemorySink()  # long enough for a verdict that is clear
     desk_run.run(scene, [memory])
     live = list(listen(monitor_of(scene), map(MonitorInput.of_block, blocks(scene))))
     later = list(listen(monitor_of(scene), memory.to_run().monitor_inputs()))
