@@ -35,6 +35,7 @@ EXIT_CODES = {
 
 SPIN_SLICE_S = 0.1
 RETURN_PERIOD_S = 30.0
+LEAVING_TIMEOUT_S = 3.0
 
 
 class RunnableNode(Protocol):
@@ -75,13 +76,13 @@ def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
     from rclpy.executors import SingleThreadedExecutor
     from rclpy.signals import SignalHandlerOptions
 
-    from beardyn_ros.leaving import leave_quietly
+    from beardyn_ros.leaving import ended_after, leave_quietly
 
     logging.basicConfig(format="%(message)s", level=logging.INFO, stream=sys.stderr)
     stop = Event()
     previous = {number: signal.signal(number, _stopper(stop)) for number in (signal.SIGINT, signal.SIGTERM)}
     node: Any = None
-    code = EXIT_DONE
+    code = 1  # until something is known: that of an exception which nobody expects
     problems: list[str] = []
     try:
         stray = stray_arguments(argv)
@@ -116,13 +117,15 @@ def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
                 alive = bool(node.close())
             except InputError as error:  # such as a disk that refuses the rest, too
                 problems += [each for each in error.problems if each not in problems]
-            leave_quietly(node)
-        rclpy.try_shutdown()
+        for sentence in problems:
+            print(f"beardyn: {sentence}", file=sys.stderr)
+            code = EXIT_BAD_INPUT
+        with ended_after(LEAVING_TIMEOUT_S, code):
+            if node is not None:
+                leave_quietly(node)
+            rclpy.try_shutdown()
         for number, handler in previous.items():
             signal.signal(number, handler)
-    for sentence in problems:
-        print(f"beardyn: {sentence}", file=sys.stderr)
-        code = EXIT_BAD_INPUT
     if alive:
         # A thread is inside the compiler, which cannot be interrupted; nothing is left to save.
         sys.stdout.flush()

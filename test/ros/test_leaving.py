@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -29,6 +31,16 @@ def test_newcomers_are_found_within_half_a_second(capfd: pytest.CaptureFixture[s
     told = re.search(r"found after ([\d.]+) s", capfd.readouterr().out)
     assert told
     assert float(told[1]) < 0.5
+
+
+def test_a_node_that_cannot_leave_ends_with_its_code_nevertheless() -> None:
+    """Even where the interpreter is held for good, as rclpy holds it when it destroys."""
+    leaves = (
+        "import ctypes; from beardyn_ros.leaving import ended_after\n"
+        "with ended_after(60.0, 7): pass\n"
+        "with ended_after(0.2, 5): ctypes.PyDLL(None).sleep(50)"
+    )
+    assert subprocess.run([sys.executable, "-c", leaves], check=False, timeout=40.0).returncode == 5
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda path: path.stem)
