@@ -13,7 +13,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--scene", default="cup_spall", metavar="SCENE", help="shipped scene or YAML file; default cup_spall"
     )
     parser.add_argument(
-        "--out", default=Path("demo"), type=Path, metavar="DIR", help="folder for the results; default demo"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        default=Path("demo"),
+        help="folder for the results; default demo",
     )
     parser.add_argument(
         "--effects",

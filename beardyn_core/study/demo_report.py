@@ -47,12 +47,16 @@ def demo_folder(folder: Path, *, inputs: Sequence[Path] = (), force: bool = Fals
     InputError
         It cannot be made or written, or it holds results already.
     """
-    if folder.exists() and (problems := folder_problems("--out", folder, FILES, inputs=inputs, force=force)):
+    if folder.exists() and (
+        problems := folder_problems("--output", folder, FILES, inputs=inputs, force=force)
+    ):
         raise InputError(problems)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"--out {folder}: cannot be written ({error.strerror}); choose another") from error
+        raise InputError(
+            f"--output {folder}: cannot be written ({error.strerror}); choose another"
+        ) from error
     return folder
 
 

@@ -31,6 +31,7 @@ from beardyn_core.study.ladder_report import (
 )
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES, UNITS
+from evidence.ladder import front
 from evidence.pages import DOCS, save_small
 from evidence.standard import standard_scene
 
@@ -265,6 +266,8 @@ def main() -> None:
     )
     page = "\n".join([head, *summary(ladders), *lines])
     (arguments.to / "ladder.md").write_text(page.rstrip("\n") + "\n", encoding="utf-8")
+    if arguments.to == DOCS:
+        front.main()
 
 
 if __name__ == "__main__":

@@ -6,7 +6,9 @@ from pathlib import Path
 
 from beardyn_core.choice import load_scene
 from beardyn_core.study.ladder import plan_of
+from evidence.ladder import front
 from evidence.ladder.page import section, summary
+from evidence.pages import DOCS
 from test.study.test_ladder import FakeRuns, climbed
 
 
@@ -19,3 +21,10 @@ def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> No
     for row in ladder.rows:
         assert sum(line.startswith("|") and row.level.name in line for line in lines) == 1
     assert any("static_80kN" in line and "middle" in line for line in summary([ladder]))
+
+
+def test_the_front_on_the_first_page_is_that_of_the_ladder() -> None:
+    readme = front.README.read_text(encoding="utf-8")
+    ladder = (DOCS / "ladder.md").read_text(encoding="utf-8")
+    assert readme == front.renewed(readme, ladder)
+    assert "| auto 5 % |" in front.front(ladder)

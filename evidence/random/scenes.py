@@ -355,7 +355,7 @@ OWN: dict[tuple[str, str], Any] = {
     ("Accelerometer", "name"): lambda chance: f"sensor_{int(chance.integers(10**6))}",
     ("Accelerometer", "position"): _vector(300.0, 0.8),
     ("Accelerometer", "type"): _named(SENSORS, 0.3),
-    ("Accelerometer", "rate"): lambda chance: of((25.6, 51.2), chance),
+    ("Accelerometer", "rate"): lambda chance: of((3.2, 6.4, 12.8, 25.6, 25.6, 51.2), chance),
     ("Accelerometer", "measured_paths"): _left_out,
     ("Background", "name"): lambda _chance: "background",
     ("Background", "description"): _left_out,

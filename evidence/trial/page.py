@@ -123,7 +123,7 @@ LIMITS = """
   of the way to the next, nothing is quiet in the load zone, and 19 and 22 of 64 sectors counted as strikes of
   a round wheel at 160 and 250 km/h. Strikes must come at once now;
   `python -m evidence.trial.wide_spalls` has no sector left out and names the cone in all four runs.
-  Flats keep the sectors they had. `healthy_500` and `shapes` above are of the monitor before that change.
+  Flats keep the sectors they had.
 """
 
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import sys
+import threading
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +22,7 @@ from beardyn_core.config import config_folder, load_bearing
 from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import MonitorResult
+from beardyn_core.observe.chain.patience import WAITED_FOR, NoAnswerError, within
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.record.mcap_scanning import McapScan
@@ -200,9 +204,26 @@ def wordless(*_: object) -> str:
     return "cup"
 
 
+def endless(*_: object) -> MonitorResult:
+    while True:
+        pass
+
+
+def asleep(*_: object) -> MonitorResult:
+    time.sleep(4.0)
+    return MonitorResult("cup", "a fault", 0)
+
+
+def quitting(*_: object) -> MonitorResult:
+    sys.exit(3)
+
+
 @pytest.mark.parametrize(
     ("algorithm", "words"),
     [
+        (endless, ["test_doubtful_inputs:endless has not answered within 0.5 s", __file__, "in endless"]),
+        (asleep, ["test_doubtful_inputs:asleep has not answered within 0.5 s", __file__, "in asleep"]),
+        (quitting, ["test_doubtful_inputs:quitting has failed: SystemExit: 3", __file__, "in quitting"]),
         (failing, ["test_doubtful_inputs:failing has failed: KeyError: 'cone'", __file__, "in failing"]),
         (misspelt, ["answered the verdict 'outer ring'; allowed are waiting, healthy, cup"]),
         (short, ["answered 1 scores; there must be one for each of cup, cone, roller"]),
@@ -210,9 +231,11 @@ def wordless(*_: object) -> str:
     ],
 )
 def test_a_monitor_of_one_s_own_that_goes_wrong_is_a_sentence(
-    algorithm: Callable[..., MonitorResult], words: list[str]
+    algorithm: Callable[..., MonitorResult], words: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from beardyn_core.bearing.kinematics import fault_frequencies
+
+    monkeypatch.setattr("beardyn_core.observe.chain.named.PATIENCE_S", 0.5)
 
     monitor = Monitor(fault_frequencies(BEARING), BEARING.roller_count, algorithm=algorithm)
     time_ns = np.arange(0, 4 * 25_600, dtype=np.int64) * 1_000_000_000 // 25_600
@@ -222,6 +245,15 @@ def test_a_monitor_of_one_s_own_that_goes_wrong_is_a_sentence(
         monitor.result()
     for word in words:
         assert word in str(refused.value)
+
+
+def test_a_monitor_that_never_answers_is_ended_and_takes_no_processor_time() -> None:
+    with pytest.raises(NoAnswerError):
+        within(0.05, endless)
+    left = [each for each in threading.enumerate() if each.name == WAITED_FOR]
+    for each in left:
+        each.join(10.0)
+        assert not each.is_alive()
 
 
 def test_the_monitor_command_tells_of_a_cut_recording_and_of_another_bearing(

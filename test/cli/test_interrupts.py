@@ -127,7 +127,7 @@ COMMANDS = [
     (["simulate", "static_5kN", "-o", "run.mcap"], "nothing has been written"),
     (["trial", "quick", "-o", "out"], "0 of 51 runs are done; the same command goes on"),
     (["ladder", "static_5kN", "--quick", "-o", "out"], "no level has been run"),
-    (["demo", "--out", "out"], "nothing has been written"),
+    (["demo", "--output", "out"], "nothing has been written"),
     (["contacts", "--quick", "-o", "out"], "nothing has been written"),
 ]
 # one command at once, one later in its own process and one with others; the rest stop in the same place

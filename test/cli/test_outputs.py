@@ -88,7 +88,7 @@ def test_existing_files_are_replaced_only_with_force(
         (["contacts", "--rrd", str(notes)], f"--rrd {notes}"),
         (["contacts", "-o", str(folder)], f"--output {folder / 'contacts_nine.png'}"),
         (["ladder", "static_5kN", "-o", str(folder)], f"--output {folder / 'ladder.json'}"),
-        (["demo", "--out", str(folder)], f"--out {folder / 'summary.png'}"),
+        (["demo", "--output", str(folder)], f"--output {folder / 'summary.png'}"),
     ):
         assert command.main(words) == command.BAD_INPUT
         assert f"{named}: the file exists; --force replaces it" in capsys.readouterr().err
@@ -275,7 +275,7 @@ def test_the_measured_run_of_a_scene_made_before_is_not_written_over(tmp_path: P
         "scene: again\npurpose: once more\nbearing: HS130x230\nlubricant: LGEP2\n"
         "operation: {kind: mcap, path: demo/run.mcap}\n"
     )
-    words = ["demo", "--scene", str(tmp_path / "again.yaml"), "--out", str(demo), "--force", "--no-view"]
+    words = ["demo", "--scene", str(tmp_path / "again.yaml"), "--output", str(demo), "--force", "--no-view"]
     assert command.main(words) == command.BAD_INPUT
     assert (demo / "run.mcap").read_bytes() == before
 

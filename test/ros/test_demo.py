@@ -17,7 +17,9 @@ def children_of(graph: Graph, name: str) -> list[psutil.Process]:
 
 def test_demo_refuses_an_unknown_scene_and_starts_nothing(graph: Graph) -> None:
     out = graph.folder / "out"
-    graph.processes.start("demo", "-m", "beardyn_ros", "demo", "--scene", "no_such_scene", "--out", str(out))
+    graph.processes.start(
+        "demo", "-m", "beardyn_ros", "demo", "--scene", "no_such_scene", "--output", str(out)
+    )
     assert graph.exit_code("demo") == 2
     log = graph.processes.log("demo")
     assert "no_such_scene" in log
@@ -28,7 +30,7 @@ def test_demo_refuses_an_unknown_scene_and_starts_nothing(graph: Graph) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_no_node_outlives_a_demo_that_is_interrupted_or_killed(graph: Graph, number: signal.Signals) -> None:
     out = graph.folder / "out"
-    graph.processes.start("demo", "-m", "beardyn_ros", "demo", "--out", str(out))
+    graph.processes.start("demo", "-m", "beardyn_ros", "demo", "--output", str(out))
     graph.until(lambda: len(children_of(graph, "demo")) >= 3, "the nodes of the demo")
     nodes = children_of(graph, "demo")
     graph.processes.signal("demo", number)
@@ -42,7 +44,7 @@ def test_no_node_outlives_a_demo_that_is_interrupted_or_killed(graph: Graph, num
 @pytest.mark.slow
 def test_demo_finds_the_spall_and_leaves_its_files(graph: Graph) -> None:
     out = graph.folder / "out"
-    words = ["--scene", "cup_spall", "--duration", "2.5", "--no-view", "--out", str(out)]
+    words = ["--scene", "cup_spall", "--duration", "2.5", "--no-view", "--output", str(out)]
     graph.processes.start("demo", "-m", "beardyn_ros", "demo", *words)
     assert graph.processes.wait("demo", timeout=280.0) == 0, graph.processes.log("demo")
     log = graph.processes.log("demo")

@@ -13,9 +13,12 @@ from beardyn_core.errors import InputError
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
 from beardyn_core.observe.chain.fault_lines import FAULTS
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.observe.chain.patience import NoAnswerError, within
 from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
 
 _CORE = Path(__file__).resolve().parents[2]
+_STANDARD_LIBRARY = Path(traceback.__file__).parent
+PATIENCE_S = 300.0  # with one analysis of a monitor of one's own: it may search, but a trial goes on
 OURS = "beardyn_core.observe.chain:REFERENCE"
 
 
@@ -72,14 +75,18 @@ def answer_of(
     Raises
     ------
     InputError
-        It has failed, or its answer is not a `MonitorResult` that can be used.
+        It has failed, has not answered within `PATIENCE_S`, or its answer is not a `MonitorResult` that can
+        be used.
     """
     if algorithm is REFERENCE:
         return algorithm(stretch, orders, roller_count, settings)
     name = f"{getattr(algorithm, '__module__', '?')}:{getattr(algorithm, '__qualname__', algorithm)}"
     try:
-        result = algorithm(stretch, orders, roller_count, settings)
-    except Exception as error:
+        result = within(PATIENCE_S, lambda: algorithm(stretch, orders, roller_count, settings))
+    except NoAnswerError as error:
+        sentence = f"the monitor {name} has not answered within {PATIENCE_S:g} s{_place(error.frames)}"
+        raise InputError(sentence) from None
+    except (Exception, SystemExit) as error:
         raise InputError(f"the monitor {name} has failed: {_failure(error)}") from error
     if not isinstance(result, MonitorResult):
         raise InputError(f"the monitor {name} answered a {type(result).__name__}; it must be a MonitorResult")
@@ -95,13 +102,17 @@ def answer_of(
     return result
 
 
-def _failure(error: Exception) -> str:
-    """Write the exception, and the last line of the monitor's own code in its traceback."""
-    frames = traceback.extract_tb(error.__traceback__)[1:]
-    own = [
-        frame
-        for frame in frames
-        if "site-packages" not in frame.filename and not Path(frame.filename).is_relative_to(_CORE)
-    ] or frames
-    where = f", {own[-1].filename}, line {own[-1].lineno}, in {own[-1].name}" if own else ""
-    return f"{type(error).__name__}: {error}{where}"
+def _failure(error: BaseException) -> str:
+    """Write the exception, and where in the monitor's own code it was."""
+    return f"{type(error).__name__}: {error}{_place(traceback.extract_tb(error.__traceback__))}"
+
+
+def _place(frames: traceback.StackSummary) -> str:
+    """Write the innermost line of frames that is the monitor's own code; '' without any frame beyond ours."""
+    beyond = [frame for frame in frames if not Path(frame.filename).is_relative_to(_CORE)]
+    own = [frame for frame in beyond if not _is_of_a_library(frame.filename)] or beyond
+    return f", {own[-1].filename}, line {own[-1].lineno}, in {own[-1].name}" if own else ""
+
+
+def _is_of_a_library(filename: str) -> bool:
+    return "site-packages" in filename or Path(filename).is_relative_to(_STANDARD_LIBRARY)

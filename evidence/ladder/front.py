@@ -1,0 +1,56 @@
+"""The front of accuracy over cost for README.md, from docs/ladder.md: ``python -m evidence.ladder.front``."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from evidence.pages import DOCS
+
+README = DOCS.parent / "README.md"
+SCENE = "service_high_speed"
+BEGIN, END = "<!-- evidence.ladder.front -->\n", "<!-- end of evidence.ladder.front -->\n"
+_ROW = re.compile(rf"^\| {SCENE} \| (.+)$", re.MULTILINE)
+_MACHINE = re.compile(r"on one core of\n(.+?) \(", re.DOTALL)
+
+
+def front(ladder: str) -> str:
+    """Write the efficient levels of one scene.
+
+    Parameters
+    ----------
+    ladder : str
+        The page of the ladder.
+    """
+    machine = _MACHINE.search(ladder)
+    assert machine is not None
+    rows = [f"| {row}" for row in _ROW.findall(ladder)]
+    return "\n".join(
+        [
+            f"What accuracy costs in [`{SCENE}`](docs/ladder.md), a sound bearing of a driven axle at 200 "
+            f"km/h in a box that rings, on one core of {machine[1]}: no cheaper level is as good as one of "
+            "these.",
+            "",
+            "| tier, effects | s of a core for 1 s | force % | deflection % | roller load % | torque % "
+            "| vibration dB |",
+            "|---|--:|--:|--:|--:|--:|--:|",
+            *rows,
+            "",
+        ]
+    )
+
+
+def renewed(readme: str, ladder: str) -> str:
+    """Put the front of a page of the ladder into the text of README.md."""
+    start, end = readme.index(BEGIN) + len(BEGIN), readme.index(END)
+    return f"{readme[:start]}\n{front(ladder)}\n{readme[end:]}"
+
+
+def main(ladder: Path = DOCS / "ladder.md") -> None:
+    """Renew README.md."""
+    text = renewed(README.read_text(encoding="utf-8"), ladder.read_text(encoding="utf-8"))
+    README.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
