@@ -162,7 +162,7 @@ def calibrate(
             tuple(each.shaft_frequency for each in rides),
             sum(len(each.levels) for each in rides),
         )
-        labels = ", ".join(run.label for run, _, _ in heard)
+        labels = ", ".join(Path(run.label).name for run, _, _ in heard)
         head = f"Scene of one axlebox: {twin.name} fitted to {labels} by `beardyn calibrate`, tier {tier}."
         made = replace(made, text=scene_text(data, [head, *made.sentences]))
         if output:
