@@ -108,6 +108,11 @@ class Evidence:
         return min(hearing, third_octave_end(self.band))
 
     @cached_property
+    def losses_without_weight(self) -> Losses:
+        """Those of rollers without weight, which idle ones do not lay on the cage."""
+        return Losses(self.scene, self.loads.typical, self.typical, gravity=0.0)
+
+    @cached_property
     def torque(self) -> float:
         """Torque of the reference under the typical load, [N m]."""
         return self.losses.total

@@ -69,8 +69,10 @@ class Drive:
 class Losses:
     """Torque by source of a scene with the reference's effects under one load, in pure rolling."""
 
-    def __init__(self, scene: Scene, case: LoadCase, static: StaticSolution) -> None:
-        self.scene, self.case, self.static = scene, case, static
+    def __init__(
+        self, scene: Scene, case: LoadCase, static: StaticSolution, gravity: float = _STANDARD_GRAVITY
+    ) -> None:
+        self.scene, self.case, self.static, self.gravity = scene, case, static, gravity
         self.speed = abs(case.speed)
         bearing = scene.bearing
         self._entrainment = entrainment_speeds(bearing, self.speed)
@@ -189,7 +191,7 @@ class Losses:
     def pocket_force(self) -> float:
         """Normal forces of all pockets, [N]."""
         idle = int(np.count_nonzero(self.static.cone_load <= 0.0))
-        weight = _STANDARD_GRAVITY * self.scene.bearing.roller_mass * 2.0 / math.pi
+        weight = self.gravity * self.scene.bearing.roller_mass * 2.0 / math.pi
         return 2.0 * idle * (self._drag()[0] + weight)
 
     @property

@@ -14,6 +14,7 @@ from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_o
 from beardyn_core.effects import LaminaCoupling
 
 _LAMINAE = 20
+_NOTABLE = 0.01  # of the torque
 _DEPTH = 1.0e-5  # of a working load [m]
 
 
@@ -33,16 +34,24 @@ def gravity(evidence: Evidence) -> Rule:
         # where they lie decides what they hit: no estimate of a level is known, so the bound is taken
         reason += "; where idle rollers and cages rattle is theirs to decide"
         influence["vibration"] = MOST_DB
-    drive = evidence.losses.drive(scene.effects.traction, scene.effects.film)
+    losses, light = evidence.losses, evidence.losses_without_weight
+    drive = losses.drive(scene.effects.traction, scene.effects.film)
+    # idle rollers lie on the cage, which loaded ones have to push
+    slip = abs(drive.slip - light.drive(scene.effects.traction, scene.effects.film).slip)
+    torque = abs(losses.total - light.total)
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
-        rollers = effect.acceleration * rolling * 2.0 / math.pi
-        part = drive.share(rollers)
+        part = drive.share(effect.acceleration * rolling * 2.0 / math.pi)
         reason += f", and {percent(part)} of what brakes rollers that hardly stick"
-        moved = evidence.slipping(0.5 * part)
-        influence |= {"torque": evidence.torque_share(part * drive.torque), "cage_speed": moved["cage_speed"]}
-        influence["roller_load"] += moved["roller_load"]
-        influence["deflection"] += moved["deflection"]
+        slip, torque = max(slip, part), max(torque, part * drive.torque)
+    moved = evidence.slipping(0.5 * slip)
+    influence |= {"torque": evidence.torque_share(torque), "cage_speed": moved["cage_speed"]}
+    influence["roller_load"] += moved["roller_load"]
+    influence["deflection"] += moved["deflection"]
+    if evidence.torque_share(torque) > _NOTABLE:
+        reason += (
+            f"; idle ones that lie on the cage make {percent(evidence.torque_share(torque))} of the torque"
+        )
     return on_or_off("gravity", effect, reason, influence, evidence.costs.saved("gravity"))
 
 
