@@ -23,7 +23,9 @@ COLOURS = 64
 DEFAULT = "default"
 NEXT = "## The monitor\n"
 # of another trial, or of other monitors
-_SECTION = re.compile(r"^## (?:`\w+`|Beside other monitors)\n(?:(?!## ).*\n)*", re.MULTILINE)
+_SECTION = re.compile(
+    r"^## (?:`\w+`|Beside other monitors|With the effects `standard`)\n(?:(?!## ).*\n)*", re.MULTILINE
+)
 EXAMPLE = DOCS / "examples" / "my_monitor.py"
 
 ABOUT = """
@@ -134,17 +136,24 @@ def main() -> None:
     parser.add_argument(
         "--rivals", type=Path, help="of `python -m evidence.trial.rivals -o`; default as it was"
     )
+    parser.add_argument(
+        "--standard", type=Path, help="of the last one with `--effects standard`; default as it was"
+    )
     args = parser.parse_args()
     folders = args.folder
     found = [json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders]
     rivals = [] if args.rivals is None else json.loads(args.rivals.read_text(encoding="utf-8"))
     heard = "\n".join(_rivals([Judged(**each) for each in rivals]))
+    beside = ""
+    if args.standard is not None:
+        standard = json.loads((args.standard / "trial.json").read_text(encoding="utf-8"))
+        beside = "\n".join(beside_standard(found[-1], standard))
     text = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     if found[0]["trial"] == DEFAULT:
         text = with_old_sections(page(found[0]), text)
         save_small(folders[0] / "trial.png", PICTURE, COLOURS)
     others = [each for each in found if each["trial"] != DEFAULT]
-    for section in (heard, *("\n".join(_in_short(each)) for each in others)):
+    for section in (heard, *("\n".join(_in_short(each)) for each in others), beside):
         text = with_section_of(text, section)
     PAGE.write_text(text, encoding="utf-8")
 
@@ -229,6 +238,29 @@ def _in_short(found: dict[str, Any]) -> list[str]:
         *_slices(found),
         _analyses(found),
         *_invalid(found),
+    ]
+
+
+def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> list[str]:
+    """List what a trial found with the effects that its accuracy needs, and with `standard`."""
+    if (one := right["trial"]) != (other := standard["trial"]):
+        raise SystemExit(f"--standard is of the trial {other}; the last folder is of {one}")
+    rows = zip(right["slices"], standard["slices"], strict=True)
+    return [
+        "",
+        "## With the effects `standard`",
+        "",
+        f"The runs of `{one}` with the effects that `auto` takes, and with `--effects standard`, which "
+        "leave out rolling resistance and seals. The box that rings, background, sensors and the bearings of the lot "
+        "are those of the scene and stay: what the monitor finds is decided by them.",
+        "",
+        "| | found, `auto` | found, `standard` | false alarms, `auto` | false alarms, `standard` |",
+        "|---|--:|--:|--:|--:|",
+        *(
+            f"| {a['name']} | {_rate(a['found'])} | {_rate(b['found'])} | {_rate(a['false_alarms'])} | "
+            f"{_rate(b['false_alarms'])} |"
+            for a, b in rows
+        ),
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from beardyn_core.choice import load_trial
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
-from evidence.trial.page import page, with_old_sections, with_section_of
+from evidence.trial.page import beside_standard, page, with_old_sections, with_section_of
 from evidence.trial.rivals import Judged, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
@@ -43,6 +44,21 @@ def test_sections_of_other_trials_are_put_in_replaced_and_kept() -> None:
     assert two == one.replace("one", "two")
     assert with_old_sections(page, two) == two
     assert with_section_of(two, "") == two
+
+
+def test_right_effects_and_standard_stand_side_by_side() -> None:
+    trial = load_trial("quick")
+    cells = trial.cells()
+
+    def found(least: float) -> dict[str, Any]:
+        runs = [run_of(cell, cell.fault if cell.size > least else "healthy") for cell in cells]
+        told: dict[str, Any] = json.loads(json_text("trial", json_object(TrialResult.of(trial, "", runs))))
+        return told
+
+    section = "\n".join(beside_standard(found(3e-3), found(1.0)))
+    assert "| all | 18/27, 66.7 % (46 to 83.5) | 0/27, 0 % (0 to 12.8) |" in section
+    page = with_section_of("# Trial\n\n## The monitor\n\nabout\n", section)
+    assert with_old_sections("# Trial\n\n## The monitor\n\nabout\n", page) == page
 
 
 def test_a_spall_adds_its_own_power() -> None:
