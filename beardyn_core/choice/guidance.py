@@ -111,8 +111,10 @@ def cage(evidence: Evidence) -> Rule:
     knock = MOST_DB if worn else decibels(1.0 + losses.pocket_force / max(_excitation(evidence), 1.0))
     costs = evidence.costs
     basic = costs.saved("cage")
+    # what idle rollers lay on the cage makes loaded ones slip: other pockets, another slip
+    weighed = abs(losses.total - evidence.losses_without_weight.total)
+    left = {"torque": max(pocket, evidence.torque_share(weighed))}
     # where the raceways hardly drive the rollers, pockets decide at which speed they go
-    left = {"torque": pocket}
     if drive.skids:
         left = {"torque": pocket + evidence.torque_share(drive.torque), **evidence.slipping(0.5)}
 

@@ -251,8 +251,8 @@ def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> list[str
         "## With the effects `standard`",
         "",
         f"The runs of `{one}` with the effects that `auto` takes, and with `--effects standard`, which "
-        "leave out rolling resistance and seals. The box that rings, background, sensors and the bearings of the lot "
-        "are those of the scene and stay: what the monitor finds is decided by them.",
+        "leave out rolling resistance and seals. The box that rings, background, sensors and the bearings of "
+        "the lot are those of the scene and stay: what the monitor finds is decided by them.",
         "",
         "| | found, `auto` | found, `standard` | false alarms, `auto` | false alarms, `standard` |",
         "|---|--:|--:|--:|--:|",
