@@ -19,6 +19,7 @@ from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import Patch, WornPocket
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES
 
@@ -94,6 +95,14 @@ class Evidence:
     def moves(self) -> bool:
         """Whether the axlebox can move, so that there is a vibration."""
         return self.scene.mounting.cup == "suspended"
+
+    @property
+    def struck(self) -> bool:
+        """Whether wheel or rail has defects that strike."""
+        operation = self.scene.operation
+        if not isinstance(operation, QuarterVehicleOperation):
+            return False
+        return bool(operation.wheel_defects or operation.rail_defects)
 
     @property
     def band(self) -> float:
