@@ -4,5 +4,6 @@
 module responsibility
 ====== =======================================================
 page   climbs the ladders, writes docs/ladder.md and its pictures
+front  writes the efficient levels of one scene into README.md
 ====== =======================================================
 """

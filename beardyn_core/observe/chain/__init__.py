@@ -17,6 +17,7 @@ levels      RMS, kurtosis, crest factor and their trend
 verdict     decide: which fault is called, and why; the temperature rule
 result      what an algorithm answers
 chain       `Chain`: the steps put together, each replaceable
+patience    waits for a function, but not for ever
 named       finds an algorithm by its name ``module:function``, and checks its answer
 =========== ========================================================================
 """
