@@ -67,7 +67,10 @@ class Drive:
 
 
 class Losses:
-    """Torque by source of a scene with the reference's effects under one load, in pure rolling."""
+    """Torque by source of a scene with the reference's effects under one load, in pure rolling.
+
+    ``gravity`` [m/s^2] is that of the idle rollers, which lie on the cage.
+    """
 
     def __init__(
         self, scene: Scene, case: LoadCase, static: StaticSolution, gravity: float = _STANDARD_GRAVITY

@@ -16,6 +16,7 @@ from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Patch
 
 TIMELINE = "time"
+SNAPSHOT_NS = 5_000_000  # at 200 Hz, after which the first one is taken
 ROOT = "bearing"
 CUP_COLOUR = (150, 164, 184)
 CONE_COLOUR = (122, 136, 160)
@@ -90,7 +91,7 @@ def log_motion(stream: rr.RecordingStream, run: Run) -> None:
     for body, name in enumerate(run.described().body_names):
         pose = run.bodies.pose[:, body].astype(np.float32)
         placed = rr.Transform3D.columns(translation=pose[:, :3], quaternion=pose[:, 3:])
-        send(stream, body_entity(name), run.bodies.time_ns, placed)
+        send(stream, body_entity(name), shown_ns(run), placed)
 
 
 def roller_loads(run: Run) -> Float:
@@ -113,7 +114,7 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
     for row, k in np.ndindex(2, shape.roller_count):
         if (name := f"roller_{row}_{k}") not in run.described().absent_bodies:
             coloured = rr.Mesh3D.columns(albedo_factor=packed[:, row, k])
-            send(stream, body_entity(name), run.bodies.time_ns, coloured)
+            send(stream, body_entity(name), shown_ns(run), coloured)
     if largest == 0.0:
         return
     _log_contacts(stream, run, LONGEST_ARROW / largest)
@@ -137,7 +138,7 @@ def _log_contacts(stream: rr.RecordingStream, run: Run, scale: float) -> None:
         style = rr.Arrows3D.from_fields(colors=[ARROW_COLOURS[name]], radii=[0.0009])
         stream.log(entity, style, static=True)
         arrows = rr.Arrows3D.columns(origins=origins, vectors=vectors).partition(per_snapshot)
-        send(stream, entity, run.bodies.time_ns, arrows)
+        send(stream, entity, shown_ns(run), arrows)
 
 
 def _log_zone(
@@ -156,7 +157,7 @@ def _log_zone(
         bars = rr.LineStrips3D.columns(
             strips=strips.reshape(-1, 2, 3).astype(np.float32), colors=packed[:, row].reshape(-1)
         )
-        send(stream, entity, run.bodies.time_ns, bars.partition(np.full(count, rollers)))
+        send(stream, entity, shown_ns(run), bars.partition(np.full(count, rollers)))
 
 
 def _log_zone_outline(stream: rr.RecordingStream, run: Run, load: Float, largest: float) -> None:
@@ -196,6 +197,14 @@ def _log_resultant(stream: rr.RecordingStream, run: Run, largest_roller_load: fl
     scale = shape.bore / 2.0 / (6.0 * largest_roller_load)
     arrows = rr.Arrows3D.columns(vectors=(scale * run.force.values[:, :3]).astype(np.float32))
     send(stream, f"{ROOT}/force_on_cup", run.force.time_ns, arrows)
+
+
+def shown_ns(run: Run) -> NDArray[np.int64]:
+    """Give the stamps of the snapshots, the first one from 0 on: the view begins there, paused."""
+    time_ns = run.bodies.time_ns.copy()
+    if len(time_ns) and time_ns[0] <= SNAPSHOT_NS:
+        time_ns[0] = 0
+    return time_ns
 
 
 def send(stream: rr.RecordingStream, entity: str, time_ns: NDArray[np.int64], columns: Any) -> None:

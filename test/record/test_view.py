@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 from urllib.request import urlopen
 
@@ -161,6 +162,20 @@ def test_roller_loads_are_those_of_the_blocks(recording: Path) -> None:
         [np.linalg.norm(b.contacts[..., 0, 3:6], axis=-1) for b in SyntheticRun(sensor_count=2).blocks(60)]
     )
     np.testing.assert_allclose(roller_loads(run), expected, rtol=1e-6, atol=1e-6)
+
+
+def test_rollers_are_in_their_places_where_the_view_begins() -> None:
+    """It begins paused at 0; the first snapshot is of 5 ms later. Pieces of a live run stay as they are."""
+    from beardyn_core.record.rerun_bearing import shown_ns
+
+    def shown(*stamps: int) -> list[int]:
+        run: Any = SimpleNamespace(bodies=SimpleNamespace(time_ns=np.array(stamps, np.int64)))
+        found: list[int] = shown_ns(run).tolist()
+        return found
+
+    assert shown(5_000_000, 10_000_000) == [0, 10_000_000]
+    assert shown(25_000_000, 30_000_000) == [25_000_000, 30_000_000]
+    assert shown() == []
 
 
 def test_the_strongest_line_of_the_spectrum_is_the_fault(recording: Path) -> None:
