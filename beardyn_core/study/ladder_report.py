@@ -23,8 +23,8 @@ _LEGEND = (
     "wall: wall time per simulated second, median over blocks; RTF: its inverse",
     "errors: the worst component of each quantity, in % or dB; (in brackets): not resolved, within the "
     "run-to-run band",
-    "*: efficient, no cheaper level is as good; yes: good enough with the whole band; open: the band crosses "
-    "the limit",
+    "*: efficient, no cheaper level is as good; yes: good enough with 95 % certainty; no: not so, with the "
+    "whole band; open: the runs are too short to tell",
 )
 
 

@@ -4,7 +4,10 @@ The bearing is chaotic: two runs that begin a hair apart share statistics, not t
 give the variance of every component twice: between whole runs, and between the same windows of two runs
 (which feel the same load), divided by the number of windows. The larger one counts. The band of an error is
 what the difference of two means stays in with 95 % probability, for all components of a quantity together
-(Student's t with the degrees of freedom of Welch, Bonferroni).
+(Student's t with the degrees of freedom of Welch, Bonferroni). That some component errs is claimed with this
+band. That all of them are good enough is claimed when each is, beyond its one-sided 95 %: a level that fails
+anywhere passes with 5 % at most, however many components there are (intersection-union test: Berger 1982,
+Technometrics 24, 295).
 """
 
 from __future__ import annotations
@@ -33,6 +36,7 @@ class Part:
     name: str
     error: A[float, "signed; a share, or dB. NaN where the component does not exist"]
     band: A[float, "half-width of the run-to-run band, in the same unit"]
+    margin: A[float, "what the error is larger by with 5 % probability at most, in the same unit"]
 
     @property
     def resolved(self) -> bool:
@@ -41,7 +45,7 @@ class Part:
 
     def verdict(self, limit: float) -> str:
         """Judge an error: ``yes`` surely within, ``no`` surely beyond, ``open`` in between."""
-        if abs(self.error) + self.band <= limit:
+        if abs(self.error) + self.margin <= limit:
             return "yes"
         return "no" if abs(self.error) - self.band > limit else "open"
 
@@ -116,9 +120,9 @@ def _parts(
     total = variances.sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         effective = np.where(total > 0.0, total**2 / (variances**2 / degrees).sum(axis=0), 1.0)
-    band = student.isf(tail, effective) * np.sqrt(total)
-    columns = zip(measure.parts, error, band, strict=True)
-    return [Part(name, float(e), float(b)) for name, e, b in columns if math.isfinite(e)]
+    band, margin = (student.isf(each, effective) * np.sqrt(total) for each in (tail, 1.0 - CONFIDENCE))
+    columns = zip(measure.parts, error, band, margin, strict=True)
+    return [Part(name, float(e), float(b), float(m)) for name, e, b, m in columns if math.isfinite(e)]
 
 
 def variance(runs: Sequence[Outcome], index: int) -> Float:

@@ -80,9 +80,10 @@ twice, each begun a hair apart, and every error has a band: what the difference 
 windows of them. An error inside its band is *not resolved* and stands in brackets.
 
 **Accuracy of {accuracy}** means: force, deflection, roller loads and torque within {accuracy} and
-third-octave bands within 1.5 dB. *yes*: all errors are within, with their whole bands; *no*: an error is
-beyond, with its whole band; *open*: a band crosses the limit. A level is **efficient** (bold) when no cheaper
-one is as good, run-to-run band considered. The pictures show the worst of these errors in units of its limit.
+third-octave bands within 1.5 dB. *yes*: every error is within, each with 95 % certainty (a level that
+fails anywhere passes with 5 % at most); *no*: an error is beyond, with its whole band; *open*: the runs are
+too short to tell. A level is **efficient** (bold) when no cheaper one is as good, run-to-run band considered.
+The pictures show the worst of these errors in units of its limit.
 """
 
 
