@@ -13,27 +13,25 @@ import argparse
 import hashlib
 import json
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import beardyn_core
 from beardyn_core.choice.rule import Choice, percent
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, climb, compile_levels, plan_of
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
 from beardyn_core.study.ladder_levels import (
     AUTO,
     REFERENCE_LAMINAE,
     REFERENCE_STEPS,
-    Level,
     chosen_for,
     level_of,
     levels_of,
 )
 from beardyn_core.study.ladder_report import error_text
-from beardyn_core.study.ladder_result import Ladder, LevelResult
+from beardyn_core.study.ladder_result import Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import UNITS
 from evidence.pages import DOCS
 from evidence.standard import standard_scene
@@ -81,34 +79,24 @@ what is compared, so a case that is open is run once more, {longer} times as lon
 """
 
 
-def tried(scene: Scene, choices: Sequence[Choice]) -> Iterator[dict[str, Any]]:
-    """Run the cases of a scene, one reference for all of them; those left open once more, longer."""
-    levels = [
-        level_of(choice.applied(scene), AUTO, name=f"case {number}") for number, choice in enumerate(choices)
-    ]
+def tried(
+    scene: Scene, choices: Sequence[Choice], chosen: Sequence[int], longer: int
+) -> list[dict[str, Any]]:
+    """Run the chosen of a scene's cases, one reference for all of them, so many times as long as usual."""
     plan = plan_of(scene)
-    cases = [
-        partial(_case, asked=asked, accuracy=accuracy, choice=choice)
-        for (asked, accuracy), choice in zip(CASES[scene.name], choices, strict=True)
-    ]
-    found = [case(*judged) for case, judged in zip(cases, _climbed(plan, levels), strict=True)]
-    undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
-    if undecided:
-        longer = plan_of(scene, duration=LONGER * (plan.edges[-1] - plan.settling), settling=plan.settling)
-        again = _climbed(longer, [levels[k] for k in undecided])
-        for k, judged in zip(undecided, again, strict=True):
-            found[k] = {**cases[k](*judged), "longer": LONGER}
-    yield from found
-
-
-def _climbed(plan: Plan, levels: Sequence[Level]) -> list[tuple[Ladder, LevelResult]]:
-    """Run levels against the reference, and give each with its ladder, in their order."""
-    few = replace(levels_of(plan.scene, quick=True), levels=tuple(levels))
+    if longer > 1:
+        plan = plan_of(scene, duration=longer * (plan.edges[-1] - plan.settling), settling=plan.settling)
+    levels = tuple(level_of(choices[k].applied(scene), AUTO, name=f"case {k}") for k in chosen)
+    few = replace(levels_of(scene, quick=True), levels=levels)
     compile_levels(plan, few)
     ladder = climb(plan, few, 0.05)
     if ladder.interrupted:
         raise KeyboardInterrupt
-    return [(ladder, next(row for row in ladder.rows if row.level == level)) for level in levels]
+    rows = [next(row for row in ladder.rows if row.level == level) for level in levels]
+    return [
+        _case(ladder, row, *CASES[scene.name][k], choices[k]) | {"longer": longer}
+        for k, row in zip(chosen, rows, strict=True)
+    ]
 
 
 def _case(
@@ -128,7 +116,17 @@ def _case(
         "seconds": row.cost.median,
         "reference_seconds": ladder.reference.cost.median,
         "verdict": row.verdict(asked, accuracy),
+        "doubt": {name: _doubt(row.of(name)) for name in asked},
     }
+
+
+def _doubt(error: QuantityError | None) -> str:
+    """Write the component that may be farthest off."""
+    if error is None or not error.parts:
+        return "-"
+    part = max(error.parts, key=lambda part: abs(part.error) + part.margin)
+    factor, unit = (100.0, " %") if error.unit == "%" else (1.0, " dB")
+    return f"{part.name}: {factor * part.error:+.2g} ± {factor * part.margin:.2g}{unit}"
 
 
 def _expected_of(choice: Choice) -> dict[str, str]:
@@ -145,8 +143,39 @@ def row(case: dict[str, Any]) -> str:
     chosen = f"{case['tier']}, {case['laminae']} laminae x {case['steps_per_sample']}: {effects}"
     found = "; ".join(f"{name} {case['found'][name]} (*{case['expected'][name]}*)" for name in case["asked"])
     status = "" if case["status"] == "complete" else f"; {case['status']}"
-    longer = f", {case['longer']} times as long" if "longer" in case else ""
+    longer = f", {case['longer']} times as long" if case["longer"] > 1 else ""
+    if case["verdict"] == "open":
+        longer += f" ({'; '.join(case['doubt'][name] for name in case['asked'] if UNITS[name] == 'dB')})"
     return f"| `{case['scene']}` | {asked} | {chosen} | {found}{status} | {case['verdict']}{longer} |"
+
+
+class Kept:
+    """Results in a folder, by scene and by what they depend on."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def cases(self, name: str, longer: int = 1) -> list[dict[str, Any]]:
+        """Give the cases of a scene, those that are open from a longer run; run what is not there yet."""
+        scene = standard_scene(name)
+        choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
+        path = self._folder / f"{name}-{_digest_of(scene, choices)}.json"
+        found = self._read(path, scene, choices, range(len(choices)), 1)
+        undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
+        if longer > 1 and undecided:
+            path = path.with_stem(f"{path.stem}-{longer}")
+            for k, case in zip(undecided, self._read(path, scene, choices, undecided, longer), strict=True):
+                found[k] = case
+        return [case | {"expected": _expected_of(each)} for case, each in zip(found, choices, strict=True)]
+
+    def _read(
+        self, path: Path, scene: Scene, choices: Sequence[Choice], chosen: Sequence[int], longer: int
+    ) -> list[dict[str, Any]]:
+        if not path.exists():
+            found = tried(scene, choices, chosen, longer)
+            path.write_text(json.dumps(found, indent=1), encoding="utf-8")
+        return list(json.loads(path.read_text(encoding="utf-8")))
 
 
 def _digest_of(scene: Scene, choices: Sequence[Choice]) -> str:
@@ -170,18 +199,12 @@ def main() -> None:
     parser.add_argument("--keep", type=Path, default=Path("automatic"), metavar="FOLDER")
     parser.add_argument("--to", type=Path, default=PAGE, metavar="FILE")
     arguments = parser.parse_args()
-    arguments.keep.mkdir(parents=True, exist_ok=True)
     logging.getLogger("beardyn").setLevel(logging.WARNING)
-    rows = []
+    kept = Kept(arguments.keep)
     for name in arguments.scenes:
-        scene = standard_scene(name)
-        choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
-        kept = arguments.keep / f"{name}-{_digest_of(scene, choices)}.json"
-        if not kept.exists():
-            kept.write_text(json.dumps(list(tried(scene, choices)), indent=1), encoding="utf-8")
-        for case, choice in zip(json.loads(kept.read_text(encoding="utf-8")), choices, strict=True):
-            rows.append(row(case | {"expected": _expected_of(choice)}))
-            print(rows[-1], flush=True)
+        for case in kept.cases(name):
+            print(row(case), flush=True)
+    rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
     head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, runs=REFERENCE_RUNS, longer=LONGER)
     arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
 

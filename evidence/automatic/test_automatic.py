@@ -20,6 +20,7 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
         "expected": {"torque": "2"},
         "status": "complete",
         "verdict": "yes",
+        "longer": 1,
     }
     assert row(case) == (
         "| `static_80kN` | torque at 5 % | full, 6 laminae x 4: full less drag | torque 1.2 % (*2*) | yes |"
