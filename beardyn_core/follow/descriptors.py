@@ -10,10 +10,12 @@ from scipy.fft import rfft
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.follow import passages
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from beardyn_core.observe.severity import severity_of
 
 AXES = ("x", "y", "z")
+RACEWAYS = ("cup", "cone")
 THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
 _TWELFTHS = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
 _FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
@@ -29,7 +31,8 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         "shaft",
         *(f"score_{part}" for part in FAULTS),
         *("score", "kurtosis", "crest", "strongest_level"),
-        *(f"way_{part}" for part in ("cup", "cone")),
+        *(f"way_{part}" for part in RACEWAYS),
+        *("louder", "way", *passages.NAMES),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
         *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
@@ -59,6 +62,10 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
         **_of_monitor(stretch, orders, plate),
         **_ways(stretch, orders, plate),
     }
+    louder = RACEWAYS[int(found["score_cone"] > found["score_cup"])]
+    order = orders.bpfo if louder == "cup" else orders.bpfi
+    found |= {"louder": float(RACEWAYS.index(louder)), "way": found[f"way_{louder}"]}
+    found |= passages.of_passages(stretch, louder, order, plate)
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
         for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):

@@ -18,16 +18,24 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.forest import Forest
 from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
-from beardyn_core.follow.regression import LEVELS, Regression
+from beardyn_core.follow.regression import LEVELS, Learnt, Regression, guess_of
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
-VERSION = 1
-_ARRAYS = ("directions", "support", "weights", "doubt_weights", "reach")
+VERSION = 2
+# of each kind of learnt number: its arrays, and its numbers
+_KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[str, ...]]] = {
+    "kernel": (
+        Regression,
+        ("directions", "support", "weights", "doubt_weights", "reach"),
+        ("width", "mean", "doubt"),
+    ),
+    "trees": (Forest, ("descriptor", "number", "other", "roots", "reach"), ("usual", "offset", "slope")),
+}
 _PART = ("slope", "offset", "least")
-_NUMBERS = ("width", "mean", "doubt")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
 _FAR = 4.0  # standard deviations: an expected share of 1e-4 of runs like those learnt from
@@ -97,7 +105,7 @@ class Estimator:
     usual: A[Float, "shape [direction, descriptor]: principal directions of standardised descriptors"]
     sizes: A[Float, "shape [direction], standard deviation along each"]
     farthest: A[float, "distance from the middle that a run learnt from hardly has, [-]"]
-    regressions: A[Mapping[str, Regression], "by quantity"]
+    regressions: A[Mapping[str, Learnt], "by quantity"]
     part: A[PartRule | None, "which part is spalled; none where one condition alone was learnt"]
     card: A[Mapping[str, Any], "set, counts, errors on bearings not learnt from, versions"]
 
@@ -152,7 +160,7 @@ class Estimator:
         if quantity.name not in self.regressions:
             return self.unidentified(quantity)
         known = self.card["quantities"][quantity.name]
-        guess = self.regressions[quantity.name].guess(standard)
+        guess = guess_of(self.regressions[quantity.name], standard)
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
         low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
@@ -165,9 +173,11 @@ class Estimator:
     def save(self, path: Path, *, replace: bool = True) -> None:
         """Write the estimator as an NPZ file, whole or not at all."""
         arrays = {f"{name}_": getattr(self, name) for name in ("middle", "spread", "usual", "sizes")}
+        kinds = {name: _kind_of(each) for name, each in self.regressions.items()}
         for name, each in self.regressions.items():
-            arrays |= {f"{name}.{part}": getattr(each, part) for part in _ARRAYS}
-            arrays[f"{name}.numbers"] = np.array([getattr(each, part) for part in _NUMBERS])
+            _, parts, numbers = _KINDS[kinds[name]]
+            arrays |= {f"{name}.{part}": getattr(each, part) for part in parts}
+            arrays[f"{name}.numbers"] = np.array([getattr(each, part) for part in numbers])
         if self.part is not None:
             arrays |= {f"part.{name}": getattr(self.part, name) for name in _PART}
         head = {
@@ -181,11 +191,14 @@ class Estimator:
             "rate": self.rate,
             "stretch": self.stretch,
             "farthest": self.farthest,
-            "quantities": tuple(self.regressions),
+            "quantities": kinds,
             "conditions": () if self.part is None else self.part.conditions,
             "card": dict(self.card),
         }
-        stored = {name: np.asarray(values, np.float32) for name, values in arrays.items()}
+        stored = {
+            name: values if values.dtype.kind == "i" else np.asarray(values, np.float32)
+            for name, values in arrays.items()
+        }
         with as_a_whole(path, replace=replace) as fresh, fresh.open("wb") as file:
             np.savez_compressed(file, head=np.array(json.dumps(head)), **stored)  # type: ignore[arg-type]
 
@@ -210,14 +223,17 @@ def read_estimator(path: Path) -> Estimator:
             raise InputError(
                 f"{path}: is an estimator of version {head['version']}, not {VERSION}: train it again"
             )
-        numbers = {name: np.asarray(values, np.float64) for name, values in stored.items()}
+        numbers = {
+            name: values if values.dtype.kind == "i" else np.asarray(values, np.float64)
+            for name, values in stored.items()
+        }
         kept: dict[str, Any] = {name: head[name] for name in ("rate", "stretch", "farthest", "card")}
         kept |= {name: numbers[f"{name}_"] for name in ("middle", "spread", "usual", "sizes")}
         found = Estimator(
             plate=NamePlate(**head["plate"]),
             axes=tuple(head["axes"]),
             **kept,
-            regressions={name: _regression(numbers, name) for name in head["quantities"]},
+            regressions={name: _learnt(numbers, name, kind) for name, kind in head["quantities"].items()},
             part=PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
             if head["conditions"]
             else None,
@@ -236,9 +252,14 @@ def read_estimator(path: Path) -> Estimator:
     return found
 
 
-def _regression(numbers: Mapping[str, Float], name: str) -> Regression:
-    parts: dict[str, Any] = {part: numbers[f"{name}.{part}"] for part in _ARRAYS}
-    return Regression(**parts, **dict(zip(_NUMBERS, numbers[f"{name}.numbers"].tolist(), strict=True)))
+def _kind_of(learnt: Learnt) -> str:
+    return next(kind for kind, (learns, *_) in _KINDS.items() if isinstance(learnt, learns))
+
+
+def _learnt(stored: Mapping[str, Any], name: str, kind: str) -> Learnt:
+    learns, parts, numbers = _KINDS[kind]
+    given: dict[str, Any] = {part: stored[f"{name}.{part}"] for part in parts}
+    return learns(**given, **dict(zip(numbers, stored[f"{name}.numbers"].tolist(), strict=True)))
 
 
 def farthest_of(along: Float) -> float:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import product
-from typing import Any
+from typing import Annotated as A
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +14,11 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.estimator import Estimator, farthest_of
+from beardyn_core.follow.forest import Forest, forest_of
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import QUANTITIES, Quantity
-from beardyn_core.follow.regression import LEVELS, Regression, reach_of
+from beardyn_core.follow.regression import LEAST_DOUBT, LEVELS, Learnt, Regression, reach_of
 from beardyn_core.optional import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
@@ -25,9 +27,24 @@ _FOLDS = 5
 # what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
 _DOUBT_RIDGE = 3.0
+_TREES, _LEAST_RUNS = 60, 2  # of a forest, and at each end of a tree
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
-_OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way")  # descriptors that tell the parts apart
+_OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way_")  # descriptors that tell the parts apart
+_LEVELS_OF_BANDS = ("band", "fine")  # descriptors that a forest is not asked to sort through
 _USUAL = 20  # principal directions that strangeness looks along
+
+
+class Judged(NamedTuple):
+    """A number that was learnt, and how it does on bearings that are left out."""
+
+    learnt: Learnt
+    errors: A[Float, "shape [run]"]
+    expected: A[Float, "shape [run], as far as it knows itself"]
+
+    @property
+    def square(self) -> float:
+        """Mean square of the errors."""
+        return float(np.mean(self.errors**2))
 
 
 def trained(
@@ -40,23 +57,23 @@ def trained(
     middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
     standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
     sizes, usual = _principal(standard)
-    regressions, card = {}, {}
+    found, card = {}, {}
     for quantity in QUANTITIES:
         values, inside = known(quantity, train)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
-        learnt, errors = _learnt(standard[inside], values[inside], bearings)
-        explained = 1.0 - float(np.mean(errors**2) / np.var(values[inside]))
+        best = _learnt(quantity, standard[inside], values[inside], bearings, names_of(axes))
+        explained = 1.0 - best.square / float(np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
         ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
-                               "shared": shared_of(errors, bearings)}  # fmt: skip
+                               "shared": shared_of(best.errors, bearings)}  # fmt: skip
         if explained >= LEAST_EXPLAINED:
-            regressions[quantity.name] = learnt
+            found[quantity.name] = best.learnt
     farthest = farthest_of(standard @ usual.T / sizes)
     return Estimator(
-        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, regressions,
+        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, found,
         _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
     )  # fmt: skip
 
@@ -74,22 +91,23 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         if quantity.name not in card:
             continue
         values, inside = known(quantity, runs)
-        each, errors = estimator.regressions.get(quantity.name), None
-        if each is not None:
-            given = each.value(standard[inside])
-            errors = values[inside] - given
+        learnt = estimator.regressions.get(quantity.name)
+        best = None
+        if learnt is not None:
+            given, expected = learnt.value(standard[inside]), learnt.expected_error(standard[inside])
+            best = Judged(learnt, values[inside] - given, expected)
             if straightened:
-                each, errors = _straightened(each, given, values[inside])
+                best = _straightened(best, given, values[inside])
         if straightened:
-            each, errors = _truer(each, errors, standard[inside], values[inside], runs.bearings[inside])
+            truer = (standard[inside], values[inside], runs.bearings[inside], names_of(estimator.axes))
+            best = _truer(best, quantity, *truer)
             variance = float(np.var(values[inside])) if inside.any() else 0.0
-            explained = 0.0 if errors is None or not variance else 1.0 - float(np.mean(errors**2)) / variance
+            explained = 0.0 if best is None or not variance else 1.0 - best.square / variance
             card[quantity.name]["explained"] = explained
             if explained < LEAST_EXPLAINED:
                 continue
-        if each is not None and errors is not None:
-            expected = each.expected_error(standard[inside])
-            found[quantity.name] = replace(each, reach=reach_of(errors, expected))
+        if best is not None:
+            found[quantity.name] = best.learnt.reaching(reach_of(best.errors, best.expected))
     part = estimator.part
     if part is not None:
         inside = np.isin(runs.conditions, part.conditions)
@@ -100,23 +118,27 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
 
 
 def _truer(
-    learnt: Regression | None, errors: Float | None, standard: Float, values: Float, bearings: NDArray[Any]
-) -> tuple[Regression | None, Float | None]:
+    best: Judged | None,
+    quantity: Quantity,
+    standard: Float,
+    values: Float,
+    bearings: NDArray[Any],
+    names: tuple[str, ...],
+) -> Judged | None:
     """Learn a number from runs of a truer tier alone, where that errs less than what is there."""
     if len(values) < FEWEST or np.ptp(values) < 1e-12:
-        return learnt, errors
-    alone, left_out = _learnt(standard, values, bearings)
-    better = errors is None or float(np.mean(left_out**2)) < float(np.mean(errors**2))
-    return (alone, left_out) if better else (learnt, errors)
+        return best
+    alone = _learnt(quantity, standard, values, bearings, names)
+    return alone if best is None or alone.square < best.square else best
 
 
-def _straightened(learnt: Regression, given: Float, values: Float) -> tuple[Regression, Float]:
-    """Put a regression on the line through runs not learnt from; gives their errors too, each left out."""
+def _straightened(best: Judged, given: Float, values: Float) -> Judged:
+    """Put a number on the line through runs not learnt from, each error that of a line without its run."""
     table = np.stack([np.ones(len(given)), given], axis=1)
     turn = np.linalg.pinv(table)
-    offset, slope = turn @ values
+    offset, slope = (turn @ values).tolist()
     errors = (values - table @ (turn @ values)) / (1.0 - np.einsum("ij,ji->i", table, turn))
-    return replace(learnt, weights=slope * learnt.weights, mean=offset + slope * learnt.mean), errors
+    return Judged(best.learnt.on_line(offset, slope), errors, best.expected)
 
 
 def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:
@@ -144,12 +166,46 @@ def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
     return float(np.clip(np.mean(pairs) / np.mean(errors**2), 0.0, 1.0)) if pairs else 0.5
 
 
-def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Regression, Float]:
-    """Learn a number; gives with it the errors on bearings that are left out."""
+def _learnt(
+    quantity: Quantity, standard: Float, values: Float, bearings: NDArray[Any], names: tuple[str, ...]
+) -> Judged:
+    """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken."""
     library("sklearn.cross_decomposition", "training", "sweep")
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
+    by_kernel = _by_kernel(standard, values, folds)
+    if not quantity.of_fault:
+        return by_kernel
+    columns = np.array([k for k, name in enumerate(names) if not name.startswith(_LEVELS_OF_BANDS)])
+    by_trees = _by_trees(standard, values, folds, columns)
+    return by_trees if by_trees.square < by_kernel.square else by_kernel
+
+
+def _by_trees(
+    standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]], columns: NDArray[np.int64]
+) -> Judged:
+    """Learn a number by a forest that asks some of the descriptors."""
+    errors, spread = np.empty(len(values)), np.empty(len(values))
+    for fit, rest in folds:
+        grown = _grown(standard[fit], values[fit], columns)
+        errors[rest] = values[rest] - grown.value(standard[rest])
+        spread[rest] = grown.expected_error(standard[rest])
+    usual = float(np.median(spread))
+    forest = replace(_grown(standard, values, columns), usual=usual)
+    return Judged(forest, errors, np.maximum(spread, LEAST_DOUBT * usual))
+
+
+def _grown(standard: Float, values: Float, columns: NDArray[np.int64]) -> Forest:
+    """Grow a forest."""
+    from sklearn.ensemble import ExtraTreesRegressor
+
+    trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=1.0, random_state=0)
+    return forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
+
+
+def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]]) -> Judged:
+    """Learn a number by kernel ridge regression, with the best of its settings."""
     best, errors = np.inf, np.zeros(len(values))
     screen, chosen = _SCREENS[0], (_DIRECTIONS[0], _WIDTHS[0], _RIDGES[0])
     for kept in _SCREENS:
@@ -162,7 +218,8 @@ def _learnt(standard: Float, values: Float, bearings: NDArray[Any]) -> tuple[Reg
             if (square := float(np.mean(missed**2))) < best:
                 best, errors, screen, chosen = square, missed, kept, setting
     learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
-    return _doubting(learnt, standard, errors, float(np.std(values))), errors
+    learnt = _doubting(learnt, standard, errors, float(np.std(values)))
+    return Judged(learnt, errors, learnt.expected_error(standard))
 
 
 def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:

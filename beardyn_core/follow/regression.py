@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, inf
 from typing import Annotated as A
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.spatial.distance import cdist
@@ -13,7 +13,7 @@ from scipy.spatial.distance import cdist
 from beardyn_core.arrays import Float
 
 LEVELS = (0.5, 0.9)  # of intervals
-_LEAST_DOUBT = 0.2  # of the usual one: no run is told more surely
+LEAST_DOUBT = 0.2  # of the usual one: no run is told more surely
 
 
 class Guess(NamedTuple):
@@ -22,6 +22,33 @@ class Guess(NamedTuple):
     value: Float  # shape [run]
     low: Float  # shape [level, run]
     high: Float  # shape [level, run]
+
+
+class Learnt(Protocol):
+    """A number that was learnt from descriptors: `Regression` and `forest.Forest` are such."""
+
+    @property
+    def reach(self) -> Float:
+        """Half of an interval over the expected error, shape [level]."""
+
+    def value(self, standardised: Float) -> Float:
+        """Give the number, shape [run], of standardised descriptors, shape [run, descriptor]."""
+
+    def expected_error(self, standardised: Float) -> Float:
+        """Give the error to be expected, shape [run]."""
+
+    def on_line(self, offset: float, slope: float) -> Learnt:
+        """Put the number on a line of itself."""
+
+    def reaching(self, reach: Float) -> Learnt:
+        """Set how wide intervals are, shape [level], over the expected error."""
+
+
+def guess_of(learnt: Learnt, standardised: Float) -> Guess:
+    """Give number and intervals."""
+    value, error = learnt.value(standardised), learnt.expected_error(standardised)
+    half = learnt.reach[:, None] * error
+    return Guess(value, value - half, value + half)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +84,15 @@ class Regression:
     def expected_error(self, standardised: Float) -> Float:
         """Give the error to be expected, shape [run]."""
         learnt = self._kernel(standardised) @ self.doubt_weights
-        return np.exp(self.doubt + np.maximum(learnt, np.log(_LEAST_DOUBT)))
+        return np.exp(self.doubt + np.maximum(learnt, np.log(LEAST_DOUBT)))
 
-    def guess(self, standardised: Float) -> Guess:
-        """Give number and intervals."""
-        value, error = self.value(standardised), self.expected_error(standardised)
-        half = self.reach[:, None] * error
-        return Guess(value, value - half, value + half)
+    def on_line(self, offset: float, slope: float) -> Regression:
+        """Put the number on a line of itself."""
+        return replace(self, weights=slope * self.weights, mean=offset + slope * self.mean)
+
+    def reaching(self, reach: Float) -> Regression:
+        """Set how wide intervals are, shape [level], over the expected error."""
+        return replace(self, reach=reach)
 
     def solved(self, standardised: Float, values: Float, ridge: float) -> Float:
         """Solve for the weights, shape [run], that give values of the runs learnt from."""

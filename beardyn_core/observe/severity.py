@@ -48,7 +48,7 @@ class Severity:
     reason: A[str, "the same in a sentence"]
 
 
-class _Events(NamedTuple):
+class Events(NamedTuple):
     """Cepstrum of the passages over a fault."""
 
     way: Float  # shape [line], [m]
@@ -103,10 +103,8 @@ def severity_of(
             "mm on, not of "
             f"{1e3 * plate.roller_diameter:.3g} mm"
         )
-    sign = 1.0 if fault == "cup" else -1.0
-    across = sign * plate.roller_diameter * float(np.cos(plate.contact_angle))
-    spacing = pi * (plate.pitch_diameter + across) / plate.roller_count
-    events = _events(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
+    spacing = spacing_of(fault, plate)
+    events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
     if events is None:
         return _unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
     way = _clear_peak(events)
@@ -130,8 +128,32 @@ def _unmeasured(reason: str) -> Severity:
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
 
 
-def _events(acceleration: Float, rate: float, passed: Float, spacing: float) -> _Events | None:
-    """Compute the cepstrum of passages, less that of their parts without an event; `passed` counts them."""
+def spacing_of(fault: str, plate: NamePlate) -> float:
+    """Compute the distance of two rollers on the raceway of cup or cone, [m]."""
+    sign = 1.0 if fault == "cup" else -1.0
+    across = sign * plate.roller_diameter * float(np.cos(plate.contact_angle))
+    return pi * (plate.pitch_diameter + across) / plate.roller_count
+
+
+def events_of(acceleration: Float, rate: float, passed: Float, spacing: float) -> Events | None:
+    """Compute the cepstrum of passages, less that of their parts without an event.
+
+    Parameters
+    ----------
+    acceleration : float64 array, shape [sample, axis]
+        [m/s^2].
+    rate : float
+        [Hz].
+    passed : float64 array, shape [sample]
+        Passages so far; their whole part counts them.
+    spacing : float
+        Distance of two rollers on the raceway, [m].
+
+    Returns
+    -------
+    Events or None
+        Without lines where noise alone fills the passages; none of fewer than 40 passages.
+    """
     count = len(acceleration)
     lines, frequency = np.fft.rfft(acceleration, axis=0), np.fft.rfftfreq(count, 1.0 / rate)
     high = _HIGHEST_SHARE * rate
@@ -161,18 +183,18 @@ def _events(acceleration: Float, rate: float, passed: Float, spacing: float) -> 
     inside = (frequency > 1.5 * _LOWEST) & (frequency < high)
     kept, at = ripple[inside], frequency[inside] / rate
     if np.std(quiet[inside]) < _LEAST_STRUCTURE * np.std(struck[inside]):
-        return _Events(np.empty(0), np.empty(0), 0.0, 0.0)
+        return Events(np.empty(0), np.empty(0), 0.0, 0.0)
     trend = np.vander(at, 5)
     kept = kept - trend @ np.linalg.lstsq(trend, kept, rcond=None)[0]
     cepstrum = np.abs(np.fft.fft(kept * np.hanning(len(kept))[:, None], _CEPSTRUM, axis=0)).sum(axis=1)
     way = np.arange(_CEPSTRUM) * _SPECTRUM / _CEPSTRUM / period * spacing
     wanted = (way > _SHORTEST_WAY) & (way < _SEARCHED * spacing)
-    return _Events(
+    return Events(
         way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing, _LONGEST_SHARE * spacing
     )
 
 
-def _clear_peak(events: _Events) -> float:
+def _clear_peak(events: Events) -> float:
     """Find the peak that is clear of the others, NaN without one, [m]."""
     height = events.height
     if len(height) < 3:
