@@ -6,7 +6,8 @@ module       responsibility, in the order of the data
 passages     what repeats with the passages of a fault
 descriptors  what is worked out of a stretch of signal
 quantities   what is estimated, on which scale, and by which label of a run it is learnt
-regression   numbers from descriptors with intervals that hold their promise
+learnt       numbers with intervals that hold their promise
+regression   numbers from descriptors by kernel ridge regression
 forest       numbers from descriptors by trees
 part         which part is spalled, with sets of parts that hold their promise
 estimator    the numbers that make an estimator, its card, and the file that keeps them

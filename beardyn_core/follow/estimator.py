@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from math import sqrt
 from pathlib import Path
@@ -19,21 +19,22 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.forest import Forest
+from beardyn_core.follow.learnt import LEVELS, Learnt, Way
 from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
-from beardyn_core.follow.regression import LEVELS, Learnt, Regression, guess_of
+from beardyn_core.follow.regression import Regression
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
 VERSION = 2
-# of each kind of learnt number: its arrays, and its numbers
+# of each way to a number: its arrays, and its numbers
 _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[str, ...]]] = {
     "kernel": (
         Regression,
-        ("directions", "support", "weights", "doubt_weights", "reach"),
+        ("directions", "support", "weights", "doubt_weights"),
         ("width", "mean", "doubt"),
     ),
-    "trees": (Forest, ("descriptor", "number", "other", "roots", "reach"), ("usual", "offset", "slope")),
+    "trees": (Forest, ("descriptor", "number", "other", "roots"), ("usual", "offset", "slope")),
 }
 _PART = ("slope", "offset", "least")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
@@ -160,7 +161,7 @@ class Estimator:
         if quantity.name not in self.regressions:
             return self.unidentified(quantity)
         known = self.card["quantities"][quantity.name]
-        guess = guess_of(self.regressions[quantity.name], standard)
+        guess = self.regressions[quantity.name].guess(standard)
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
         low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
@@ -173,11 +174,13 @@ class Estimator:
     def save(self, path: Path, *, replace: bool = True) -> None:
         """Write the estimator as an NPZ file, whole or not at all."""
         arrays = {f"{name}_": getattr(self, name) for name in ("middle", "spread", "usual", "sizes")}
-        kinds = {name: _kind_of(each) for name, each in self.regressions.items()}
+        kinds = {name: [_kind_of(way) for way in each.ways] for name, each in self.regressions.items()}
         for name, each in self.regressions.items():
-            _, parts, numbers = _KINDS[kinds[name]]
-            arrays |= {f"{name}.{part}": getattr(each, part) for part in parts}
-            arrays[f"{name}.numbers"] = np.array([getattr(each, part) for part in numbers])
+            arrays[f"{name}.reach"] = each.reach
+            for k, way in enumerate(each.ways):
+                _, parts, numbers = _KINDS[kinds[name][k]]
+                arrays |= {f"{name}.{k}.{part}": getattr(way, part) for part in parts}
+                arrays[f"{name}.{k}.numbers"] = np.array([getattr(way, part) for part in numbers])
         if self.part is not None:
             arrays |= {f"part.{name}": getattr(self.part, name) for name in _PART}
         head = {
@@ -233,7 +236,7 @@ def read_estimator(path: Path) -> Estimator:
             plate=NamePlate(**head["plate"]),
             axes=tuple(head["axes"]),
             **kept,
-            regressions={name: _learnt(numbers, name, kind) for name, kind in head["quantities"].items()},
+            regressions={name: _learnt(numbers, name, kinds) for name, kinds in head["quantities"].items()},
             part=PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
             if head["conditions"]
             else None,
@@ -252,11 +255,16 @@ def read_estimator(path: Path) -> Estimator:
     return found
 
 
-def _kind_of(learnt: Learnt) -> str:
-    return next(kind for kind, (learns, *_) in _KINDS.items() if isinstance(learnt, learns))
+def _kind_of(way: Way) -> str:
+    return next(kind for kind, (learns, *_) in _KINDS.items() if isinstance(way, learns))
 
 
-def _learnt(stored: Mapping[str, Any], name: str, kind: str) -> Learnt:
+def _learnt(stored: Mapping[str, Any], name: str, kinds: Sequence[str]) -> Learnt:
+    ways = tuple(_way(stored, f"{name}.{k}", kind) for k, kind in enumerate(kinds))
+    return Learnt(ways, stored[f"{name}.reach"])
+
+
+def _way(stored: Mapping[str, Any], name: str, kind: str) -> Way:
     learns, parts, numbers = _KINDS[kind]
     given: dict[str, Any] = {part: stored[f"{name}.{part}"] for part in parts}
     return learns(**given, **dict(zip(numbers, stored[f"{name}.numbers"].tolist(), strict=True)))

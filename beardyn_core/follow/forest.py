@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
-from beardyn_core.follow.regression import LEAST_DOUBT, LEVELS
+from beardyn_core.follow.regression import LEAST_DOUBT
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,6 @@ class Forest:
     usual: A[float, "usual spread of the trees on bearings that are left out"]
     offset: A[float, "added to the mean of the trees"]
     slope: A[float, "that it is multiplied by before"]
-    reach: A[Float, "shape [level], half of an interval over the expected error"]
 
     def value(self, standardised: Float) -> Float:
         """Give the number, shape [run], of standardised descriptors, shape [run, descriptor]."""
@@ -46,10 +45,6 @@ class Forest:
     def on_line(self, offset: float, slope: float) -> Forest:
         """Put the number on a line of itself."""
         return replace(self, offset=offset + slope * self.offset, slope=slope * self.slope)
-
-    def reaching(self, reach: Float) -> Forest:
-        """Set how wide intervals are, shape [level], over the expected error."""
-        return replace(self, reach=reach)
 
     def _ends(self, standardised: Float) -> Float:
         """Follow every tree to its end, shape [run, tree]."""
@@ -77,5 +72,5 @@ def forest_of(trees: Any, columns: NDArray[np.int64]) -> Forest:
     descriptor, number, other = (np.concatenate(each) for each in zip(*parts, strict=True))
     return Forest(
         descriptor.astype(np.int32), number.astype(np.float64), other.astype(np.int32),
-        np.array(roots, np.int32), 0.0, 0.0, 1.0, np.ones(len(LEVELS)),
+        np.array(roots, np.int32), 0.0, 0.0, 1.0,
     )  # fmt: skip

@@ -12,8 +12,8 @@ from beardyn_core.arrays import Float, Int
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described, taken
 from beardyn_core.follow.learning import calibrated, known
+from beardyn_core.follow.learnt import Guess
 from beardyn_core.follow.quantities import BY_NAME, Quantity
-from beardyn_core.follow.regression import Guess, guess_of
 
 _CROSSWISE = 10  # parts of a calibration set, each judged by the others
 
@@ -60,7 +60,7 @@ def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
     for name, each in estimator.regressions.items():
         values, inside = known(BY_NAME[name], runs)
         if inside.any():
-            found[name] = Guessed(guess_of(each, standard[inside]), values[inside], np.flatnonzero(inside))
+            found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
     return found
 
 

@@ -16,9 +16,10 @@ from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.estimator import Estimator, farthest_of
 from beardyn_core.follow.forest import Forest, forest_of
 from beardyn_core.follow.labelled import Described
+from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import QUANTITIES, Quantity
-from beardyn_core.follow.regression import LEAST_DOUBT, LEVELS, Learnt, Regression, reach_of
+from beardyn_core.follow.regression import LEAST_DOUBT, Regression
 from beardyn_core.optional import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
@@ -35,9 +36,9 @@ _USUAL = 20  # principal directions that strangeness looks along
 
 
 class Judged(NamedTuple):
-    """A number that was learnt, and how it does on bearings that are left out."""
+    """Ways to a number whose mean is taken, and how it does on bearings that are left out."""
 
-    learnt: Learnt
+    ways: tuple[Way, ...]
     errors: A[Float, "shape [run]"]
     expected: A[Float, "shape [run], as far as it knows itself"]
 
@@ -70,7 +71,7 @@ def trained(
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
                                "shared": shared_of(best.errors, bearings)}  # fmt: skip
         if explained >= LEAST_EXPLAINED:
-            found[quantity.name] = best.learnt
+            found[quantity.name] = Learnt(best.ways, np.ones(len(LEVELS)))
     farthest = farthest_of(standard @ usual.T / sizes)
     return Estimator(
         plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, found,
@@ -95,7 +96,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         best = None
         if learnt is not None:
             given, expected = learnt.value(standard[inside]), learnt.expected_error(standard[inside])
-            best = Judged(learnt, values[inside] - given, expected)
+            best = Judged(learnt.ways, values[inside] - given, expected)
             if straightened:
                 best = _straightened(best, given, values[inside])
         if straightened:
@@ -107,7 +108,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
             if explained < LEAST_EXPLAINED:
                 continue
         if best is not None:
-            found[quantity.name] = best.learnt.reaching(reach_of(best.errors, best.expected))
+            found[quantity.name] = Learnt(best.ways, reach_of(best.errors, best.expected))
     part = estimator.part
     if part is not None:
         inside = np.isin(runs.conditions, part.conditions)
@@ -125,11 +126,15 @@ def _truer(
     bearings: NDArray[Any],
     names: tuple[str, ...],
 ) -> Judged | None:
-    """Learn a number from runs of a truer tier alone, where that errs less than what is there."""
+    """Learn a number from runs of a truer tier alone; that, what is there, or their mean, as errs least."""
     if len(values) < FEWEST or np.ptp(values) < 1e-12:
         return best
     alone = _learnt(quantity, standard, values, bearings, names)
-    return alone if best is None or alone.square < best.square else best
+    if best is None:
+        return alone
+    errors, expected = 0.5 * (alone.errors + best.errors), 0.5 * (alone.expected + best.expected)
+    both = Judged((*alone.ways, *best.ways), errors, expected)
+    return min(both, alone, best, key=lambda each: each.square)
 
 
 def _straightened(best: Judged, given: Float, values: Float) -> Judged:
@@ -138,7 +143,7 @@ def _straightened(best: Judged, given: Float, values: Float) -> Judged:
     turn = np.linalg.pinv(table)
     offset, slope = (turn @ values).tolist()
     errors = (values - table @ (turn @ values)) / (1.0 - np.einsum("ij,ji->i", table, turn))
-    return Judged(best.learnt.on_line(offset, slope), errors, best.expected)
+    return Judged(tuple(each.on_line(offset, slope) for each in best.ways), errors, best.expected)
 
 
 def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:
@@ -193,7 +198,7 @@ def _by_trees(
         spread[rest] = grown.expected_error(standard[rest])
     usual = float(np.median(spread))
     forest = replace(_grown(standard, values, columns), usual=usual)
-    return Judged(forest, errors, np.maximum(spread, LEAST_DOUBT * usual))
+    return Judged((forest,), errors, np.maximum(spread, LEAST_DOUBT * usual))
 
 
 def _grown(standard: Float, values: Float, columns: NDArray[np.int64]) -> Forest:
@@ -219,7 +224,7 @@ def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], N
                 best, errors, screen, chosen = square, missed, kept, setting
     learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
     learnt = _doubting(learnt, standard, errors, float(np.std(values)))
-    return Judged(learnt, errors, learnt.expected_error(standard))
+    return Judged((learnt,), errors, learnt.expected_error(standard))
 
 
 def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:
@@ -263,9 +268,7 @@ def _fitted(
     directions = directions[:, :count]
     mean, reach = float(values.mean()), width * np.sqrt(directions.shape[1])
     nothing = np.zeros(len(standard))
-    empty = Regression(
-        directions, standard @ directions, nothing, nothing, reach, mean, 0.0, np.ones(len(LEVELS))
-    )
+    empty = Regression(directions, standard @ directions, nothing, nothing, reach, mean, 0.0)
     return replace(empty, weights=empty.solved(standard, values - mean, ridge))
 
 

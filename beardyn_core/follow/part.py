@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.follow.regression import LEVELS
+from beardyn_core.follow.learnt import LEVELS
 
 
 @dataclass(frozen=True)

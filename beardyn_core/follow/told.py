@@ -7,7 +7,7 @@ from typing import Any
 from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
-from beardyn_core.follow.regression import LEVELS
+from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.residual import Residual
 
 

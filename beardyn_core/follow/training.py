@@ -12,7 +12,7 @@ from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.judging import crosswise, part_score, scores
 from beardyn_core.follow.labelled import check_alike, described, joined, plate_of, sampling_of
 from beardyn_core.follow.learning import FEWEST, calibrated, trained
-from beardyn_core.follow.regression import LEVELS
+from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
 

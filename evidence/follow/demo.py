@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 import beardyn_core as bd
 from beardyn_core.api.following import Following
 from beardyn_core.edge import written
+from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.follow.regression import LEVELS
 from beardyn_core.outputs import file_problems
 
 TRAIN = "service_high_speed_cup"  # a spalled cup, full tier, a box that rings, drive, track and knocks

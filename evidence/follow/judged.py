@@ -23,8 +23,8 @@ from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.judging import Guessed, guessed_crosswise, score_of
 from beardyn_core.follow.labelled import Described, check_alike, described, plate_of, sampling_of
 from beardyn_core.follow.learning import trained
+from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.follow.regression import LEVELS
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.pages import DOCS, with_section
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binomtest
 
 from beardyn_core.follow.judging import Guessed
-from beardyn_core.follow.regression import Guess
+from beardyn_core.follow.learnt import Guess
 from evidence.follow import judged
 from evidence.follow.page import PAGE
 from evidence.pages import with_section

@@ -10,7 +10,7 @@ import pytest
 from beardyn_core.errors import InputError
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import scores
-from beardyn_core.follow.regression import LEVELS
+from beardyn_core.follow.learnt import LEVELS
 from test.follow.synthetic import NAMES, drawn, taught
 
 FOUR_SIGMA = 4.0

