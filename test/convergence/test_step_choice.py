@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status, chatter_index, describe
 from beardyn_core.integrate.step_choice import bounce_frequency, choose_steps
 from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.model.journal import bending_give
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
@@ -180,3 +181,11 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
     assert run.chatter < LARGEST_CHATTER_INDEX
     heard = 1.02 * band >= THIRDS
     assert np.abs((run.levels - fine.levels)[heard]).max(initial=0.0) < 1.5
+
+
+def test_rings_on_an_axle_that_bends_get_another_step() -> None:
+    """With two, rollers of this scene carried twice their load: docs/automatic.md."""
+    scene = load_scene("service_high_speed")
+    given = {"mounting": scene.mounting, "axial": 5e3, "end_play": scene.end_play}
+    bent = steps(FULL, bending=partial(bending_give, scene), **given)
+    assert (steps(FULL, **given), bent) == (2, 3)
