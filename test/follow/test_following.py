@@ -34,12 +34,18 @@ def estimator() -> Estimator:
 
 
 def stretches(
-    seed: int, condition: str, count: int, load: float = 5e4, width: float = 6e-3, play: float = 1e-4
+    seed: int,
+    condition: str,
+    count: int,
+    load: float = 5e4,
+    width: float = 6e-3,
+    play: float = 1e-4,
+    length: float = 20e-3,
 ) -> Float:
     """Hear stretches of one bearing."""
     random, ones = np.random.default_rng(seed), np.ones(count)
     numbers = (load * ones, play * ones, np.repeat(condition, count), width * ones)
-    return heard(random, *numbers, length=20e-3 * ones).descriptors
+    return heard(random, *numbers, length=length * ones).descriptors
 
 
 def followed(estimator: Estimator, rows: Float, metres: float = 80.0) -> list[Followed]:
@@ -198,7 +204,7 @@ def test_what_no_stretch_tells_is_not_told_of_all_of_them(estimator: Estimator) 
 
 
 def test_a_doubt_does_not_hide_that_a_bearing_must_come_out(estimator: Estimator) -> None:
-    rows = stretches(9, "cup", 6, width=14e-3)
+    rows = stretches(9, "cup", 6, width=16e-3, length=17e-3)
     strange = rows[-1:] + 60.0 * (np.arange(rows.shape[1]) % 2)
     steps = followed(estimator, np.concatenate([rows, strange]))
     assert steps[-2].health == TAKE_OUT
