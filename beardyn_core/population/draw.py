@@ -40,8 +40,9 @@ def rows_of(sweep: Sweep) -> list[Row]:
         combined = (dict(zip(keys, chosen, strict=True)) for chosen in product(*values))
         return [_row(sweep, run, run, chosen) for run, chosen in zip(range(count), combined, strict=False)]
     own = [each for each in sweep.drawn if per_of(each) == BEARING]
-    bearings = _drawn(own, ceil(count / sweep.runs_per_bearing), sweep, "bearing")
-    runs = _drawn([each for each in sweep.drawn if per_of(each) != BEARING], count, sweep, "run")
+    others = [each for each in sweep.drawn if per_of(each) != BEARING]
+    shares = _shares((len(own), len(others)), (ceil(count / sweep.runs_per_bearing), count), sweep)
+    bearings, runs = (_drawn(each, found) for each, found in zip((own, others), shares, strict=True))
     order = [each.key for each in sweep.drawn]
     rows = []
     for run in range(count):
@@ -55,13 +56,29 @@ def _row(sweep: Sweep, run: int, bearing: int, drawn: dict[str, Any]) -> Row:
     return Row(run, bearing, drawn, _seed(sweep.seed, "seed", run), _seed(sweep.seed, "lot", bearing))
 
 
-def _drawn(variables: Sequence[Drawn], count: int, sweep: Sweep, what: str) -> list[dict[str, Any]]:
-    """Draw some keys for runs or bearings."""
-    shares = _points(len(variables), count, sweep.sampling, _generator(sweep.seed, what))
+def _drawn(variables: Sequence[Drawn], shares: Float) -> list[dict[str, Any]]:
+    """Draw some keys for runs or bearings, which have these shares of their ranges."""
     return [
         {each.key: rounded(each.at(float(share))) for each, share in zip(variables, point, strict=True)}
         for point in shares
     ]
+
+
+def _shares(dimensions: tuple[int, int], counts: tuple[int, int], sweep: Sweep) -> tuple[Float, Float]:
+    """Spread bearings and runs over their unit cubes, each shape [point, dimension].
+
+    Of one sequence, for two of Sobol go with one another, dimension by dimension, however they are scrambled:
+    what a run has would tell what its bearing has.
+    """
+    if sweep.sampling != "sobol":
+        generators = (_generator(sweep.seed, what) for what in ("bearing", "run"))
+        bearings, runs = (
+            _points(*each, sweep.sampling, generator)
+            for each, generator in zip(zip(dimensions, counts, strict=True), generators, strict=True)
+        )
+        return bearings, runs
+    points = _points(sum(dimensions), max(counts), "sobol", _generator(sweep.seed, "bearing"))
+    return points[: counts[0], : dimensions[0]], points[: counts[1], dimensions[0] :]
 
 
 def _points(dimensions: int, count: int, sampling: str, generator: np.random.Generator) -> Float:

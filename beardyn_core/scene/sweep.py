@@ -234,9 +234,9 @@ class Sweep:
     sampling: A[
         str,
         At(one_of=SAMPLINGS),
-        "sobol fills all dimensions evenly, and more runs continue it; latin_hypercube fills each dimension "
-        "evenly; grid takes every combination",
-    ] = "sobol"
+        "random draws every key on its own; sobol fills all dimensions evenly, but few runs of it have keys "
+        "that go together; latin_hypercube fills each dimension evenly; grid takes every combination",
+    ] = "random"
     runs: A[int | None, At(ge=1, le=MOST_RUNS), "how many; those of the grid when left out, else 100"] = None
     runs_per_bearing: A[int, At(ge=1, le=100_000), "runs of each bearing, under other conditions"] = 1
     hours: A[
