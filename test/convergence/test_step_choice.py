@@ -186,6 +186,5 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
 def test_rings_on_an_axle_that_bends_get_another_step() -> None:
     """With two, rollers of this scene carried twice their load: docs/automatic.md."""
     scene = load_scene("service_high_speed")
-    given = {"mounting": scene.mounting, "axial": 5e3, "end_play": scene.end_play}
-    bent = steps(FULL, bending=partial(bending_give, scene), **given)
-    assert (steps(FULL, **given), bent) == (2, 3)
+    of_scene = partial(steps, FULL, mounting=scene.mounting, axial=5e3, end_play=scene.end_play)
+    assert (of_scene(), of_scene(bending=partial(bending_give, scene))) == (2, 3)
