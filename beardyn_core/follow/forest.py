@@ -33,6 +33,12 @@ class Forest:
     offset: A[float, "added to the mean of the trees"]
     slope: A[float, "that it is multiplied by before"]
 
+    def __post_init__(self) -> None:
+        """Refuse trees of a damaged file, which would never end."""
+        asks = np.flatnonzero(self.descriptor >= 0)
+        if len(asks) and ((self.other[asks] <= asks).any() or self.other.max() >= len(self.other)):
+            raise ValueError("trees that go back")
+
     def value(self, standardised: Float) -> Float:
         """Give the number, shape [run], of standardised descriptors, shape [run, descriptor]."""
         return self.offset + self.slope * self._ends(standardised).mean(axis=1)

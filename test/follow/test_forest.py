@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -50,3 +52,10 @@ def test_doubt_tells_where_it_errs(grown: tuple[Forest, Float]) -> None:
     errors, doubt = np.abs(values - grown[0].value(rows)), grown[0].expected_error(rows)
     sure = doubt < np.median(doubt)
     assert errors[sure].mean() < 0.8 * errors[~sure].mean()
+
+
+def test_trees_that_would_never_end_are_refused(grown: tuple[Forest, Float]) -> None:
+    forest = grown[0]
+    for wrong in (np.zeros_like(forest.other), forest.other + len(forest.other)):
+        with pytest.raises(ValueError, match="go back"):
+            replace(forest, other=wrong)
