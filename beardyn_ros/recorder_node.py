@@ -163,10 +163,10 @@ class RecorderNode(Node):
 
     def _handler(self, entry: Topic) -> Callable[[bytes], None]:
         def take(cdr: bytes) -> None:
-            self._recording.add(entry, cdr)
             if entry.name == "/diagnostics":
                 self._on_statuses(decode_diagnostics(cdr)[1])
-            elif entry.name == "truth":
+            self._recording.add(entry, cdr)
+            if entry.name == "truth":
                 self._on_truth(cdr)
             elif entry.name == "monitor/result":
                 if any(status.value("final") == "true" for status in decode_diagnostics(cdr)[1]):

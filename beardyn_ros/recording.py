@@ -27,6 +27,8 @@ UNSTAMPED = (STRING,)
 LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
 SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
 DRAWN = ("bodies", "contacts")
+TOGETHER = ("temperature",)  # one message for each part, all of one stamp
+OF_ONE_RUN = (*SIMULATED, *DRAWN, *TOGETHER)  # their stamps begin anew with each run
 
 
 class LossWatch:
@@ -169,8 +171,8 @@ class Recording:
     Notes
     -----
     Topics are not ordered among each other: where the stamps of a topic jump back its part of the new run
-    begins. What comes before the truth of that run waits for it; what comes of the old run after that truth
-    still belongs to the old one.
+    begins. What comes before the truth of that run waits for it, even its last word; what comes of the old
+    run after that truth still belongs to the old one.
     """
 
     def __init__(
@@ -187,6 +189,7 @@ class Recording:
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
         self._ahead: set[str] = set()
+        self._last_words: dict[str, Diagnostic] = {}  # of runs that have no file yet, by run id
         self._old: RunFile | None = None
         self._switched: set[str] = set()
         self._old_since = 0.0
@@ -211,12 +214,14 @@ class Recording:
         """Tell whether a message is of a run whose truth has not come: its stamp has jumped back."""
         assert self.current is not None
         name = entry.name
+        if name == "/diagnostics":
+            return any(_speaks_of(run_id, cdr) for run_id in self._last_words)
         if name in self._ahead:
             return True
-        if not (name in SIMULATED or name in DRAWN or name.startswith("vibration/")):
+        if not (name in OF_ONE_RUN or name.startswith("vibration/")):
             return False
         last = self.current.last_ns.get(name)
-        if last is None or header_stamp(cdr) > last:
+        if last is None or _goes_on(name, header_stamp(cdr), last):
             return False
         self._ahead.add(name)
         return True
@@ -244,6 +249,8 @@ class Recording:
         path = self._path_of(scene, len(self.paths) + 1)
         self.current = RunFile(path, self._namespace, truth, replace=self._replace, splitting=self._splitting)
         self.paths.append(path)
+        self.current.last_word = self._last_words.get(self.current.run_id)
+        self._last_words.clear()
         early, self._early = self._early, []
         for entry, cdr in early:
             self.current.add(entry, cdr)
@@ -259,16 +266,24 @@ class Recording:
         if entry.name in self._switched:
             return self.current
         last = self._old.last_ns.get(entry.name)
-        if last is not None and header_stamp(cdr) > last:
+        if last is not None and _goes_on(entry.name, header_stamp(cdr), last):
             return self._old
         self._switched.add(entry.name)
         return self.current
 
     def hear(self, status: Diagnostic) -> None:
-        """Note the last word of a twin with the file of the run that it is about."""
-        for file in (self.current, self._old):
-            if file is not None and file.run_id and file.run_id == status.value("run_id"):
-                file.last_word = status
+        """Note the last word of a twin with the file of the run that it is about, or for the one to come.
+
+        To be called before the message that carries it is added.
+        """
+        run_id = status.value("run_id")
+        if not run_id:
+            return
+        files = [each for each in (self.current, self._old) if each is not None and each.run_id == run_id]
+        for file in files:
+            file.last_word = status
+        if not files:
+            self._last_words[run_id] = status
 
     def flush_and_close_old(self, old_run_timeout: float, tail_timeout: float) -> None:
         """Flush, and close the old run when its stragglers have had their time.
@@ -332,6 +347,11 @@ def free_name(path: Path, number: int) -> Path:
 def is_recorded(folder: Path) -> bool:
     """Tell whether a folder holds a recording in several files."""
     return folder.is_dir() and ((folder / INDEX).exists() or any(folder.glob("*.mcap")))
+
+
+def _goes_on(name: str, stamp_ns: int, last_ns: int) -> bool:
+    """Tell whether a message can be of the run of the one before: its stamp has not jumped back."""
+    return stamp_ns > last_ns or (stamp_ns == last_ns and name in TOGETHER)
 
 
 def _speaks_of(run_id: str, diagnostics: bytes) -> bool:

@@ -22,7 +22,7 @@ from beardyn_ros.run_state import END_STATES, INTERRUPTED, LEFT, SessionReport
 from beardyn_ros.session import TwinSession
 from beardyn_ros.wire import TopicPublishers
 
-UNCOUNTED_TOPICS = ("load/consumed", "/diagnostics")  # they go on when the run is over
+UNCOUNTED_TOPICS = ("load/consumed", "/clock", "/diagnostics")  # they go on when the run is over
 
 
 class TwinReporter:

@@ -35,13 +35,18 @@ class TwinWatch:
         self._missing_since: float | None = None
         self._absent_since = time.monotonic()
         self.last: Diagnostic | None = None
+        self._others: dict[str, Diagnostic] = {}  # last statuses of other runs by run id
         self.mixed = ""
 
     def begin_run(self, run_id: str) -> None:
-        """Follow the run that a ``truth`` has told; what was said about an earlier one is forgotten."""
+        """Follow the run that a ``truth`` has told; what was said about others is forgotten.
+
+        Topics are not ordered among each other: what the twin said about this run may have come before.
+        """
         self._note_instance(run_id)
         if self.last is not None and self.last.value("run_id") != run_id:
-            self.last = None
+            self.last = self._others.get(run_id)
+        self._others.clear()
         self._run_id, self._told = run_id, bool(run_id)
 
     def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
@@ -55,6 +60,8 @@ class TwinWatch:
                 self._run_id = run_id
             if run_id == self._run_id:
                 self.last = status
+            else:
+                self._others[run_id] = status
 
     def _note_instance(self, run_id: str) -> None:
         """Notice when two twins under this name take turns: their messages cannot be told apart."""

@@ -10,8 +10,8 @@ from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.topics import NAMESPACE, relative_name
 
 PREFIX = "messages "
-# Other nodes speak there too, and the twin's own count cannot hold the message that carries it.
-_NOT_COUNTED = ("/diagnostics",)
+# Others speak there too: which run a message belongs to is not to be told.
+_NOT_COUNTED = ("/diagnostics", "/clock")
 
 
 @dataclass(frozen=True)

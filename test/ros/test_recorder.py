@@ -14,12 +14,23 @@ import numpy as np
 import pytest
 
 from beardyn_core.record.clouds import cloud_to_arrays, encode_points
+from beardyn_core.record.encoding import temperature_template
 from beardyn_core.record.load_stream import encode_load
-from beardyn_core.record.messages import encode_string, header_stamp
+from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.messages import (
+    Diagnostic,
+    decode_diagnostics,
+    encode_diagnostics,
+    encode_string,
+    header_stamp,
+)
+from beardyn_core.record.published import MissingMessages, last_published
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import TOPICS, topic
 from beardyn_ros.recording import Recording, free_name
+from beardyn_ros.run_state import FINISHED, INTERRUPTED, LEFT
+from beardyn_ros.twin_watch import TwinWatch
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 
@@ -153,16 +164,17 @@ def test_reset_begins_a_new_file(graph: Graph) -> None:
     from std_srvs.srv import Trigger
 
     path = graph.folder / "run.mcap"
-    graph.fake_twin(speed_factor=2.0)
+    graph.fake_twin(speed_factor=0.1)  # a busy machine has time to reset it
     graph.node_process("recorder", output=str(path))
     is_connected(graph, "recorder")
     graph.fake_load(duration=1.5, exit_when_done=False)
     graph.until(
-        lambda: any(float(s.value("simulated_time")) > 0.3 for s in graph.statuses("twin")), "some blocks"
+        lambda: any(float(s.value("simulated_time")) > 0.1 for s in graph.statuses("twin")), "some blocks"
     )
     assert graph.call("reset", Trigger).success
+    graph.set_parameter("twin", "speed_factor", 2.0)
     assert graph.exit_code("twin") == 0
-    assert graph.exit_code("recorder") == 0
+    assert graph.exit_code("recorder") == 0, graph.processes.log("recorder")
     first, second = read_run(path), read_run(path.with_name("run_2.mcap"))
     assert first.complete
     assert second.complete
@@ -225,6 +237,51 @@ def test_a_reset_never_writes_over_an_earlier_recording(tmp_path: Path) -> None:
     recording.close("")
     assert [path.name for path in recording.paths] == names
     assert (tmp_path / "run_2.mcap").read_text() == "of last week"
+
+
+def test_a_short_run_that_is_over_before_its_truth_comes_has_its_last_word(tmp_path: Path) -> None:
+    """Topics are not ordered among each other: a truth that is sent again may come after everything else."""
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+    watch, celsius = TwinWatch("axlebox/twin", lambda: 1), temperature_template("axlebox")
+
+    def truth(run_id: str) -> None:
+        recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": run_id})))
+        watch.begin_run(run_id)
+
+    def last_word(run_id: str, state: str, said: str, bodies: int) -> None:
+        values = (("run_id", run_id), ("state", state), ("messages bodies", str(bodies)))
+        word = Diagnostic("axlebox/twin", 0, said, values)
+        watch.take_statuses((word,))
+        recording.hear(word)
+        recording.add(topic("/diagnostics"), encode_diagnostics(0, "axlebox", [word]))
+
+    def blocks(count: int) -> None:
+        for block in range(count):
+            recording.add(topic("bodies"), encode_points(NO_BODIES, 20_000_000 * block, "axlebox"))
+            stamps = np.full(2, 20_000_000 * (block + 1))  # of two parts
+            for row in celsius.rows(stamps, celsius=np.full((2, 1), 60.0)):
+                recording.add(topic("temperature"), row.tobytes())
+
+    truth("i-1")
+    blocks(5)
+    last_word("i-1", INTERRUPTED, LEFT, 5)
+    first = recording.current
+    blocks(3)
+    last_word("i-2", FINISHED, "finished", 4)
+    assert not watch.ended
+    truth("i-2")
+    second = recording.current
+    assert first is not None
+    assert second is not None
+    assert watch.ended
+    assert first.missing() == []
+    assert second.missing() == [MissingMessages("bodies", 4, 3)]
+    recording.close("")
+    assert (first.counts["temperature"], second.counts["temperature"]) == (10, 6)
+    for path, published in zip(recording.paths, (5, 4), strict=True):
+        said = [each.cdr for each in McapScan(path).messages() if each.topic == "/diagnostics"]
+        statuses = [status for cdr in said for status in decode_diagnostics(cdr)[1]]
+        assert last_published(statuses) == {"bodies": published}
 
 
 @pytest.mark.parametrize("truth_after", range(4))
