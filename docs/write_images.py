@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,9 @@ from scipy.signal import welch
 from beardyn_core.choice import load_scene
 from beardyn_core.run import blocks
 from beardyn_core.scene import band_limited
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from evidence.stamps import stamp
 
 PICTURE = Path(__file__).with_name("pictures") / "load_images.png"
 COLOURS = 32
@@ -48,6 +52,7 @@ def main() -> None:
     drawn = io.BytesIO()
     figure.savefig(drawn, format="png")
     Image.open(drawn).convert("RGB").quantize(COLOURS).save(PICTURE, optimize=True)
+    stamp(PICTURE)
 
 
 if __name__ == "__main__":

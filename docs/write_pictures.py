@@ -16,8 +16,11 @@ import beardyn_core as bd
 from beardyn_core.record.rerun_view import save
 from beardyn_core.record.viewer import take_picture
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from evidence.stamps import stamp
+
 FOLDER = Path(__file__).with_name("pictures")
-SCENE, TIER, EFFECTS, SECONDS = "cup_spall", "quasistatic", "standard", 2.0
+SCENE, TIER, SECONDS = "cup_spall", "quasistatic", 2.0
 SUMMARY = "summary.png"
 WIDTH = 1200
 COLOURS = 256
@@ -28,15 +31,14 @@ def shrink(source: Path, target: Path) -> None:
     picture = Image.open(source).convert("RGB")
     small = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.Resampling.LANCZOS)
     small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
+    stamp(target)
 
 
 def main(arguments: list[str]) -> None:
     """Draw the view, and shrink the summary of a demo that is given."""
     FOLDER.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as place:
-        run = bd.simulate(
-            SCENE, tier=TIER, effects=EFFECTS, duration=SECONDS, record=Path(place) / "cup_spall.mcap"
-        )
+        run = bd.simulate(SCENE, tier=TIER, duration=SECONDS, record=Path(place) / "cup_spall.mcap")
         view = save(run, Path(place) / "cup_spall.rrd")
         shrink(take_picture(view, Path(place) / "view.png"), FOLDER / "demo_view.png")
     for folder in arguments:

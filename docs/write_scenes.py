@@ -26,6 +26,9 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import Irregularity, MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from evidence.stamps import stamp
+
 PAGE = Path(__file__).with_name("scenes.md")
 FOLDER = Path(__file__).with_name("pictures") / "scenes"
 SIGNALS = Path(__file__).with_name("pictures") / "signals"  # of write_signals.py
@@ -48,7 +51,7 @@ strikes of a flat, joints passed, each with time and distance.
 
 The pictures show the vertical load on the journal (line: mean, band: least and greatest) and the speed;
 red triangles are strikes, yellow stretches where a scene has something else to meet. A second picture is of
-a run in tier `quasistatic` with the standard effects (`python docs/write_signals.py`): vertical vibration
+a run in tier `quasistatic` (`python docs/write_signals.py`): vertical vibration
 of the axlebox, its spectrum, and that of its envelope between 2 and 8 kHz; the orders of faults of cup, cone
 and roller are dotted.
 
@@ -299,7 +302,9 @@ def main(arguments: list[str]) -> int:
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in shipped_names("scenes"):
         if railway(scene := read_scene(name).scene):
-            (FOLDER / f"{name}.png").write_bytes(picture(scene))
+            path = FOLDER / f"{name}.png"
+            path.write_bytes(picture(scene))
+            stamp(path)
     PAGE.write_text(page(), encoding="utf-8")
     return 0
 

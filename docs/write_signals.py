@@ -1,7 +1,8 @@
 """Make the pictures of vibration and spectra in scenes.md: ``python docs/write_signals.py``, two minutes.
 
-Names of scenes may follow; else it is all of `SCENES`. Each is run in tier quasistatic with the standard
-effects: a picture shows what a scene sounds like, and that is the cheapest tier with every roller.
+Names of scenes may follow; else it is all of `SCENES`. Each is run in tier quasistatic with the effects
+that its sensors ask for: a picture shows what a scene sounds like, and that is the cheapest tier with every
+roller.
 """
 
 from __future__ import annotations
@@ -21,6 +22,9 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from evidence.stamps import stamp
+
 SCENES = (
     "healthy_140",
     "cup_spall",
@@ -31,7 +35,7 @@ SCENES = (
     "jointed_track",
     "spall_and_flat",
 )
-TIER, EFFECTS = "quasistatic", "standard"
+TIER = "quasistatic"
 FOLDER = Path(__file__).with_name("pictures") / "signals"
 LONGEST_S, SETTLED_S, SHOWN_S = 2.0, 0.3, 0.2
 BAND_HZ = (2_000.0, 8_000.0)
@@ -42,7 +46,7 @@ LINE, FAINT = "#1f4e79", "#7aa6c2"
 
 def signal_of(name: str) -> tuple[np.ndarray, float, np.ndarray, bd.Scene]:
     """Simulate a scene: vertical acceleration [m/s^2], its rate [Hz], turns of the shaft, and the scene."""
-    scene = bd.scene(name, tier=TIER, effects=EFFECTS, duration=LONGEST_S)
+    scene = bd.scene(name, tier=TIER, duration=LONGEST_S)
     run = bd.simulate(scene)
     time = np.asarray(run.vibration.time)
     later = time > SETTLED_S
@@ -99,7 +103,9 @@ def main(names: list[str]) -> None:
     """Write the pictures."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in names or SCENES:
-        (FOLDER / f"{name}.png").write_bytes(picture(name))
+        path = FOLDER / f"{name}.png"
+        path.write_bytes(picture(name))
+        stamp(path)
         print(f"{FOLDER / name}.png is written", flush=True)
 
 

@@ -26,6 +26,7 @@ performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs
 standard    shipped scenes with the standard effects
 pages       where pages and pictures go, and how pictures are made small
+stamps      which command and which code each picture is of
 =========== ======================================================================================
 
 ``python -m evidence.NAME.page`` writes the page. The numbers of `hard`, `random` and `step` are made before

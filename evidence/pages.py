@@ -6,12 +6,14 @@ from pathlib import Path
 
 from PIL import Image
 
+from evidence.stamps import command_of_this_process, png_text, rooms_of
+
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PICTURES = DOCS / "pictures"
 
 
 def save_small(source: Path, target: Path, colours: int) -> None:
-    """Save a picture as a PNG of one byte a pixel.
+    """Save a picture as a PNG of one byte a pixel that says which command and code it is of.
 
     Parameters
     ----------
@@ -22,7 +24,7 @@ def save_small(source: Path, target: Path, colours: int) -> None:
     """
     with Image.open(source) as picture:
         small = picture.convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE)
-    small.save(target, optimize=True)
+    small.save(target, optimize=True, pnginfo=png_text(command_of_this_process(), rooms_of()))
 
 
 def with_section(page: str, title: str, written: str, before: str) -> str:

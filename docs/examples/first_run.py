@@ -12,7 +12,7 @@ from scipy.signal import butter, hilbert, sosfiltfilt
 
 import beardyn_core as bd
 
-run = bd.simulate("cup_spall", tier="quasistatic", effects="standard", duration=4.0)
+run = bd.simulate("cup_spall", tier="quasistatic", duration=4.0)
 print(run)
 
 # %% [markdown]

@@ -13,7 +13,7 @@ import numpy as np
 
 import beardyn_core as bd
 
-twin = bd.simulate("cone_spall", tier="quasistatic", effects="standard", duration=4.0)
+twin = bd.simulate("cone_spall", tier="quasistatic", duration=4.0)
 table = np.column_stack((twin.vibration.time, twin.vibration.values))
 np.savetxt("vibration.csv", table, delimiter=",", header="time,ax,ay,az", comments="", fmt="%.7g")
 speed = twin.truth["speed"]["rpm"]["mean"]

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 
 from evidence.pages import DOCS, PICTURES
+from evidence.stamps import stamp
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend
 from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
 from evidence.validation.pictures import DRAWINGS
@@ -145,6 +146,7 @@ def rewrite(topics: list[str]) -> None:
     PAGE.write_text(re.sub(r"^\d+ of \d+ numbers agree[^#]*\n\n", told, text, flags=re.M), encoding="utf-8")
     for name in {trend.picture for trend in TRENDS if trend.topic in topics and trend.picture}:
         DRAWINGS[name](PICTURES / name)
+        stamp(PICTURES / name)
 
 
 def trends_anew(known: list[str], topics: list[str]) -> tuple[list[str], int]:
@@ -184,6 +186,7 @@ def main() -> None:
         print(trend.topic, finding.holds, finding.sentence, flush=True)
     for name, draw in DRAWINGS.items():
         draw(PICTURES / name)
+        stamp(PICTURES / name)
     told = totals([rows[anchor][1] for anchor in COUNTED], held) + "## Numbers\n\n"
     PAGE.write_text(
         HEAD + told + "\n".join([*lines, *trends, *others, "", *unreached_lines()]) + "\n", encoding="utf-8"

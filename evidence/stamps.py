@@ -1,0 +1,106 @@
+"""Which code a picture of the documentation is of: ``python -m evidence.stamps``.
+
+A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator
+as it was then. The command lists the pictures, and which rooms have changed since; ``--check`` ends with 1
+when one has. That is a question for a release: a change in one room, such as a command's wording, need not
+reach a picture, so no test asks it of every commit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated as A
+from typing import NamedTuple
+
+from PIL import Image, PngImagePlugin
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / "docs" / "pictures"
+SIMULATOR = "beardyn_core"
+BY, OF = "Made by", "Made of"
+LISTED = 8  # rooms; more are counted
+_LENGTH = 8
+
+
+class Stamp(NamedTuple):
+    """What a picture says of its making."""
+
+    command: A[str, "empty where it says nothing"]
+    rooms: A[dict[str, str], "digests of the rooms of the simulator by name"]
+
+
+def rooms_of(root: Path = ROOT) -> dict[str, str]:
+    """Hash the sources of every room of the simulator, the modules beside the rooms as one more, ``.``."""
+    digests: dict[str, hashlib._Hash] = {}
+    for path in sorted((root / SIMULATOR).rglob("*.py")):
+        place = path.relative_to(root / SIMULATOR)
+        digest = digests.setdefault(place.parts[0] if len(place.parts) > 1 else ".", hashlib.sha256())
+        digest.update(f"\n{place.as_posix()}\n".encode() + path.read_bytes())
+    return {room: digest.hexdigest()[:_LENGTH] for room, digest in digests.items()}
+
+
+def command_of_this_process() -> str:
+    """Give the command that runs: ``python -m evidence.light.page``, ``python docs/write_scenes.py``."""
+    main = sys.modules["__main__"]
+    if main.__spec__ is not None:
+        return f"python -m {main.__spec__.name.removesuffix('.__main__')}"
+    script = Path(getattr(main, "__file__", None) or sys.argv[0]).resolve()
+    return f"python {script.relative_to(ROOT).as_posix()}" if script.is_relative_to(ROOT) else ""
+
+
+def png_text(command: str, rooms: dict[str, str]) -> PngImagePlugin.PngInfo:
+    """Write a stamp as what Pillow's ``save(pnginfo=...)`` takes."""
+    text = PngImagePlugin.PngInfo()
+    text.add_text(BY, command)
+    text.add_text(OF, json.dumps(rooms))
+    return text
+
+
+def stamp(path: Path, command: str = "", rooms: dict[str, str] | None = None) -> None:
+    """Stamp a PNG in its place: by default with the command that runs and the code that is there."""
+    with Image.open(path) as picture:
+        picture.load()
+    text = png_text(command or command_of_this_process(), rooms_of() if rooms is None else rooms)
+    picture.save(path, format="png", optimize=True, pnginfo=text)
+
+
+def stamp_of(path: Path) -> Stamp:
+    """Read what a picture says of its making."""
+    with Image.open(path) as picture:
+        picture.load()  # text may stand behind the pixels
+        said = {key: str(value) for key, value in picture.info.items() if key in (BY, OF)}
+    return Stamp(said.get(BY, ""), json.loads(said.get(OF, "{}")))
+
+
+def changed_rooms(path: Path, now: dict[str, str]) -> list[str]:
+    """Name the rooms that are others than when a picture was made."""
+    then = stamp_of(path).rooms
+    return sorted(room for room in {*then, *now} if then.get(room) != now.get(room))
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """List the pictures, or check that they are of the present code."""
+    parser = argparse.ArgumentParser(prog="python -m evidence.stamps", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="end with 1 when one is of other code")
+    arguments = parser.parse_args(words)
+    now, older = rooms_of(), 0
+    pictures = sorted(PICTURES.rglob("*.png"))
+    for path in pictures:
+        changed = changed_rooms(path, now)
+        older += bool(changed)
+        since = "of the present code"
+        if changed:
+            listed = ", ".join(changed) if len(changed) <= LISTED else f"{len(changed)} of {len(now)} rooms"
+            since = f"changed since: {listed}"
+        print(f"{path.relative_to(PICTURES).as_posix():<40} {stamp_of(path).command:<40} {since}")
+    print(f"{len(pictures) - older} of {len(pictures)} pictures are of the present code")
+    return 1 if arguments.check and older else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

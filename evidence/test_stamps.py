@@ -1,0 +1,71 @@
+"""Every picture of the documentation says which command and which code it is of."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from evidence.pages import save_small
+from evidence.stamps import PICTURES, ROOT, changed_rooms, main, rooms_of, stamp, stamp_of
+
+EVERY = sorted(PICTURES.rglob("*.png"))
+
+
+@pytest.fixture
+def picture(tmp_path: Path) -> Path:
+    path = tmp_path / "some.png"
+    Image.new("RGB", (8, 8), "#1f4e79").save(path)
+    return path
+
+
+def test_every_picture_names_a_command_that_there_is() -> None:
+    assert len(EVERY) > 50
+    for path in EVERY:
+        words = stamp_of(path).command.split()
+        assert words[:1] == ["python"], path
+        place = Path(*words[2].split(".")).with_suffix(".py") if words[1] == "-m" else Path(words[1])
+        assert (ROOT / place).is_file(), path
+        assert len(stamp_of(path).rooms) > 10, path
+
+
+def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tmp_path: Path) -> None:
+    code = tmp_path / "beardyn_core"
+    (code / "rail").mkdir(parents=True)
+    (code / "record").mkdir()
+    for place in ("run.py", "rail/load.py", "record/reading.py"):
+        (code / place).write_text("x = 1\n")
+    stamp(picture, "python docs/some.py", rooms_of(tmp_path))
+    assert stamp_of(picture).command == "python docs/some.py"
+    assert changed_rooms(picture, rooms_of(tmp_path)) == []
+    (code / "rail/load.py").write_text("x = 2\n")
+    assert changed_rooms(picture, rooms_of(tmp_path)) == ["rail"]
+    shutil.rmtree(code / "record")
+    (code / "run.py").write_text("x = 2\n")
+    assert changed_rooms(picture, rooms_of(tmp_path)) == [".", "rail", "record"]
+
+
+def test_what_makes_a_picture_small_stamps_it(picture: Path, tmp_path: Path) -> None:
+    target = tmp_path / "small.png"
+    save_small(picture, target, 4)
+    assert stamp_of(picture).command == ""
+    assert stamp_of(target).command.startswith("python -m ")  # pytest, here
+    assert changed_rooms(target, rooms_of()) == []
+    with Image.open(target) as small:
+        assert small.mode == "P"
+
+
+def test_the_list_has_every_picture_and_the_check_ends_with_1_when_one_is_older(
+    picture: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == len(EVERY) + 1
+    monkeypatch.setattr("evidence.stamps.PICTURES", picture.parent)
+    stamp(picture)
+    assert main(["--check"]) == 0
+    assert "1 of 1 pictures are of the present code" in capsys.readouterr().out
+    stamp(picture, rooms={**rooms_of(), "rail": "other"})
+    assert main(["--check"]) == 1
+    assert "changed since: rail" in capsys.readouterr().out
