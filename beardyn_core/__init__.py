@@ -14,6 +14,7 @@ jit         how kernels are compiled
 errors      errors a user sees
 units       units of numbers in files, and the way to SI
 edge        unit, limits and words of a number, on the field that holds it
+inputs      files that are read: no pipe, no device
 outputs     files that a command writes: nothing is replaced unasked
 interrupts  Ctrl-C, also while something is compiled
 versions    versions of what computed a run

@@ -8,6 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 from beardyn_core.errors import InputError
+from beardyn_core.inputs import size_of_file
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Source
 from beardyn_core.outputs import note_read
@@ -66,6 +67,7 @@ def format_of(path: Path) -> Format:
     try:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the files in it")
+        size_of_file(path)
         with path.open("rb") as file:
             head = file.read(_HEAD)
     except OSError as error:

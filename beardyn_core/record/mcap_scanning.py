@@ -23,6 +23,7 @@ from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import CompressionType, Writer
 
 from beardyn_core.errors import InputError
+from beardyn_core.inputs import size_of_file
 from beardyn_core.outputs import is_being_written, open_to_write
 
 END_RECORD = "beardyn_end"
@@ -67,7 +68,7 @@ class McapScan:
     def __init__(self, path: Path | str) -> None:
         self.path = Path(path)
         try:
-            self.size_bytes = self.path.stat().st_size
+            self.size_bytes = size_of_file(self.path)
             with self.path.open("rb") as file:
                 start = file.read(len(MAGIC))
         except OSError as error:

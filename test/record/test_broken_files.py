@@ -119,6 +119,18 @@ def test_what_is_no_recording_is_a_sentence(content: bytes, tmp_path: Path) -> N
     assert not (tmp_path / "x.rrd").exists()
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with a name are of POSIX")
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    """Nobody writes into it: opening it would never end."""
+    pipe = tmp_path / "run.mcap"
+    os.mkfifo(pipe)
+    imported = ("import", str(pipe), "--speed-rpm", "900", "--bearing", "HS130x230", "-o", "x.mcap")
+    for words in (("report", str(pipe)), ("monitor", str(pipe)), ("estimate", str(pipe)), imported):
+        code, said = told(*words)
+        assert code == 2, words
+        assert "a pipe or a device, not a file" in said, words
+
+
 def test_a_folder_and_a_missing_file_are_sentences(tmp_path: Path) -> None:
     for path in (tmp_path, tmp_path / "absent.mcap"):
         for words in (["report"], ["monitor"], ["view", "--save", str(tmp_path / "x.rrd")]):
