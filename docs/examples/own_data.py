@@ -36,8 +36,8 @@ except bd.InputError as error:
 # %% [markdown]
 # ## Judged
 #
-# A speed that is typed in is a mean: where a train slows down, lines smear, and the angle of the shaft, from a
-# tachometer or a second column, keeps them sharp. This one goes at one speed, so both say the same.
+# A speed that is typed in is a mean: where a train slows down, lines smear, and the angle of the shaft, from
+# a tachometer or a second column, keeps them sharp. This one goes at one speed, so both say the same.
 
 # %%
 for what, each in (("mean speed", run), ("shaft angle", twin)):

@@ -1,0 +1,156 @@
+"""Neural posterior estimation beside the shipped way: ``python -m evidence.follow.neural``.
+
+``--train runs --hidden hidden`` as for `evidence.follow.judged`; needs ``pip install sbi``, which is no extra
+of this project, as it does not win. A normalising flow learns the posterior of each number from the
+descriptors of both sets (sbi: ``NPE`` with splines, which need not be Gaussian, and its usual early stopping), and judges bearings
+of the hidden set that it has not seen, part by part. The section goes into docs/estimate.md.
+
+References
+----------
+Papamakarios, Murray (2016), NeurIPS 29; Greenberg, Nonnenmacher, Macke (2019), ICML: posterior estimation by
+flows. Tejero-Cantero et al. (2020), J. Open Source Softw. 5, 2505: sbi.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.arrays import Float
+from beardyn_core.follow.judging import Guessed, score_of
+from beardyn_core.follow.labelled import Described, described, joined
+from beardyn_core.follow.learning import known
+from beardyn_core.follow.learnt import LEVELS, Guess
+from beardyn_core.follow.quantities import BY_NAME, Quantity
+from beardyn_core.population.labelled_set import LabelledSet
+from evidence.follow.judged import SHOWN, judged
+from evidence.pages import DOCS, with_section
+
+PAGE = DOCS / "estimate.md"
+TITLE, NEXT = "## Beside a neural posterior\n", "## Following a bearing\n"
+PARTS = 5  # of the hidden bearings; each is judged by what the others teach
+HEARD = 80  # descriptors that go best with the number
+DRAWS = 1000  # of a posterior
+SEED = 1
+
+
+def folds(bearings: NDArray[np.str_]) -> Iterator[NDArray[np.bool_]]:
+    """Part runs by bearings: which runs are judged."""
+    names = sorted(set(bearings.tolist()))
+    for part in range(PARTS):
+        yield np.isin(bearings, names[part::PARTS])
+
+
+def heard_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
+    """Find the descriptors that go best with a number."""
+    centred = descriptors - descriptors.mean(axis=0)
+    size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
+    return np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:HEARD]
+
+
+def draws(descriptors: Float, values: Float, asked: Float) -> Float:
+    """Learn a posterior from runs, and draw from it for others, shape [draw, run]."""
+    torch, inference = import_module("torch"), import_module("sbi.inference")
+    torch.manual_seed(SEED)
+    learner = inference.NPE(density_estimator="nsf", show_progress_bars=False)
+    learner.append_simulations(
+        torch.as_tensor(values[:, None], dtype=torch.float32),
+        torch.as_tensor(descriptors, dtype=torch.float32),
+    )
+    flow = learner.train()
+    with torch.no_grad():
+        found = flow.sample((DRAWS,), condition=torch.as_tensor(asked, dtype=torch.float32))
+    return np.asarray(found.numpy()[..., 0], np.float64)
+
+
+def guessed_by_flow(quantity: Quantity, train: Described, hidden: Described) -> Guessed:
+    """Guess every hidden run by what both sets without its bearing teach."""
+    values, inside = known(quantity, hidden)
+    pieces: list[tuple[NDArray[np.int64], Float]] = []
+    for part in folds(hidden.bearings):
+        rest = Described(
+            hidden.descriptors[~part],
+            {name: each[~part] for name, each in hidden.truth.items()},
+            hidden.bearings[~part],
+            hidden.conditions[~part],
+        )
+        both = joined([train, rest])
+        middle, spread = np.nanmean(both.descriptors, axis=0), np.nanstd(both.descriptors, axis=0)
+        spread = np.where(spread > 1e-9, spread, 1.0)
+        taught, has = known(quantity, both)
+        standard = np.nan_to_num((both.descriptors[has] - middle) / spread)
+        columns = heard_best(standard, taught[has])
+        asked = np.flatnonzero(part & inside)
+        unseen = np.nan_to_num((hidden.descriptors[asked] - middle) / spread)
+        pieces.append((asked, draws(standard[:, columns], taught[has], unseen[:, columns])))
+    places = np.concatenate([each for each, _ in pieces])
+    found = np.concatenate([each for _, each in pieces], axis=1)
+    ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
+    low, high = (np.quantile(found, ends[:, k], axis=0) for k in (0, 1))
+    return Guessed(Guess(np.median(found, axis=0), low, high), values[places], places)
+
+
+def section(ours: Mapping[str, Guessed], flows: Mapping[str, Guessed], seconds: float) -> str:
+    """Write the section of the page."""
+    heads = " | ".join(f"inside {100 * level:.0f} %" for level in LEVELS)
+    lines = [
+        TITLE,
+        "Written by `python -m evidence.follow.neural --train runs --hidden hidden`: normalising flows "
+        "(`sbi`, neural posterior estimation) that learn from the same runs, and the same hidden runs as "
+        f"above; {seconds / 60:.0f} min of learning.",
+        "",
+        f"| quantity | way | median error | {heads} |",
+        f"|---|---|--:|{'--:|' * len(LEVELS)}",
+    ]
+    for name in flows:
+        quantity = BY_NAME[name]
+        for way, each in (("shipped", ours.get(name)), ("flow", flows[name])):
+            if each is None:
+                lines.append(f"| {quantity.words} | {way} | not told | {' | '.join('-' for _ in LEVELS)} |")
+                continue
+            score = score_of(quantity, each)
+            error = f"{100 * score.error:.0f} %" if quantity.relative else quantity.width_text(score.error)
+            shares = " | ".join(f"{100 * share:.0f} %" for share in score.coverage)
+            lines.append(f"| {quantity.words} | {way} | {error} | {shares} |")
+    return "\n".join([*lines, "", verdict(ours, flows), "", ""])
+
+
+def verdict(ours: Mapping[str, Guessed], flows: Mapping[str, Guessed]) -> str:
+    """Say where the flow errs less."""
+    better = [
+        BY_NAME[name].words
+        for name, each in flows.items()
+        if name not in ours or score_of(BY_NAME[name], each).error < score_of(BY_NAME[name], ours[name]).error
+    ]
+    if not better:
+        return "The flows err more in every number, so `sbi` and its PyTorch are not an extra."
+    return f"The flows err less in: {', '.join(better)}."
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Learn both ways, print and write."""
+    parser = argparse.ArgumentParser(prog="python -m evidence.follow.neural", description=__doc__)
+    parser.add_argument("--train", metavar="DIR", type=Path, required=True, help="set that is learnt from")
+    parser.add_argument("--hidden", metavar="DIR", type=Path, required=True, help="set that judges")
+    args = parser.parse_args(argv)
+    if find_spec("sbi") is None:
+        parser.error("sbi is not installed: pip install sbi")
+    ours, hidden = judged(LabelledSet(args.train), LabelledSet(args.hidden))
+    train = described(LabelledSet(args.train), None)
+    began = time.perf_counter()
+    flows = {name: guessed_by_flow(BY_NAME[name], train, hidden) for name in SHOWN}
+    text = section(ours, flows, time.perf_counter() - began)
+    print(text)
+    PAGE.write_text(with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,51 @@
+"""What the comparison with a neural posterior says, of guesses whose errors are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from evidence.follow import neural
+from evidence.follow.page import PAGE
+from evidence.follow.test_judged import guesses
+from evidence.pages import with_section
+
+
+def test_no_bearing_is_taught_and_judged() -> None:
+    bearings = np.array([f"b{k % 13}" for k in range(40)])
+    parts = list(neural.folds(bearings))
+    assert np.array_equal(np.sum(parts, axis=0), np.ones(40))
+    for part in parts:
+        assert not set(bearings[part]) & set(bearings[~part])
+
+
+def test_the_descriptors_that_go_with_the_number_are_heard_first() -> None:
+    random = np.random.default_rng(1)
+    values = random.normal(size=200)
+    descriptors = random.normal(size=(200, 300))
+    descriptors[:, 7] -= 3.0 * values
+    chosen = neural.heard_best(descriptors, values)
+    assert chosen[0] == 7
+    assert len(chosen) == neural.HEARD
+
+
+def test_who_errs_less_is_told() -> None:
+    better, worse = {"width": guesses(0.1)}, {"width": guesses(0.3)}
+    assert neural.verdict(better, worse).startswith("The flows err more in every number")
+    assert neural.verdict(worse, better) == "The flows err less in: width of the spall along the raceway."
+    assert neural.verdict({}, better).endswith("width of the spall along the raceway.")
+    text = neural.section(better, worse, 120.0)
+    assert "| width of the spall along the raceway | shipped | 10 % | " in text
+    assert "| width of the spall along the raceway | flow | 30 % | " in text
+    page = with_section(PAGE.read_text(encoding="utf-8"), neural.TITLE, text, neural.NEXT)
+    assert with_section(page, neural.TITLE, text, neural.NEXT) == page
+
+
+def test_a_flow_finds_a_posterior_whose_form_is_known() -> None:
+    pytest.importorskip("sbi")
+    random = np.random.default_rng(1)
+    values = random.normal(size=400)
+    heard = np.stack([values + 0.5 * random.normal(size=400), random.normal(size=400)], axis=1)
+    found = neural.draws(heard, values, np.array([[1.0, 0.0], [-1.0, 0.0]]))
+    assert found.mean(axis=0) == pytest.approx([0.8, -0.8], abs=0.25)  # 1 / (1 + 0.5^2)
+    assert found.std(axis=0) == pytest.approx([0.45, 0.45], abs=0.15)  # 0.5 / sqrt(1 + 0.5^2)
