@@ -1,9 +1,9 @@
 """Neural posterior estimation beside the shipped way: ``python -m evidence.follow.neural``.
 
 ``--train runs --hidden hidden`` as for `evidence.follow.judged`; needs ``pip install sbi``, which is no extra
-of this project, as it does not win. A normalising flow learns the posterior of each number from the
-descriptors of both sets (sbi: ``NPE`` with splines, which need not be Gaussian, and its usual early stopping), and judges bearings
-of the hidden set that it has not seen, part by part. The section goes into docs/estimate.md.
+of this project. A normalising flow learns the posterior of each number from the descriptors of both sets
+(sbi: ``NPE`` with splines, which need not be Gaussian, and its usual early stopping), and judges bearings of
+the hidden set that it has not seen, part by part. The section goes into docs/estimate.md.
 
 References
 ----------
