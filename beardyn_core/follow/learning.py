@@ -84,7 +84,8 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
 
     With `straightened` those runs are of a truer tier, and they have more to say. Each number is put on the
     line that fits them, which takes out what a tier that learns has too much or too little of, or learnt from
-    them alone where that errs less on bearings left out; one that neither explains is not told any more.
+    them alone, or is the mean of both, as errs least on bearings left out; one that none explains is not told
+    any more.
     """
     standard = estimator.standardised(runs.descriptors)
     found, card = {}, {name: dict(each) for name, each in estimator.card["quantities"].items()}

@@ -13,6 +13,10 @@ from beardyn_core.config.yaml_text import read_file
 from beardyn_core.errors import InputError
 from beardyn_core.population.plan import Plan, mistakes_of, plan_of
 
+_EVEN = (
+    "sampling sobol fills all keys evenly, but few runs of it have keys that go together, and a learner that "
+    "hears one then knows the other: take random for a set to learn from"
+)
 _UNVARIED = {"key": "seed", "kind": "choice", "one_of": [1]}
 # a sweep of which nothing is wrong, that keys of another are tried in
 _EMPTY = {"sweep": "mistakes", "purpose": "to find them", "scene": "smooth_run", "runs": 16}
@@ -26,7 +30,7 @@ def asked(
     Parameters
     ----------
     say : callable, optional
-        Told what takes time.
+        Told what takes time, and what a learner would be misled by.
     **changes
         Keys in place of those of the file.
 
@@ -40,6 +44,8 @@ def asked(
         found, label = read_sweep(name, **changes)
     except InputError as error:
         raise InputError([*error.problems, *_of_the_rest(name)]) from None
+    if found.sampling == "sobol":
+        say(_EVEN)
     return plan_of(found, label, say)
 
 

@@ -10,6 +10,7 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.config import read_sweep, scene_text
 from beardyn_core.errors import InputError
+from beardyn_core.population.asked import asked
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.plan import plan_of
 from test.population.sweeps import TINY, planned, tiny
@@ -137,3 +138,12 @@ def test_a_base_scene_may_come_from_anywhere(tmp_path: Path) -> None:
     (tmp_path / "own.yaml").write_text(json.dumps({**TINY, "scene": "mine.yaml", "set": {}, "runs": 2}))
     plan = plan_of(*read_sweep(tmp_path / "own.yaml"))
     assert plan.scene(rows_of(plan.sweep)[1]).tier == "lumped"
+
+
+def test_a_learner_is_warned_of_draws_that_go_together() -> None:
+    said: list[str] = []
+    asked({**TINY, "sampling": "sobol"}, said.append)
+    assert any("take random for a set to learn from" in each for each in said)
+    said.clear()
+    asked({**TINY, "sampling": "random"}, said.append)
+    assert not any("take random" in each for each in said)
