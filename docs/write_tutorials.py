@@ -21,7 +21,9 @@ BLOCK = re.compile(r"```(bash|python|yaml)\n(.*?)```\n(\n```text\n.*?```\n)?", r
 FILE = re.compile(r"# (\w+\.(?:py|yaml))\b")
 COMMAND = f'beardyn() {{ "{sys.executable}" -m beardyn_core.cli.main "$@"; }}\nset -e\n'
 LONGEST_ANSWER = 40  # lines
-ONCE = re.compile(r"beardyn: (compiling the kernels|kernels ready|choosing (the )?effects)")  # of a first run only
+ONCE = re.compile(
+    r"beardyn: (compiling the kernels|kernels ready|choosing (the )?effects)"
+)  # of a first run only
 
 
 def run(kind: str, text: str, folder: Path) -> str:

@@ -107,7 +107,7 @@ class Fitter:
         self._tolerance = tolerance_of(self.beside.rides, base, self.beside.hearing)
         self._scatter = (base - base.mean(axis=0)).reshape(SEEDS, -1)
         before = self._heard - base.mean(axis=0)
-        reasons, interrupted, known = dict[int, str](), True, None
+        reasons, twins, known = dict[int, str](), 1, None
         sensed = False
         try:
             best = self._searched(self._begin, self.budget - self._besides)
@@ -119,7 +119,7 @@ class Fitter:
                 best[k] = self._begin[k]
             self._free = [k for k in self._free if k not in reasons]
             best, after = self._settled(best)
-            interrupted = False
+            twins = SEEDS
         except KeyboardInterrupt:
             if not self._tried:
                 raise
@@ -127,13 +127,13 @@ class Fitter:
             for k in reasons:
                 best[k] = self._begin[k]
             after = self._difference(best)
-        last = self._identified(after)
+        last = self._identified(after, twins)
         known = known or last
         fits = tuple(
             replace(self._told(k, best, known, last, reasons.get(k, "")), unjudged=not sensed)
             for k in range(len(self.unknowns))
         )
-        return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted)
+        return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted=twins < SEEDS)
 
     def values(self, point: Float) -> dict[str, float]:
         """Take a point of the unit box to values at the edge."""
@@ -193,12 +193,12 @@ class Fitter:
         ran = [each for each in self._tried if each.misfit < _FAILED]
         return min(ran, key=lambda each: float(np.sum((each.point - point) ** 2)))
 
-    def _identified(self, difference: Float) -> Identified:
-        """Work out what is determined of the free unknowns."""
+    def _identified(self, difference: Float, twins: int = SEEDS) -> Identified:
+        """Work out what is determined of the free unknowns by a fit to the mean of so many twins."""
         weight = weights(difference, self._tolerance).ravel()
         excess = misfit(difference, self._tolerance)
         slope, model = self._slope[:, self._free], self.beside.hearing.model
-        return identified(slope, weight, self._scatter, excess, model, difference.shape)
+        return identified(slope, weight, self._scatter, excess, model, difference.shape, twins)
 
     def _sensed(self, point: Float) -> Float:
         """Work out how levels change with each unknown at a point, shape [level, unknown], [dB]."""

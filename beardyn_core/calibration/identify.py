@@ -54,7 +54,13 @@ class Identified:
 
 
 def identified(
-    slope: Float, weight: Float, scatter: Float, excess: float, model: Float, shape: tuple[int, ...]
+    slope: Float,
+    weight: Float,
+    scatter: Float,
+    excess: float,
+    model: Float,
+    shape: tuple[int, ...],
+    twins: int,
 ) -> Identified:
     """Work out what is determined.
 
@@ -72,6 +78,8 @@ def identified(
         By which a right twin is off, over an octave alike, [dB].
     shape : tuple of int
         Of levels: rides, axes, bands.
+    twins : int
+        On how many of them the fit rests.
 
     Returns
     -------
@@ -93,7 +101,7 @@ def identified(
     by_band = gain.reshape(-1, *shape).sum(axis=1) * model
     octaves = np.add.reduceat(by_band, np.arange(0, shape[-1], SHARE), axis=-1)
     octaves = octaves.reshape(len(gain), int(np.prod(octaves.shape[1:])))  # of no unknown, too
-    moved = drawn.T @ drawn / max(count - 1, 1) * (1.0 + 1.0 / count) + octaves @ octaves.T
+    moved = drawn.T @ drawn / max(count - 1, 1) * (1.0 + 1.0 / twins) + octaves @ octaves.T
     moved = moved * max(excess, 1.0)
     left = posterior @ posterior / PRIOR**2  # of the box, where levels say nothing
     covariance = moved + left

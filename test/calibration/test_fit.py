@@ -118,14 +118,17 @@ def test_intervals_widen_with_what_the_fit_leaves_and_with_scatter() -> None:
     scatter = random.normal(0.0, 1.0, (4, 100))
     model = np.full(50, 1e-3)
 
-    def deviation(slope: Float, scatter: Float, excess: float, model: Float) -> Float:
-        return identified(slope, weight, scatter, excess, model, (1, 2, 50)).deviation
+    def deviation(slope: Float, scatter: Float, excess: float, model: Float, twins: int = 4) -> Float:
+        return identified(slope, weight, scatter, excess, model, (1, 2, 50), twins).deviation
 
     usual = deviation(slope, scatter, 1.0, model)
     assert (deviation(slope, 2.0 * scatter, 1.0, model) > 1.5 * usual).all()
     assert (deviation(slope, scatter, 4.0, model) > 1.5 * usual).all()
     assert (deviation(slope, scatter, 1.0, 6e3 * model) > 1.5 * usual).all()
     assert deviation(0.0 * slope, scatter, 1.0, model) == pytest.approx(PRIOR)
+    # one twin scatters as the recording does, the mean of four by half of it
+    one = deviation(slope, scatter, 1.0, model, twins=1)
+    assert one / usual == pytest.approx(np.sqrt((1.0 + 1.0) / (1.0 + 0.25)), rel=0.02)
 
 
 def test_slopes_that_two_seeds_do_not_agree_in_say_nothing() -> None:
