@@ -30,13 +30,16 @@ def test_the_descriptors_that_go_with_the_number_are_heard_first() -> None:
 
 
 def test_who_errs_less_is_told() -> None:
-    better, worse = {"width": guesses(0.1)}, {"width": guesses(0.3)}
-    assert neural.verdict(better, worse).startswith("The flows err more in every number")
-    assert neural.verdict(worse, better) == "The flows err less in: width of the spall along the raceway."
-    assert neural.verdict({}, better).endswith("width of the spall along the raceway.")
-    text = neural.section(better, worse, 120.0)
+    better, worse = (dict.fromkeys(neural.SHOWN, guesses(error)) for error in (0.1, 0.3))
+    said = neural.verdict(better, {"maf": worse, "nsf": worse})
+    assert said.startswith("The flows err more in every number")
+    said = neural.verdict({**better, "width": worse["width"]}, {"maf": worse, "nsf": better})
+    assert said == "A flow errs less in: width of the spall along the raceway."
+    assert "end play" in neural.verdict({"width": better["width"]}, {"maf": worse})
+    text = neural.section(better, {"maf": worse, "nsf": better}, 120.0)
     assert "| width of the spall along the raceway | shipped | 10 % | " in text
-    assert "| width of the spall along the raceway | flow | 30 % | " in text
+    assert "| width of the spall along the raceway | flow, Gaussian | 30 % | " in text
+    assert "| width of the spall along the raceway | flow, splines | 10 % | " in text
     page = with_section(PAGE.read_text(encoding="utf-8"), neural.TITLE, text, neural.NEXT)
     assert with_section(page, neural.TITLE, text, neural.NEXT) == page
 
@@ -46,6 +49,6 @@ def test_a_flow_finds_a_posterior_whose_form_is_known() -> None:
     random = np.random.default_rng(1)
     values = random.normal(size=400)
     heard = np.stack([values + 0.5 * random.normal(size=400), random.normal(size=400)], axis=1)
-    found = neural.draws(heard, values, np.array([[1.0, 0.0], [-1.0, 0.0]]))
+    found = neural.draws(heard, values, np.array([[1.0, 0.0], [-1.0, 0.0]]), "maf")
     assert found.mean(axis=0) == pytest.approx([0.8, -0.8], abs=0.25)  # 1 / (1 + 0.5^2)
     assert found.std(axis=0) == pytest.approx([0.45, 0.45], abs=0.15)  # 0.5 / sqrt(1 + 0.5^2)
