@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 import shutil
+import sys
+from importlib.machinery import ModuleSpec
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from PIL import Image
 
 from evidence.pages import save_small
-from evidence.stamps import PICTURES, ROOT, changed_rooms, main, rooms_of, stamp, stamp_of
+from evidence.stamps import (
+    PICTURES,
+    ROOT,
+    changed_rooms,
+    command_of_this_process,
+    main,
+    rooms_of,
+    stamp,
+    stamp_of,
+)
 
 EVERY = sorted(PICTURES.rglob("*.png"))
 
@@ -47,11 +59,34 @@ def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tm
     assert changed_rooms(picture, rooms_of(tmp_path)) == [".", "rail", "record"]
 
 
-def test_what_makes_a_picture_small_stamps_it(picture: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("spec", "file", "command"),
+    [
+        ("evidence.light.page", "", "python -m evidence.light.page"),
+        ("evidence.hard.__main__", "", "python -m evidence.hard"),
+        (None, str(ROOT / "docs" / "write_scenes.py"), "python docs/write_scenes.py"),
+        (None, "/elsewhere/mine.py", ""),
+    ],
+)
+def test_the_command_is_that_of_the_process(
+    spec: str | None, file: str, command: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Modules that ``python -m`` starts have a specification, scripts have a file."""
+    started = ModuleType("__main__")
+    started.__spec__ = None if spec is None else ModuleSpec(spec, None)
+    started.__file__ = file
+    monkeypatch.setitem(sys.modules, "__main__", started)
+    assert command_of_this_process() == command
+
+
+def test_what_makes_a_picture_small_stamps_it(
+    picture: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("evidence.pages.command_of_this_process", lambda: "python -m evidence.light.page")
     target = tmp_path / "small.png"
     save_small(picture, target, 4)
     assert stamp_of(picture).command == ""
-    assert stamp_of(target).command.startswith("python -m ")  # pytest, here
+    assert stamp_of(target).command == "python -m evidence.light.page"
     assert changed_rooms(target, rooms_of()) == []
     with Image.open(target) as small:
         assert small.mode == "P"
