@@ -27,8 +27,8 @@ UNSTAMPED = (STRING,)
 LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
 SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
 DRAWN = ("bodies", "contacts")
-TOGETHER = ("temperature",)  # one message for each part, all of one stamp
-OF_ONE_RUN = (*SIMULATED, *DRAWN, *TOGETHER)  # their stamps begin anew with each run
+TEMPERATURE = "temperature"  # one message for each part, all of one stamp
+OF_ONE_RUN = (*SIMULATED, *DRAWN, TEMPERATURE)  # their stamps begin anew with each run
 
 
 class LossWatch:
@@ -100,6 +100,7 @@ class RunFile:
         self.description: RunDescription | None = None
         self.loss = LossWatch()
         self.last_ns: dict[str, int] = {}
+        self._parts: set[bytes] = set()  # whose temperature of the last stamp has come
         self._simulated_ns = 0
         self._writer: McapWriter | BagWriter
         if splitting:
@@ -124,12 +125,21 @@ class RunFile:
             stamp = self._simulated_ns
         elif entry.name in SIMULATED:
             self._simulated_ns = max(self._simulated_ns, stamp)
+        if entry.name == TEMPERATURE:
+            if stamp != self.last_ns.get(entry.name):
+                self._parts.clear()
+            self._parts.add(_frame(cdr))
         last = self.last_ns.get(entry.name, 0)
         if entry.name == "load/blocks" and stamp < last:
             stamp = last  # the empty block that ends the stream carries no time
         self.last_ns[entry.name] = stamp
         self._writer.add(entry.name, stamp, cdr)
         self.loss.count_message(entry, cdr)
+
+    def goes_on(self, name: str, cdr: bytes) -> bool:
+        """Tell whether a message can be of this run: its stamp has not jumped back."""
+        stamp, last = header_stamp(cdr), self.last_ns[name]
+        return stamp > last or (stamp == last and name == TEMPERATURE and _frame(cdr) not in self._parts)
 
     def flush_if_due(self) -> None:
         """Bring what has come to the operating system; also needed when nothing comes any more."""
@@ -189,6 +199,7 @@ class Recording:
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
         self._ahead: set[str] = set()
+        self._recorded: set[str] = set()  # runs that have a file, or had one
         self._last_words: dict[str, Diagnostic] = {}  # of runs that have no file yet, by run id
         self._old: RunFile | None = None
         self._switched: set[str] = set()
@@ -220,8 +231,7 @@ class Recording:
             return True
         if not (name in OF_ONE_RUN or name.startswith("vibration/")):
             return False
-        last = self.current.last_ns.get(name)
-        if last is None or _goes_on(name, header_stamp(cdr), last):
+        if name not in self.current.last_ns or self.current.goes_on(name, cdr):
             return False
         self._ahead.add(name)
         return True
@@ -249,6 +259,7 @@ class Recording:
         path = self._path_of(scene, len(self.paths) + 1)
         self.current = RunFile(path, self._namespace, truth, replace=self._replace, splitting=self._splitting)
         self.paths.append(path)
+        self._recorded.add(self.current.run_id)
         self.current.last_word = self._last_words.get(self.current.run_id)
         self._last_words.clear()
         early, self._early = self._early, []
@@ -265,8 +276,7 @@ class Recording:
             return self._old  # its last word
         if entry.name in self._switched:
             return self.current
-        last = self._old.last_ns.get(entry.name)
-        if last is not None and _goes_on(entry.name, header_stamp(cdr), last):
+        if entry.name in self._old.last_ns and self._old.goes_on(entry.name, cdr):
             return self._old
         self._switched.add(entry.name)
         return self.current
@@ -282,7 +292,8 @@ class Recording:
         files = [each for each in (self.current, self._old) if each is not None and each.run_id == run_id]
         for file in files:
             file.last_word = status
-        if not files:
+        without_truth = self.current is not None and not self.current.run_id
+        if run_id not in self._recorded and not without_truth:
             self._last_words[run_id] = status
 
     def flush_and_close_old(self, old_run_timeout: float, tail_timeout: float) -> None:
@@ -349,9 +360,10 @@ def is_recorded(folder: Path) -> bool:
     return folder.is_dir() and ((folder / INDEX).exists() or any(folder.glob("*.mcap")))
 
 
-def _goes_on(name: str, stamp_ns: int, last_ns: int) -> bool:
-    """Tell whether a message can be of the run of the one before: its stamp has not jumped back."""
-    return stamp_ns > last_ns or (stamp_ns == last_ns and name in TOGETHER)
+def _frame(cdr: bytes) -> bytes:
+    """Take the frame of a message that begins with a header: its length stands behind the stamp."""
+    length = int.from_bytes(cdr[12:16], "little")
+    return cdr[16 : 16 + length]
 
 
 def _speaks_of(run_id: str, diagnostics: bytes) -> bool:

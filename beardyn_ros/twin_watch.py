@@ -44,7 +44,7 @@ class TwinWatch:
         Topics are not ordered among each other: what the twin said about this run may have come before.
         """
         self._note_instance(run_id)
-        if self.last is not None and self.last.value("run_id") != run_id:
+        if self.last is None or self.last.value("run_id") != run_id:
             self.last = self._others.get(run_id)
         self._others.clear()
         self._run_id, self._told = run_id, bool(run_id)

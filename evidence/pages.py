@@ -38,8 +38,11 @@ def with_section(page: str, title: str, written: str, before: str) -> str:
     written : str
         The section, title and blank line at its end included.
     before : str
-        Line with which the section after it begins.
+        Line before which a section that is not there yet is put.
     """
-    end = page.index(before)
-    start = page.index(title) if title in page else end
+    if title not in page:
+        start = end = page.index(before)
+    else:
+        start = page.index(title)
+        end = page.find("\n## ", start + len(title)) + 1 or len(page)
     return page[:start] + written + page[end:]

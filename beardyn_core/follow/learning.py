@@ -93,6 +93,8 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         if quantity.name not in card:
             continue
         values, inside = known(quantity, runs)
+        if not inside.any():  # nothing judges it, so nothing is told
+            continue
         learnt = estimator.regressions.get(quantity.name)
         best = None
         if learnt is not None:
@@ -103,7 +105,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         if straightened:
             truer = (standard[inside], values[inside], runs.bearings[inside], names_of(estimator.axes))
             best = _truer(best, quantity, *truer)
-            variance = float(np.var(values[inside])) if inside.any() else 0.0
+            variance = float(np.var(values[inside]))
             explained = 0.0 if best is None or not variance else 1.0 - best.square / variance
             card[quantity.name]["explained"] = explained
             if explained < LEAST_EXPLAINED:
@@ -128,7 +130,7 @@ def _truer(
     names: tuple[str, ...],
 ) -> Judged | None:
     """Learn a number from runs of a truer tier alone; that, what is there, or their mean, as errs least."""
-    if len(values) < FEWEST or np.ptp(values) < 1e-12:
+    if len(values) < FEWEST or len(set(bearings.tolist())) < 2 or np.ptp(values) < 1e-12:
         return best
     alone = _learnt(quantity, standard, values, bearings, names)
     if best is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from evidence.follow import neural
+from evidence.follow import judged, neural
 from evidence.follow.page import PAGE
 from evidence.follow.test_judged import guesses
 from evidence.pages import with_section
@@ -42,6 +42,9 @@ def test_who_errs_less_is_told() -> None:
     assert "| width of the spall along the raceway | flow, splines | 10 % | " in text
     page = with_section(PAGE.read_text(encoding="utf-8"), neural.TITLE, text, neural.NEXT)
     assert with_section(page, neural.TITLE, text, neural.NEXT) == page
+    again = with_section(page, judged.TITLE, f"{judged.TITLE}anew\n\n", judged.NEXT)  # leaves the others
+    assert text in again
+    assert f"{judged.TITLE}anew\n\n{neural.TITLE}" in again
 
 
 def test_a_flow_finds_a_posterior_whose_form_is_known() -> None:

@@ -17,7 +17,7 @@ from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError
 from beardyn_core.follow import labelled, training
 from test.cli.json_page import check
-from test.follow.synthetic import PLATE, RATE, STRETCH, drawn
+from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
 
 ABOUT = {"sweep": "made", "code": "digest", "licence": "CC-BY-4.0"}
 PARTS = {"train": 80, "validation": 40, "test": 60, None: 50}
@@ -96,3 +96,19 @@ def test_options_that_cannot_be_are_refused_at_once(
     one.touch()
     assert main(["train", str(tmp_path), "-o", str(one), "--test", str(one), "--force"]) == 2
     assert "an input is never replaced" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("straightened", [False, True])
+def test_a_calibration_without_a_spalled_run_leaves_spalls_untold(straightened: bool) -> None:
+    sound = drawn(60, 3)
+    for name in ("width", "length", "depth"):
+        sound.truth[name][:] = np.nan
+    found = taught(sound, straightened)
+    assert not {"width", "length", "depth"} & set(found.regressions)
+    assert "lateral_load" in found.regressions or "vertical_load" in found.regressions
+
+
+def test_a_calibration_of_one_bearing_is_not_learnt_from_alone() -> None:
+    one = drawn(60, 3)
+    one.bearings[:] = one.bearings[0]
+    assert taught(one, straightened=True).regressions

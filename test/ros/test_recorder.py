@@ -242,7 +242,8 @@ def test_a_reset_never_writes_over_an_earlier_recording(tmp_path: Path) -> None:
 def test_a_short_run_that_is_over_before_its_truth_comes_has_its_last_word(tmp_path: Path) -> None:
     """Topics are not ordered among each other: a truth that is sent again may come after everything else."""
     recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
-    watch, celsius = TwinWatch("axlebox/twin", lambda: 1), temperature_template("axlebox")
+    watch = TwinWatch("axlebox/twin", lambda: 1)
+    parts = [temperature_template(f"axlebox/{part}") for part in ("cup", "cone")]
 
     def truth(run_id: str) -> None:
         recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": run_id})))
@@ -258,8 +259,8 @@ def test_a_short_run_that_is_over_before_its_truth_comes_has_its_last_word(tmp_p
     def blocks(count: int) -> None:
         for block in range(count):
             recording.add(topic("bodies"), encode_points(NO_BODIES, 20_000_000 * block, "axlebox"))
-            stamps = np.full(2, 20_000_000 * (block + 1))  # of two parts
-            for row in celsius.rows(stamps, celsius=np.full((2, 1), 60.0)):
+            for part in parts:
+                (row,) = part.rows(np.array([20_000_000 * (block + 1)]), celsius=np.full((1, 1), 60.0))
                 recording.add(topic("temperature"), row.tobytes())
 
     truth("i-1")
@@ -282,6 +283,66 @@ def test_a_short_run_that_is_over_before_its_truth_comes_has_its_last_word(tmp_p
         said = [each.cdr for each in McapScan(path).messages() if each.topic == "/diagnostics"]
         statuses = [status for cdr in said for status in decode_diagnostics(cdr)[1]]
         assert last_published(statuses) == {"bodies": published}
+
+
+@pytest.mark.parametrize("before", [1, 2])
+@pytest.mark.parametrize("truth_first", [True, False])
+def test_temperatures_of_a_run_left_at_once_are_told_apart(
+    before: int, truth_first: bool, tmp_path: Path
+) -> None:
+    """The first stamps of two runs are equal; each has a message for each part."""
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+    parts = [temperature_template(f"axlebox/{part}") for part in ("cup", "cone")]
+
+    def truth(run_id: str) -> None:
+        recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": run_id})))
+
+    def heat(count: int) -> None:
+        for number in range(count):
+            for part in parts:
+                (row,) = part.rows(
+                    np.array([20_000_000 + 200_000_000 * number]), celsius=np.full((1, 1), 60.0)
+                )
+                recording.add(topic("temperature"), row.tobytes())
+
+    truth("i-1")
+    heat(before)
+    first = recording.current
+    if truth_first:
+        truth("i-2")
+    heat(3)
+    if not truth_first:
+        truth("i-2")
+    second = recording.current
+    recording.close("")
+    assert first is not None
+    assert second is not None
+    assert (first.counts["temperature"], second.counts["temperature"]) == (2 * before, 6)
+
+
+def test_a_file_without_a_truth_has_the_last_word_of_the_twin(tmp_path: Path) -> None:
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+    recording.add(topic("truth"), encode_string(json.dumps({"scene": "x"})))
+    word = Diagnostic("axlebox/twin", 0, "finished", (("run_id", "i-1"), ("state", FINISHED)))
+    recording.hear(word)
+    recording.add(topic("/diagnostics"), encode_diagnostics(0, "axlebox", [word]))
+    recording.close("")
+    recording.close("")
+    assert len(recording.paths) == 1
+    assert "/diagnostics" in recorded_topics(recording.paths[0])
+
+
+def test_an_early_last_word_counts_where_the_run_before_said_nothing() -> None:
+    watch = TwinWatch("axlebox/twin", lambda: 1)
+    watch.begin_run("i-1")
+    watch.take_statuses((Diagnostic("axlebox/twin", 0, "", (("run_id", "i-2"), ("state", FINISHED))),))
+    assert not watch.ended
+    watch.begin_run("i-2")
+    assert watch.ended
+
+
+def recorded_topics(path: Path) -> set[str]:
+    return {each.topic for each in McapScan(path).messages()}
 
 
 @pytest.mark.parametrize("truth_after", range(4))
