@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
+from beardyn_core.choice.numerics import edge_time
 from beardyn_core.choice.rule import (
     FAST,
     FRICTION_DB,
@@ -155,11 +156,14 @@ def cage(evidence: Evidence) -> Rule:
 
 
 def _excitation(evidence: Evidence) -> float:
-    """Compute the force that a fault takes from a roller and that shakes the axlebox, [N].
+    """Compute the force that shakes the axlebox at the end of the band where a fault takes it off, [N].
 
-    A fault on a roller strikes once in a while, and does not drown what the cage does in between.
+    A fault takes it from a roller over the time of its edge, a pocket knocks at once. A fault on a roller
+    strikes once in a while, and does not drown what the cage does in between.
     """
     shares = zip(evidence.patches, evidence.patch_shares, strict=True)
-    return max((share for patch, share in shares if patch.on != "roller"), default=0.0) * (
-        evidence.typical.largest_roller_load
-    )
+    share = max((share for patch, share in shares if patch.on != "roller"), default=0.0)
+    if share == 0.0:
+        return 0.0
+    heard = min(1.0 / (math.pi * evidence.band * edge_time(evidence)), 1.0)
+    return share * heard * evidence.typical.largest_roller_load

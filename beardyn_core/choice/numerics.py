@@ -217,10 +217,10 @@ def roller_bounce(evidence: Evidence) -> float:
     return math.sqrt(2.0 * tangent / bearing.roller_mass) / (2.0 * math.pi)
 
 
-def fault_overshoot(evidence: Evidence, bounce: float) -> float:
-    """Compute the overshoot of a roller that leaves the steepest edge of a patch, [-].
+def edge_time(evidence: Evidence) -> float:
+    """Compute how long a roller takes over the steepest edge of a patch, [s]; infinite at rest.
 
-    The edge lasts a time e/v; a spring-mass answers to a ramp of that duration with at most 1/(pi f e/v).
+    What it takes from the roller rises over that time: beyond 1/pi of its inverse it shakes less and less.
     """
     bearing = evidence.scene.bearing
     speed = cage_speed(bearing, abs(evidence.loads.top_speed)) * surface_radius(bearing, "cup")
@@ -229,6 +229,12 @@ def fault_overshoot(evidence: Evidence, bounce: float) -> float:
         min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9)))
         for patch in evidence.patches
     ]
-    if speed == 0.0:
-        return 0.0
-    return min(1.0 / (math.pi * bounce * min(edges) / speed), 1.0)
+    return min(edges) / speed if speed > 0.0 else math.inf
+
+
+def fault_overshoot(evidence: Evidence, bounce: float) -> float:
+    """Compute the overshoot of a roller that leaves the steepest edge of a patch, [-].
+
+    A spring-mass answers to a ramp of duration t with at most 1/(pi f t).
+    """
+    return min(1.0 / (math.pi * bounce * edge_time(evidence)), 1.0)

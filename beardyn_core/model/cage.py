@@ -82,8 +82,10 @@ class CageParams(NamedTuple):
     kinematic: KinematicCageParams | None = None
 
 
-# Walls of a pocket that can resist at a time, two bars at two abscissae each.
-_WALLS = 4
+# Of what would just grow from step to step, where all rollers press one bar of their pockets through the
+# thinnest film and the explicit cage and rollers answer a step late.
+_MOST_OF_STABLE = 5.0 / 6.0
+BAR_PLACE = 0.35  # of rollers on a bar, from their middle, over their length
 # A film may push back by W^2 / 4c when it opens; its friction pays for that while the bounded resistance c is
 # no less than 1/39 of the physical one: 2.45^2 / (4 * 3 sqrt(2) pi * sqrt(2) pi) = 1/39.5.
 _PAID = 39.0
@@ -107,7 +109,7 @@ def cage_params(scene: Scene, step: float) -> CageParams | None:
         half_end_clearance=0.5 * bearing.cage.axial_clearance,
         bar_sine=math.sin(lean),
         bar_cosine=math.cos(lean),
-        bar_place=0.35 * bearing.effective_length,
+        bar_place=BAR_PLACE * bearing.effective_length,
         roller_height=radial,
         roller_place=radial * sine + axial * cosine,
         axis_radial=sine,
@@ -138,13 +140,23 @@ def _least_inertia(bearing: Bearing) -> float:
     return min(bearing.cage.mass, bearing.cage.polar_inertia / (0.5 * bearing.pitch_diameter) ** 2)
 
 
+def _yielding(bearing: Bearing) -> float:
+    """Sum what rollers and cage yield to one damper at each end of a bar of every pocket, [1/kg].
+
+    Explicit steps h of dampers c are stable up to h c times this of 2.
+    """
+    arm = BAR_PLACE * bearing.effective_length
+    of_roller = max(1.0 / bearing.roller_mass, arm**2 / bearing.roller_transverse_inertia)
+    return 2.0 * (of_roller + bearing.roller_count / _least_inertia(bearing))
+
+
 def _film(scene: Scene, step: float) -> PocketFilmParams | None:
-    """Work out the film of half a bar; all pockets together resist no more than a cage's inertia allows."""
+    """Work out the film of half a bar; all pockets together resist no more than the inertias allow."""
     if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.lubrication is None:
         return None
     options, bearing = scene.effects.cage.lubrication, scene.bearing
     per_length = scene.lubricant.dynamic_viscosity(scene.temperature) * 0.5 * bearing.effective_length
-    share = _WALLS * bearing.roller_count * step / _least_inertia(bearing)
+    share = step * _yielding(bearing) / (2.0 * _MOST_OF_STABLE)
     squeeze = 3.0 * math.sqrt(2.0) * math.pi * per_length
     radius = 0.5 * bearing.roller_diameter
     bounded = radius * (squeeze * share / (_PAID - 1.0)) ** (2.0 / 3.0)

@@ -20,6 +20,8 @@ from typing import Any
 
 import beardyn_core
 from beardyn_core.choice.rule import Choice, percent
+from beardyn_core.config.yaml_text import scene_text
+from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
 from beardyn_core.study.ladder_levels import (
@@ -70,9 +72,10 @@ Written by `make automatic`. What `effects: auto` [chooses](effects_auto.md) for
 converged reference of the [ladder](ladder.md): every effect, {laminae} laminae, {steps} steps for each sample
 of 25.6 kHz, {runs} runs. Errors are those of the ladder, the worst component of a quantity, in brackets when
 they are inside the run-to-run band; behind them what the rules had *expected*. *yes*: every component of what
-is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes with 5 % at
-most); *no*: one is beyond it with its whole band; *open*: the runs are too short to tell. Doubt shrinks with
-what is compared, so a case that is open is run once more, {longer} times as long; its row is of that run.
+is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes one look
+with 5 % at most, two with 10); *no*: one is beyond it with its whole band; *open*: the runs are too short to
+tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long; its row
+is of that run. *Simpler*: effects that are chosen with other options than `full` has.
 
 | scene | asked | chosen | found (*expected*) | verdict |
 |---|---|---|---|---|
@@ -111,6 +114,7 @@ def _case(
         "steps_per_sample": choice.steps_per_sample,
         "effects": list(choice.effects.names()),
         "missing": [n for n in ladder.reference.level.effects.names() if n not in choice.effects.names()],
+        "simpler": _simpler(choice.effects, ladder.reference.level.effects),
         "found": {name: f"{error_text(row.of(name))} {UNITS[name]}" for name in asked},
         "status": row.status,
         "seconds": row.cost.median,
@@ -118,6 +122,11 @@ def _case(
         "verdict": row.verdict(asked, accuracy),
         "doubt": {name: _doubt(row.of(name)) for name in asked},
     }
+
+
+def _simpler(chosen: EffectSet, every: EffectSet) -> list[str]:
+    """Name the effects that are chosen, but with other options than the reference has."""
+    return [name for name in chosen.names() if getattr(chosen, name) != getattr(every, name)]
 
 
 def _doubt(error: QuantityError | None) -> str:
@@ -139,6 +148,7 @@ def row(case: dict[str, Any]) -> str:
     """Write a case as a row of the page."""
     few = len(case["effects"]) < len(case["missing"])
     effects = ", ".join(case["effects"]) if few else "full less " + (", ".join(case["missing"]) or "nothing")
+    effects += f"; simpler {', '.join(case['simpler'])}" if case["simpler"] else ""
     asked = f"{', '.join(case['asked'])} at {percent(case['accuracy'])}"
     chosen = f"{case['tier']}, {case['laminae']} laminae x {case['steps_per_sample']}: {effects}"
     found = "; ".join(f"{name} {case['found'][name]} (*{case['expected'][name]}*)" for name in case["asked"])
@@ -160,7 +170,7 @@ class Kept:
         """Give the cases of a scene, those that are open from a longer run; run what is not there yet."""
         scene = standard_scene(name)
         choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
-        path = self._folder / f"{name}-{_digest_of(scene, choices)}.json"
+        path = self._folder / f"{name}-{digest_of(scene, choices)}.json"
         found = self._read(path, scene, choices, range(len(choices)), 1)
         undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
         if longer > 1 and undecided:
@@ -178,16 +188,26 @@ class Kept:
         return list(json.loads(path.read_text(encoding="utf-8")))
 
 
-def _digest_of(scene: Scene, choices: Sequence[Choice]) -> str:
-    """Give what a result depends on: the package without its rules, and what they have chosen."""
+def digest_of(scene: Scene, choices: Sequence[Choice]) -> str:
+    """Give what a result depends on: the code without its rules, what is asked, and all that was chosen."""
+    digest = hashlib.sha256(_CODE)
+    for choice, (asked, accuracy) in zip(choices, CASES[scene.name], strict=True):
+        digest.update(scene_text(choice.applied(scene)).encode())
+        digest.update(json.dumps([asked, accuracy]).encode())
+    return digest.hexdigest()[:12]
+
+
+def _digest_of_code() -> bytes:
+    """Hash the package without its rules, as it is when this process begins."""
     digest = hashlib.sha256()
     package = Path(beardyn_core.__path__[0])
     for path in sorted(package.rglob("*.py")):
-        if path.relative_to(package).parts[0] != "choice":
+        if not path.is_relative_to(package / "choice"):
             digest.update(path.read_bytes())
-    for choice in choices:
-        digest.update(repr(choice.applied(scene)).encode())
-    return digest.hexdigest()[:12]
+    return digest.digest()
+
+
+_CODE = _digest_of_code()
 
 
 def main() -> None:

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
-from evidence.automatic import shipped, torque
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from beardyn_core.config import load_effects
+from beardyn_core.study.ladder_levels import chosen_for
+from evidence.automatic import page, shipped, torque
 from evidence.automatic.page import row
+from evidence.standard import standard_scene
 
 
 def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
@@ -16,6 +26,7 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
         "steps_per_sample": 4,
         "effects": ["film", "rib"],
         "missing": ["drag"],
+        "simpler": [],
         "found": {"torque": "1.2 %"},
         "expected": {"torque": "2"},
         "status": "complete",
@@ -25,9 +36,46 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
     assert row(case) == (
         "| `static_80kN` | torque at 5 % | full, 6 laminae x 4: full less drag | torque 1.2 % (*2*) | yes |"
     )
-    assert "; it stopped |" in row({**case, "status": "it stopped"}).replace(
-        "it stopped | yes", "it stopped |"
-    )
+    assert "torque 1.2 % (*2*); it stopped | yes |" in row({**case, "status": "it stopped"})
+    assert "full less drag; simpler rib | torque" in row({**case, "simpler": ["rib"]})
+    undecided = {**case, "asked": ["vibration"], "verdict": "open", "longer": 3}
+    undecided |= {name: {"vibration": "1"} for name in ("found", "expected")}
+    undecided["doubt"] = {"vibration": "40 Hz: +1 ± 2 dB"}
+    assert row(undecided).endswith("| open, 3 times as long (40 Hz: +1 ± 2 dB) |")
+
+
+def test_a_kept_result_is_of_all_that_was_chosen_and_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = standard_scene("static_5kN")
+    choice = chosen_for(scene, 0.05, ("force", "torque"))
+    kept = page.digest_of(scene, [choice])
+    assert kept == page.digest_of(scene, [choice])
+    cage = replace(load_effects("full").cage, lubrication=None)
+    for other in (
+        replace(choice, laminae=20),
+        replace(choice, steps_per_sample=5),
+        replace(choice, effects=replace(choice.effects, cage=cage)),
+    ):
+        assert page.digest_of(scene, [other]) != kept
+    monkeypatch.setitem(page.CASES, "static_5kN", ((("force",), 0.01),))
+    assert page.digest_of(scene, [choice]) != kept
+
+
+def test_what_is_kept_is_not_run_again_and_an_open_case_is_run_longer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[tuple[list[int], int]] = []
+
+    def tried(_scene: object, _choices: object, chosen: Sequence[int], longer: int) -> list[dict[str, Any]]:
+        ran.append((list(chosen), longer))
+        open_cases = [1] if longer == 1 else []
+        return [{"verdict": "open" if k in open_cases else "yes", "longer": longer} for k in chosen]
+
+    monkeypatch.setattr(page, "tried", tried)
+    scene = "static_80kN"
+    assert [case["verdict"] for case in page.Kept(tmp_path).cases(scene)] == ["yes", "open", "yes"]
+    found = page.Kept(tmp_path).cases(scene, 3)
+    assert [(case["verdict"], case["longer"]) for case in found] == [("yes", 1), ("yes", 3), ("yes", 1)]
+    assert ran == [([0, 1, 2], 1), ([1], 3)]
 
 
 def test_a_shipped_scene_has_a_row() -> None:

@@ -188,3 +188,18 @@ def test_rings_on_an_axle_that_bends_get_another_step() -> None:
     scene = load_scene("service_high_speed")
     of_scene = partial(steps, FULL, mounting=scene.mounting, axial=5e3, end_play=scene.end_play)
     assert (of_scene(), of_scene(bending=partial(bending_give, scene))) == (2, 3)
+
+
+@pytest.mark.slow
+def test_films_of_pockets_knock_alike_at_the_usual_step_and_a_finer_one() -> None:
+    """Bounded three times as low as explicit pockets need it, they were 1.7 dB louder from 5 to 10 kHz."""
+    scene = load_scene("healthy_80", effects="full")
+    sensors = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
+    levels = []
+    for count in (3, 8):
+        numerics = replace(scene.numerics, laminae=4, steps_per_sample=count)
+        twin = Twin(replace(scene, numerics=numerics, sensors=sensors))
+        twin.start(load_history(scene.operation, scene.mounting, 2.4, scene.seed, bearing=scene.bearing))
+        heard = np.concatenate([twin.advance().acceleration[0, :, 2] for _ in range(120)])
+        levels.append(third_octaves(heard[round(0.4 * WAVEFORM_RATE) :])[THIRDS > 4500.0].mean())
+    assert abs(levels[0] - levels[1]) < 1.0
