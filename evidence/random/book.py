@@ -6,22 +6,38 @@ import hashlib
 import json
 from collections.abc import Iterator
 from dataclasses import asdict, fields
+from importlib.metadata import version
 from pathlib import Path
 
+import beardyn_core
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.study.code_digest import simulator_digest
 from evidence.random.trial import FAILED, Tried, tried
 
 AT_ONCE = 20  # scenes of a task: a result is on disk at the latest after some seconds
 _HERE = Path(__file__).resolve().parent
+# of the simulator that a run goes through; the others make, read and judge recordings and sets
+_ROOMS = (
+    "bearing", "choice", "config", "effects", "integrate", "kernels", "model", "observe", "rail", "scene",
+    "structure",
+)  # fmt: skip
 
 
 def code() -> str:
-    """Hash all that a result depends on: the simulator, and how scenes are drawn and judged."""
-    digest = hashlib.sha256(simulator_digest().encode())
-    for name in ("drawing", "scenes", "trial"):
-        digest.update((_HERE / f"{name}.py").read_bytes())
+    """Hash all that a result depends on: what a run goes through, and how scenes are drawn and judged."""
+    digest = hashlib.sha256()
+    for path in sources():
+        digest.update(f"\n{path.name}\n".encode() + path.read_bytes())
+    for package in ("numba", "numpy"):
+        digest.update(version(package).encode())
     return digest.hexdigest()[:12]
+
+
+def sources() -> list[Path]:
+    """List the modules that decide what becomes of a scene."""
+    package = Path(beardyn_core.__path__[0])
+    rooms = [package, *(package / room for room in _ROOMS)]
+    found = [path for room in rooms for path in sorted(room.glob("*.py" if room == package else "**/*.py"))]
+    return found + [_HERE / f"{name}.py" for name in ("drawing", "scenes", "trial")]
 
 
 def results(folder: Path, speed: str, seed: int, made_by: str) -> list[Tried]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated as A
@@ -160,6 +162,17 @@ def test_results_are_kept_and_only_the_missing_are_run(
     assert asked == [0, 1, 2, 3, 4]
     stored = json.loads((tmp_path / "fast.jsonl").read_text().splitlines()[0])
     assert stored["code"] == book.code() == book.last_code(tmp_path, "fast")
+
+
+def test_results_are_of_all_modules_that_a_run_goes_through() -> None:
+    """Except for the engine of compilation, and what an estimator's file is read by for `config`."""
+    asked = "import sys, evidence.random.trial as t; t.tried(3, 1, 'fast'); print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout
+    files = {path.as_posix() for path in book.sources()}
+    ours = [name for name in loaded.split() if name.startswith("beardyn_core.")]
+    missing = [name for name in ours if not any(f"/{name.replace('.', '/')}" in path for path in files)]
+    assert {name.split(".")[1] for name in missing} <= {"study", "follow"}
+    assert len(ours) > 100
 
 
 def test_page_counts_alike_sentences_together() -> None:
