@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from beardyn_core.follow.learning import calibrated, known
 from beardyn_core.follow.learnt import Guess
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 
-_CROSSWISE = 10  # parts of a calibration set, each judged by the others
+CROSSWISE = 10  # parts of a calibration set, each judged by the others
 
 
 class Score(NamedTuple):
@@ -42,15 +42,55 @@ class Guessed(NamedTuple):
         )
 
 
-def scores(estimator: Estimator, runs: Described) -> dict[str, Score]:
+class Judgement(NamedTuple):
+    """What runs that were not learnt from say of an estimator."""
+
+    guessed: dict[str, Guessed]  # by quantity
+    part: dict[str, Any] | None  # see `part_score`
+
+    @property
+    def scores(self) -> dict[str, Score]:
+        """How each number does that two runs or more have."""
+        return {
+            name: score_of(BY_NAME[name], each) for name, each in self.guessed.items() if len(each.truth) > 1
+        }
+
+
+def judged_by(estimator: Estimator, runs: Described) -> Judgement:
     """Judge an estimator by runs that it has neither learnt from nor been calibrated with."""
-    found = guessed(estimator, runs)
-    return {name: score_of(BY_NAME[name], each) for name, each in found.items() if len(each.truth) > 1}
+    return Judgement(guessed(estimator, runs), part_score([part_judged(estimator, runs)]))
 
 
-def crosswise(estimator: Estimator, runs: Described) -> dict[str, Score]:
-    """Judge by the runs that calibrate: see `guessed_crosswise`."""
-    return {name: score_of(BY_NAME[name], each) for name, each in guessed_crosswise(estimator, runs).items()}
+def judged_crosswise(estimator: Estimator, runs: Described, parts: int = CROSSWISE) -> Judgement:
+    """Judge by the runs that calibrate: a part of their bearings at a time, put right by the rest of them.
+
+    Parameters
+    ----------
+    estimator : Estimator
+        That is not calibrated yet.
+    runs : Described
+    parts : int
+    """
+    pieces, of_part = [], []
+    for inside in crosswise_parts(runs.bearings, parts):
+        by, asked = calibrated(estimator, taken(runs, ~inside), straightened=True), taken(runs, inside)
+        places = np.flatnonzero(inside)
+        found = guessed(by, asked)
+        pieces.append({name: each._replace(places=places[each.places]) for name, each in found.items()})
+        of_part.append(part_judged(by, asked))
+    numbers = {
+        name: _joined([each[name] for each in pieces if name in each])
+        for name in BY_NAME
+        if any(name in each for each in pieces)
+    }
+    return Judgement(numbers, part_score(of_part))
+
+
+def crosswise_parts(bearings: NDArray[Any], parts: int = CROSSWISE) -> Iterator[NDArray[np.bool_]]:
+    """Part runs by their bearings: which are judged, part after part."""
+    names = sorted(set(bearings.tolist()))
+    for k in range(min(parts, len(names))):
+        yield np.isin(bearings, names[k::parts])
 
 
 def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
@@ -62,34 +102,6 @@ def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
         if inside.any():
             found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
     return found
-
-
-def guessed_crosswise(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
-    """Guess the runs that calibrate: a tenth of their bearings at a time, put right by the rest of them.
-
-    Parameters
-    ----------
-    estimator : Estimator
-        That is not calibrated yet.
-    runs : Described
-    """
-    names = sorted(set(runs.bearings.tolist()))
-    pieces = []
-    for k in range(min(_CROSSWISE, len(names))):
-        inside = np.isin(runs.bearings, names[k::_CROSSWISE])
-        by = calibrated(estimator, taken(runs, ~inside), straightened=True)
-        places = np.flatnonzero(inside)
-        pieces.append(
-            {
-                name: each._replace(places=places[each.places])
-                for name, each in guessed(by, taken(runs, inside)).items()
-            }
-        )
-    return {
-        name: _joined([each[name] for each in pieces if name in each])
-        for name in BY_NAME
-        if any(name in each for each in pieces)
-    }
 
 
 def _joined(pieces: Sequence[Guessed]) -> Guessed:
@@ -120,7 +132,14 @@ def score_of(quantity: Quantity, found: Guessed) -> Score:
     )
 
 
-def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
+class PartJudged(NamedTuple):
+    """Conditions of runs that were not learnt from, beside what an estimator says of them."""
+
+    right: NDArray[np.bool_]  # shape [run], whether the truth is the one that is named
+    held: NDArray[np.bool_]  # shape [run, level], whether it is in the set
+
+
+def part_judged(estimator: Estimator, runs: Described) -> PartJudged | None:
     """Judge which conditions are named, and which are in the sets of each level; `None` without a rule."""
     part = estimator.part
     if part is None or not len(runs.conditions):
@@ -131,8 +150,14 @@ def part_score(estimator: Estimator, runs: Described) -> dict[str, Any] | None:
         [truth in each for each in part.sets(row)]
         for row, truth in zip(probability, runs.conditions, strict=True)
     ]
-    return {
-        "runs": len(named),
-        "named": float(np.mean(named == runs.conditions)),
-        "coverage": np.mean(held, axis=0).tolist(),
-    }
+    return PartJudged(named == runs.conditions, np.array(held))
+
+
+def part_score(pieces: Sequence[PartJudged | None]) -> dict[str, Any] | None:
+    """Tell the shares of runs whose condition is named, and is in the sets; `None` without any."""
+    there = [each for each in pieces if each is not None]
+    if not there:
+        return None
+    right = np.concatenate([each.right for each in there])
+    held = np.concatenate([each.held for each in there])
+    return {"runs": len(right), "named": float(right.mean()), "coverage": held.mean(axis=0).tolist()}

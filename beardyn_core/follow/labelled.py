@@ -114,6 +114,30 @@ def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
             )
 
 
+def check_unseen(learnt: Sequence[LabelledSet], other: LabelledSet) -> None:
+    """Check that none of the bearings of a set is in the sets that were learnt from.
+
+    Raises
+    ------
+    InputError
+        Some are, as of the same sweep drawn from the same seed in another tier.
+    """
+    for runs in learnt:
+        if shared := _drawn(runs) & _drawn(other):
+            raise InputError(
+                f"{other.folder}: {len(shared)} of its bearings are those of {runs.folder}, so it does not "
+                "tell how an estimator does on others; draw it from another seed (`beardyn sweep --seed`)"
+            )
+
+
+def _drawn(runs: LabelledSet) -> set[tuple[str, int]]:
+    """Tell the bearings of the complete runs; without scatter they are one, told apart by its rides."""
+    table = runs.table[runs.table["status"] == "complete"]
+    made = table["scatter_seed"] if "scatter_seed" in table else table["seed"]
+    seeds = made.fillna(table["seed"]).astype(int)
+    return set(zip(table["bearing_id"].astype(str), seeds, strict=True))
+
+
 def _unlike(runs: LabelledSet, other: LabelledSet, what: str, first: str, second: str) -> str:
     return (
         f"{other.folder}: its {what} is {second}, that of {runs.folder} is {first}; an estimator is "

@@ -225,9 +225,13 @@ def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], N
                 missed[rest] = values[rest] - learnt.value(standard[rest])
             if (square := float(np.mean(missed**2))) < best:
                 best, errors, screen, chosen = square, missed, kept, setting
+    spread, expected = float(np.std(values)), np.empty(len(values))
+    for fit, rest in folds:
+        # what is expected of a run may not have been learnt from its own error
+        part = _fitted(standard[fit], values[fit], _directions(standard[fit], values[fit], screen), chosen)
+        expected[rest] = _doubting(part, standard[fit], errors[fit], spread).expected_error(standard[rest])
     learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
-    learnt = _doubting(learnt, standard, errors, float(np.std(values)))
-    return Judged((learnt,), errors, learnt.expected_error(standard))
+    return Judged((_doubting(learnt, standard, errors, spread),), errors, expected)
 
 
 def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) -> PartRule | None:

@@ -9,8 +9,8 @@ from typing import Any
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.judging import crosswise, part_score, scores
-from beardyn_core.follow.labelled import check_alike, described, joined, plate_of, sampling_of
+from beardyn_core.follow.judging import judged_by, judged_crosswise
+from beardyn_core.follow.labelled import check_alike, check_unseen, described, joined, plate_of, sampling_of
 from beardyn_core.follow.learning import FEWEST, calibrated, trained
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
@@ -40,11 +40,12 @@ def train(
     ------
     InputError
         There are too few runs, or bearings of several drawings; another set is of another bearing,
-        sampling rate or length.
+        sampling rate or length, or of bearings that were learnt from.
     """
     about = runs.about
-    for other in [*calibration, *([] if test is None else [test])]:
+    for place, other in enumerate([*calibration, *([] if test is None else [test])]):
         check_alike(runs, other)
+        check_unseen([runs, *calibration[:place]], other)
     seen = joined(
         [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
     )
@@ -57,17 +58,18 @@ def train(
     learnt, held = found, joined(held_back)
     found = calibrated(learnt, held, straightened=bool(calibration))
     across = bool(calibration) and test is None
-    others = (
-        held if across else described(runs if test is None else test, TEST if test is None else None, axes)
-    )
-    judged = crosswise(learnt, held) if across else scores(found, others)
+    if across:
+        judged = judged_crosswise(learnt, held)
+    else:
+        others = described(runs, TEST, axes) if test is None else described(test, None, axes)
+        judged = judged_by(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
-    for name, each in judged.items():
+    for name, each in judged.scores.items():
         if name in found.regressions:
             quantities[name]["test"] = each._asdict()
     own = f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"]
     card = {
-        "condition": part_score(found, others),
+        "condition": judged.part,
         "quantities": dict(quantities),
         "set": about["sweep"],
         "runs": len(seen.bearings),

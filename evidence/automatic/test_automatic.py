@@ -49,7 +49,8 @@ def test_a_kept_result_is_of_all_that_was_chosen_and_asked(monkeypatch: pytest.M
     choice = chosen_for(scene, 0.05, ("force", "torque"))
     kept = page.digest_of(scene, [choice])
     assert kept == page.digest_of(scene, [choice])
-    cage = replace(load_effects("full").cage, lubrication=None)
+    cage: Any = load_effects("full").cage
+    cage = replace(cage, lubrication=None)
     for other in (
         replace(choice, laminae=20),
         replace(choice, steps_per_sample=5),

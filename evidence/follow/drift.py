@@ -8,6 +8,7 @@ is kept in FOLDER, so that another estimator is judged without another simulatio
 from __future__ import annotations
 
 import argparse
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated as A
@@ -20,13 +21,14 @@ from beardyn_core.api.following import follower_of
 from beardyn_core.arrays import Float
 from beardyn_core.config import load_bearing
 from beardyn_core.edge import written
-from beardyn_core.follow.descriptors import describe
+from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import SOUND, WAITING, Followed
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.listening import stretches_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.observe.labels import HEALTHY
+from beardyn_core.study.code_digest import simulator_digest
 from evidence.pages import DOCS, with_section
 
 PAGE = DOCS / "estimate.md"
@@ -111,9 +113,15 @@ def heard_of(piece: Piece, estimator: Estimator) -> Float:
     return np.stack([describe(each, estimator.orders, estimator.plate, estimator.axes) for each in found])
 
 
+def digest_of(pieces: Sequence[Piece], estimator: Estimator) -> str:
+    """Give what the descriptors of a drift depend on: simulator, pieces, how an estimator hears."""
+    heard = (estimator.axes, estimator.rate, estimator.stretch, names_of(estimator.axes))
+    return hashlib.sha256(repr((simulator_digest(), tuple(pieces), heard)).encode()).hexdigest()[:12]
+
+
 def rows_of(name: str, pieces: Sequence[Piece], estimator: Estimator, kept: Path | None) -> list[Float]:
     """Simulate a drift, or take what an earlier go has kept of it."""
-    path = None if kept is None else kept / f"{name.replace(' ', '_')}.npz"
+    path = None if kept is None else kept / f"{name.replace(' ', '_')}-{digest_of(pieces, estimator)}.npz"
     if path is not None and path.is_file():
         with np.load(path) as found:
             return [found[f"piece_{k}"] for k in range(len(pieces))]

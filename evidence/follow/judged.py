@@ -20,8 +20,15 @@ from scipy.stats import binom
 from beardyn_core.arrays import Float
 from beardyn_core.config.folders import config_folder
 from beardyn_core.follow.descriptors import AXES
-from beardyn_core.follow.judging import Guessed, guessed_crosswise, score_of
-from beardyn_core.follow.labelled import Described, check_alike, described, plate_of, sampling_of
+from beardyn_core.follow.judging import CROSSWISE, Guessed, judged_crosswise, score_of
+from beardyn_core.follow.labelled import (
+    Described,
+    check_alike,
+    check_unseen,
+    described,
+    plate_of,
+    sampling_of,
+)
 from beardyn_core.follow.learning import trained
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
@@ -136,13 +143,16 @@ def section(found: Mapping[str, Guessed], classes: list[Class], learnt: int, hid
     return "\n".join(lines)
 
 
-def judged(train: LabelledSet, hidden: LabelledSet) -> tuple[dict[str, Guessed], Described]:
-    """Learn from one set, and guess the runs of another crosswise."""
+def judged(
+    train: LabelledSet, hidden: LabelledSet, parts: int = CROSSWISE
+) -> tuple[dict[str, Guessed], Described]:
+    """Learn from one set, and guess the runs of another crosswise, in so many parts."""
     check_alike(train, hidden)
+    check_unseen([train], hidden)
     seen, unseen = described(train, None), described(hidden, None)
     sampling = sampling_of(train)
     estimator = trained(seen, plate_of(train), AXES, sampling.rate, sampling.seconds)
-    return guessed_crosswise(estimator, unseen), unseen
+    return judged_crosswise(estimator, unseen, parts).guessed, unseen
 
 
 def main(argv: list[str] | None = None) -> int:

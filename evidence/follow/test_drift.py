@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
@@ -42,6 +43,14 @@ def test_the_lag_is_counted_from_the_step_until_the_truth_stays_inside(pieces: l
     assert "| -5 kN to 12 kN | 11 kN, 8 kN to 14 kN | 3 stretches, 4.5 s | 2 of 2 | sound |" in row
     missed = drift.told("load step", pieces, [before, [step(0.0, 1.0)]], 1.5)[0]
     assert "| never |" in missed
+
+
+def test_what_is_kept_is_of_its_pieces_and_of_how_it_is_heard(pieces: list[Piece]) -> None:
+    estimator = shipped_for(load_bearing(drift.BEARING))
+    kept = drift.digest_of(pieces, estimator)
+    assert drift.digest_of(pieces, estimator) == kept
+    assert drift.digest_of(pieces[:1], estimator) != kept
+    assert drift.digest_of(pieces, replace(estimator, axes=("z",))) != kept
 
 
 def test_false_growth_is_counted() -> None:

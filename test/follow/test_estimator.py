@@ -9,7 +9,7 @@ import pytest
 
 from beardyn_core.errors import InputError
 from beardyn_core.follow.estimator import Estimator, read_estimator
-from beardyn_core.follow.judging import scores
+from beardyn_core.follow.judging import judged_by
 from beardyn_core.follow.learnt import LEVELS
 from test.follow.synthetic import NAMES, drawn, taught
 
@@ -27,7 +27,7 @@ def inside(share: float, level: float, count: int, calibrated: int = 200) -> boo
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say(estimator: Estimator) -> None:
-    found = scores(estimator, drawn(400, 3))
+    found = judged_by(estimator, drawn(400, 3)).scores
     for name in ("vertical_load", "end_play", "width"):
         for share, level in zip(found[name].coverage, LEVELS, strict=True):
             assert inside(share, level, found[name].runs), (name, share, level)
@@ -39,7 +39,7 @@ def test_another_tier_biases_the_load_and_a_few_of_its_runs_straighten_it() -> N
     other = drawn(400, 4, shift=3.0)
     few = drawn(60, 5, shift=3.0)
     bent, straight = (
-        scores(taught(few, straightened=each), other)["vertical_load"] for each in (False, True)
+        judged_by(taught(few, straightened=each), other).scores["vertical_load"] for each in (False, True)
     )
     assert abs(bent.bias) > 0.15
     assert abs(straight.bias) < 0.05

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from beardyn_core.cli import train as command
@@ -15,12 +16,20 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_plate
 from beardyn_core.errors import InputError
-from beardyn_core.follow import labelled, training
+from beardyn_core.follow import judging, labelled, training
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
 
 ABOUT = {"sweep": "made", "code": "digest", "licence": "CC-BY-4.0"}
 PARTS = {"train": 80, "validation": 40, "test": 60, None: 50}
+
+
+def bearings_made(seed: int, scatter: bool = True) -> pd.DataFrame:
+    """The columns that tell the bearings of a set apart."""
+    seeds = seed + np.arange(4)
+    names = [f"b{each}" if scatter else "b" for each in seeds]
+    made = {"bearing_id": names, "status": "complete", "seed": seeds}
+    return pd.DataFrame({**made, "scatter_seed": seeds} if scatter else made)
 
 
 @pytest.fixture
@@ -31,9 +40,8 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
     for module in (training, labelled):
         monkeypatch.setattr(module, "plate_of", lambda each: each.plate)
     time = np.arange(round(STRETCH * RATE) + 1) / RATE
-    return SimpleNamespace(
-        folder="made", about=ABOUT, plate=PLATE, signals=SimpleNamespace(time_vibration=time)
-    )
+    signals = SimpleNamespace(time_vibration=time)
+    return SimpleNamespace(folder="made", about=ABOUT, plate=PLATE, signals=signals, table=bearings_made(0))
 
 
 def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
@@ -50,12 +58,50 @@ def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
 
 
 def test_other_sets_calibrate_and_judge(runs: Any) -> None:
-    other: Any = SimpleNamespace(**{**vars(runs), "about": {**ABOUT, "sweep": "truer"}})
-    found = training.train(runs, calibration=[other], test=other)
+    about = {"about": {**ABOUT, "sweep": "truer"}}
+    other, judge = (
+        SimpleNamespace(**{**vars(runs), **about, "table": bearings_made(seed)}) for seed in (100, 200)
+    )
+    found = training.train(runs, calibration=[other], test=judge)  # type: ignore[list-item, arg-type]
     assert found.card["runs"] == PARTS["train"] + PARTS["validation"]  # which is not needed for the intervals
     assert found.card["calibration"] == ["truer"]
     assert found.card["test"] == "truer"
     assert found.card["condition"]["runs"] == PARTS[None]
+
+
+def test_sets_that_calibrate_judge_themselves_crosswise(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    judged_by: list[tuple[tuple[float, ...], int]] = []
+
+    def noted(estimator: Any, asked: Any) -> Any:
+        judged_by.append((tuple(estimator.part.least), len(asked.bearings)))
+        return judging.PartJudged(*(np.ones((len(asked.bearings), *more), bool) for more in ((), (2,))))
+
+    monkeypatch.setattr(judging, "part_judged", noted)
+    other: Any = SimpleNamespace(**{**vars(runs), "table": bearings_made(100)})
+    found = training.train(runs, calibration=[other])
+    assert found.card["test"] == "calibration, crosswise"
+    assert found.card["condition"]["runs"] == PARTS[None]
+    assert sum(count for _, count in judged_by) == PARTS[None]
+    assert len(judged_by) == judging.CROSSWISE
+    assert len({least for least, _ in judged_by}) > 1  # each by the others
+
+
+@pytest.mark.parametrize("scatter", [True, False])
+@pytest.mark.parametrize("role", ["calibration", "test", "both"])
+def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, scatter: bool, runs: Any) -> None:
+    """The same sweep in another tier draws the same bearings; one bearing without scatter rides anew."""
+    runs.table = bearings_made(0, scatter)
+    others = [
+        SimpleNamespace(**{**vars(runs), "folder": "others", "table": bearings_made(seed, scatter)})
+        for seed in ((100, 102) if role == "both" else (2, 2))
+    ]
+    sentence = "others: 2 of its bearings are those of " + ("others" if role == "both" else "made")
+    with pytest.raises(InputError, match=sentence):
+        training.train(
+            runs,
+            calibration=others[:1] if role != "test" else [],  # type: ignore[arg-type]
+            test=others[1] if role != "calibration" else None,  # type: ignore[arg-type]
+        )
 
 
 @pytest.mark.parametrize(
