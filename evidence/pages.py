@@ -6,7 +6,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from evidence.stamps import command_of_this_process, png_text, rooms_of
+from evidence.stamps import AT_START, command_of_this_process, png_text
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 PICTURES = DOCS / "pictures"
@@ -24,7 +24,7 @@ def save_small(source: Path, target: Path, colours: int) -> None:
     """
     with Image.open(source) as picture:
         small = picture.convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE)
-    small.save(target, optimize=True, pnginfo=png_text(command_of_this_process(), rooms_of()))
+    small.save(target, optimize=True, pnginfo=png_text(command_of_this_process(), AT_START))
 
 
 def with_section(page: str, title: str, written: str, before: str) -> str:

@@ -1,9 +1,9 @@
 """Which code a picture of the documentation is of: ``python -m evidence.stamps``.
 
-A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator
-as it was then. The command lists the pictures, and which rooms have changed since; ``--check`` ends with 1
-when one has. That is a question for a release: a change in one room, such as a command's wording, need not
-reach a picture, so no test asks it of every commit.
+A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator,
+and of its configuration, as they were when that command began. The command lists the pictures, and which
+rooms have changed since; ``--check`` ends with 1 when one has. That is a question for a release: a change in
+one room, such as a command's wording, need not reach a picture, so no test asks it of every commit.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from PIL import Image, PngImagePlugin
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
-SIMULATOR = "beardyn_core"
+SIMULATOR, CONFIGURATION = "beardyn_core", "config"
 BY, OF = "Made by", "Made of"
 LISTED = 8  # rooms; more are counted
 _LENGTH = 8
@@ -35,13 +35,20 @@ class Stamp(NamedTuple):
 
 
 def rooms_of(root: Path = ROOT) -> dict[str, str]:
-    """Hash the sources of every room of the simulator, the modules beside the rooms as one more, ``.``."""
+    """Hash every room of the simulator, the modules beside them as one more, ``.``, and ``config/``."""
     digests: dict[str, hashlib._Hash] = {}
-    for path in sorted((root / SIMULATOR).rglob("*.py")):
-        place = path.relative_to(root / SIMULATOR)
-        digest = digests.setdefault(place.parts[0] if len(place.parts) > 1 else ".", hashlib.sha256())
-        digest.update(f"\n{place.as_posix()}\n".encode() + path.read_bytes())
+    for path in sorted((root / SIMULATOR).rglob("*")):
+        if path.suffix in (".py", ".json"):
+            place = path.relative_to(root / SIMULATOR)
+            digest = digests.setdefault(place.parts[0] if len(place.parts) > 1 else ".", hashlib.sha256())
+            digest.update(f"\n{place.as_posix()}\n".encode() + path.read_bytes())
+    files = digests.setdefault(f"{CONFIGURATION}/", hashlib.sha256())
+    for path in sorted((root / CONFIGURATION).rglob("*.*")):
+        files.update(f"\n{path.relative_to(root).as_posix()}\n".encode() + path.read_bytes())
     return {room: digest.hexdigest()[:_LENGTH] for room, digest in digests.items()}
+
+
+AT_START = rooms_of()  # an edit while a command runs is not in what it draws
 
 
 def command_of_this_process() -> str:
@@ -62,10 +69,10 @@ def png_text(command: str, rooms: dict[str, str]) -> PngImagePlugin.PngInfo:
 
 
 def stamp(path: Path, command: str = "", rooms: dict[str, str] | None = None) -> None:
-    """Stamp a PNG in its place: by default with the command that runs and the code that is there."""
+    """Stamp a PNG in its place: by default with the command that runs and the code that it began with."""
     with Image.open(path) as picture:
         picture.load()
-    text = png_text(command or command_of_this_process(), rooms_of() if rooms is None else rooms)
+    text = png_text(command or command_of_this_process(), AT_START if rooms is None else rooms)
     picture.save(path, format="png", optimize=True, pnginfo=text)
 
 
