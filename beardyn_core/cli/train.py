@@ -98,6 +98,10 @@ def table(estimator: Estimator) -> Table:
         inside = [f"{100 * each:.0f} %" for each in test["coverage"]]
         rows.append((quantity.words, str(known["runs"]), f"{100 * known['explained']:.0f} %", error, *inside))
     card = estimator.card
+    if condition := card["condition"]:
+        inside = [f"{100 * each:.0f} %" for each in condition["coverage"]]
+        named = f"named in {100 * condition['named']:.0f} %"
+        rows.insert(0, ("condition", str(condition["runs"]), "-", named, *inside))
     return Table(
         f"{estimator.plate.name}, {card['runs']} runs of {card['bearings']} bearings of {card['set']}",
         ("quantity", "runs", "explained", "median error", "in 50 %", "in 90 %"),

@@ -53,6 +53,8 @@ def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
     load = found.card["quantities"]["vertical_load"]
     text = command.table(found).text()
     assert f"{100 * load['test']['error']:.0f} %" in text
+    named = f"named in {100 * found.card['condition']['named']:.0f} %"
+    assert any(line.startswith("condition") and named in line for line in text.splitlines())
     depth = next(line for line in text.splitlines() if "depth" in line)
     assert depth.split()[-1] == "-"  # it is not identifiable, and nothing is promised of it
 
