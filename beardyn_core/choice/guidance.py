@@ -161,9 +161,9 @@ def _excitation(evidence: Evidence) -> float:
     A fault takes it from a roller over the time of its edge, a pocket knocks at once. A fault on a roller
     strikes once in a while, and does not drown what the cage does in between.
     """
-    shares = zip(evidence.patches, evidence.patch_shares, strict=True)
-    share = max((share for patch, share in shares if patch.on != "roller"), default=0.0)
-    if share == 0.0:
-        return 0.0
-    heard = min(1.0 / (math.pi * evidence.band * edge_time(evidence)), 1.0)
-    return share * heard * evidence.typical.largest_roller_load
+    heard = [
+        share * min(1.0 / (math.pi * evidence.band * edge_time(evidence, patch)), 1.0)
+        for patch, share in zip(evidence.patches, evidence.patch_shares, strict=True)
+        if patch.on != "roller"
+    ]
+    return max(heard, default=0.0) * evidence.typical.largest_roller_load

@@ -217,24 +217,21 @@ def roller_bounce(evidence: Evidence) -> float:
     return math.sqrt(2.0 * tangent / bearing.roller_mass) / (2.0 * math.pi)
 
 
-def edge_time(evidence: Evidence) -> float:
-    """Compute how long a roller takes over the steepest edge of a patch, [s]; infinite at rest.
+def edge_time(evidence: Evidence, patch: Patch) -> float:
+    """Compute how long a roller takes over the edge of a patch, [s]; infinite at rest.
 
     What it takes from the roller rises over that time: beyond 1/pi of its inverse it shakes less and less.
     """
     bearing = evidence.scene.bearing
     speed = cage_speed(bearing, abs(evidence.loads.top_speed)) * surface_radius(bearing, "cup")
-    radius = 0.5 * bearing.roller_diameter
-    edges = [
-        min(0.5 * patch.width, math.sqrt(2.0 * radius * max(patch.depth, 1.0e-9)))
-        for patch in evidence.patches
-    ]
-    return min(edges) / speed if speed > 0.0 else math.inf
+    edge = min(0.5 * patch.width, math.sqrt(bearing.roller_diameter * max(patch.depth, 1.0e-9)))
+    return edge / speed if speed > 0.0 else math.inf
 
 
 def fault_overshoot(evidence: Evidence, bounce: float) -> float:
-    """Compute the overshoot of a roller that leaves the steepest edge of a patch, [-].
+    """Compute the overshoot of a roller that leaves the steepest edge of all patches, [-].
 
     A spring-mass answers to a ramp of duration t with at most 1/(pi f t).
     """
-    return min(1.0 / (math.pi * bounce * edge_time(evidence)), 1.0)
+    edge = min(edge_time(evidence, patch) for patch in evidence.patches)
+    return min(1.0 / (math.pi * bounce * edge), 1.0)

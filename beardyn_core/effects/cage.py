@@ -28,7 +28,7 @@ class PocketFilm:
         states="none",
         cost="low",
         validity="Isoviscous, rigid, isothermal; no film at the pocket ends; the squeeze resistance of a "
-        "pocket is bounded by what the explicit cage can follow in a step.",
+        "pocket is bounded by what explicit cage and rollers can follow in a step, on one bar at a time.",
         source="Martin (1916); Reynolds' equation for squeeze and shear of a cylinder near a plane",
     )
 

@@ -20,7 +20,7 @@ class PocketFilmParams(NamedTuple):
     shear: float  # friction over slip and (radius over gap)^0.5 [N s/m]
     thinnest: float  # [m]
     inverse_layer: float  # of the thickness of the lubricant's layer [1/m]
-    share: float  # over the squeeze resistance that the explicit cage can follow [m/(N s)]
+    share: float  # over the squeeze resistance that explicit cage and rollers can follow [m/(N s)]
 
 
 class LandParams(NamedTuple):
@@ -82,9 +82,9 @@ class CageParams(NamedTuple):
     kinematic: KinematicCageParams | None = None
 
 
-# Of what would just grow from step to step, where all rollers press one bar of their pockets through the
-# thinnest film and the explicit cage and rollers answer a step late.
-_MOST_OF_STABLE = 5.0 / 6.0
+# Of what swings from step to step for good, where all rollers press one bar of their pockets and the explicit
+# cage and rollers answer a step late, and what the film has of it at least, whatever the dry wall takes.
+_MOST_OF_STABLE, _LEAST_OF_FILM = 5.0 / 6.0, 1.0 / 8.0
 BAR_PLACE = 0.35  # of rollers on a bar, from their middle, over their length
 # A film may push back by W^2 / 4c when it opens; its friction pays for that while the bounded resistance c is
 # no less than 1/39 of the physical one: 2.45^2 / (4 * 3 sqrt(2) pi * sqrt(2) pi) = 1/39.5.
@@ -141,13 +141,21 @@ def _least_inertia(bearing: Bearing) -> float:
 
 
 def _yielding(bearing: Bearing) -> float:
-    """Sum what rollers and cage yield to one damper at each end of a bar of every pocket, [1/kg].
-
-    Explicit steps h of dampers c are stable up to h c times this of 2.
-    """
+    """Sum what rollers and cage yield to one force at each end of a bar of every pocket, [1/kg]."""
     arm = BAR_PLACE * bearing.effective_length
     of_roller = max(1.0 / bearing.roller_mass, arm**2 / bearing.roller_transverse_inertia)
     return 2.0 * (of_roller + bearing.roller_count / _least_inertia(bearing))
+
+
+def _share(bearing: Bearing, lean: float, step: float) -> float:
+    """Work out what bounds the film, so that it, damper and spring of the wall do not swing together.
+
+    Steps h that move with the new velocity are stable up to h c Y + h^2 k Y / 2 of 2, for dampers c and
+    springs k that act on what yields by Y.
+    """
+    cage, yields = bearing.cage, _yielding(bearing) * math.cos(lean) ** 2
+    dry = step * (cage.damping + 0.5 * step * cage.stiffness) * yields
+    return step * yields / (2.0 * max(_MOST_OF_STABLE - 0.5 * dry, _LEAST_OF_FILM))
 
 
 def _film(scene: Scene, step: float) -> PocketFilmParams | None:
@@ -156,7 +164,7 @@ def _film(scene: Scene, step: float) -> PocketFilmParams | None:
         return None
     options, bearing = scene.effects.cage.lubrication, scene.bearing
     per_length = scene.lubricant.dynamic_viscosity(scene.temperature) * 0.5 * bearing.effective_length
-    share = step * _yielding(bearing) / (2.0 * _MOST_OF_STABLE)
+    share = _share(bearing, scene.effects.cage.bar_inclination, step)
     squeeze = 3.0 * math.sqrt(2.0) * math.pi * per_length
     radius = 0.5 * bearing.roller_diameter
     bounded = radius * (squeeze * share / (_PAID - 1.0)) ** (2.0 / 3.0)

@@ -59,6 +59,17 @@ def test_pockets_keep_their_film_for_vibration_where_little_else_shakes() -> Non
     assert isinstance(drowned, RotatingCage)
 
 
+@pytest.mark.parametrize("on", ["cup", "roller"])
+def test_a_small_dent_does_not_make_a_large_spall_drown_the_pockets(on: str) -> None:
+    """The edge of one patch goes with the load of that patch."""
+    spall = {"kind": "spall", "on": "cup", "row": 0, "width_mm": 6, "length_mm": 25, "depth_um": 100}
+    dent = {"kind": "dent", "on": on, "row": 1, "width_mm": 0.3, "length_mm": 2, "depth_um": 1}
+    scene = variant(defects=[spall, {**dent, **({"roller": 3} if on == "roller" else {})}])
+    cage = scene.effects.cage
+    assert isinstance(cage, Cage)
+    assert cage.lubrication is not None
+
+
 def test_contacts_damp_where_a_wheel_strikes() -> None:
     """Without it the 99 % quantile of the roller load was 17 % off in a run (docs/automatic.md)."""
     forces = ["force", "deflection", "roller_load"]

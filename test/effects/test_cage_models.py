@@ -13,7 +13,6 @@ import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
-from beardyn_core.config import load_bearing
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.imex import advance
@@ -245,32 +244,6 @@ def test_lands_lose_energy_and_guide_the_cage() -> None:
     rig = rig_of(CAGES["on the cup"])
     rig.run(512)
     assert rig.state.energy[ENERGY_LOST + LOSS_LAND] > 0.0
-
-
-@pytest.mark.parametrize("steps", [1, 3, 8])
-@pytest.mark.parametrize("temperature", [233.15, 343.15, 373.15])
-@pytest.mark.parametrize("bearing", ["HS130x230", "AARK_6.5x9", "METRO120x220"])
-def test_all_rollers_on_one_bar_do_not_swing_from_step_to_step(
-    bearing: str, temperature: float, steps: int
-) -> None:
-    """The explicit step of rollers and cage that move along the pitch circle, and of rollers that skew."""
-    scene = replace(load_scene("static_5kN"), bearing=load_bearing(bearing), temperature=temperature)
-    step = 1.0 / (25600.0 * steps)
-    scene = replace(scene, effects=replace(scene.effects, cage=Cage(lubrication=PocketFilm())))
-    cage = cage_params(scene, step)
-    assert cage is not None
-    assert cage.film is not None
-    film, parts, count = cage.film, scene.bearing, scene.bearing.roller_count
-    physical = film.squeeze * (0.5 * parts.roller_diameter / film.thinnest) ** 1.5
-    damping = 2.0 * physical / (1.0 + film.share * physical)  # both ends of the bar
-    least = min(cage.mass, cage.polar_inertia / (0.5 * parts.pitch_diameter) ** 2)
-    # velocities of one roller for all, and of the cage
-    shares = np.array([[1.0, -1.0], [-count, count]]) / [[parts.roller_mass], [least]]
-    along = np.linalg.eigvals(np.eye(2) - step * damping * shares)
-    skew = 1.0 - step * damping * cage.bar_place**2 / parts.roller_transverse_inertia
-    assert along.max() < 1.0 + 1e-12
-    assert along.min() > -0.7
-    assert skew > -0.7
 
 
 @pytest.mark.parametrize("temperature", [213.15, 233.15, 343.15])
