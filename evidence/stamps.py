@@ -21,7 +21,7 @@ from PIL import Image, PngImagePlugin
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
-SIMULATOR, CONFIGURATION = "beardyn_core", "config"
+SIMULATOR, CONFIGURATION = "beardyn_core", "config/"
 BY, OF = "Made by", "Made of"
 LISTED = 8  # rooms; more are counted
 _LENGTH = 8
@@ -35,16 +35,17 @@ class Stamp(NamedTuple):
 
 
 def rooms_of(root: Path = ROOT) -> dict[str, str]:
-    """Hash every room of the simulator, the modules beside them as one more, ``.``, and ``config/``."""
+    """Hash every room of the simulator, the modules beside them as one more, ``.``, and of `config`."""
     digests: dict[str, hashlib._Hash] = {}
     for path in sorted((root / SIMULATOR).rglob("*")):
         if path.suffix in (".py", ".json"):
             place = path.relative_to(root / SIMULATOR)
             digest = digests.setdefault(place.parts[0] if len(place.parts) > 1 else ".", hashlib.sha256())
             digest.update(f"\n{place.as_posix()}\n".encode() + path.read_bytes())
-    files = digests.setdefault(f"{CONFIGURATION}/", hashlib.sha256())
     for path in sorted((root / CONFIGURATION).rglob("*.*")):
-        files.update(f"\n{path.relative_to(root).as_posix()}\n".encode() + path.read_bytes())
+        place = path.relative_to(root)
+        digest = digests.setdefault("/".join(place.parts[:2]), hashlib.sha256())
+        digest.update(f"\n{place.as_posix()}\n".encode() + path.read_bytes())
     return {room: digest.hexdigest()[:_LENGTH] for room, digest in digests.items()}
 
 
@@ -85,9 +86,11 @@ def stamp_of(path: Path) -> Stamp:
 
 
 def changed_rooms(path: Path, now: dict[str, str]) -> list[str]:
-    """Name the rooms that are others than when a picture was made."""
+    """Name the rooms that are others than when a picture was made; older stamps know nothing of `config`."""
     then = stamp_of(path).rooms
-    return sorted(room for room in {*then, *now} if then.get(room) != now.get(room))
+    configured = any(room.startswith(CONFIGURATION) for room in then)
+    asked = {room for room in {*then, *now} if configured or not room.startswith(CONFIGURATION)}
+    return sorted(room for room in asked if then.get(room) != now.get(room))
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -54,10 +54,13 @@ def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tm
     assert changed_rooms(picture, rooms_of(tmp_path)) == []
     (code / "rail/load.py").write_text("x = 2\n")
     assert changed_rooms(picture, rooms_of(tmp_path)) == ["rail"]
-    (tmp_path / "config").mkdir()
-    (tmp_path / "config/scene.yaml").write_text("x: 1\n")
+    (tmp_path / "config/scenes").mkdir(parents=True)
+    (tmp_path / "config/scenes/one.yaml").write_text("x: 1\n")
     (code / "rail/table.json").write_text("1")
-    assert changed_rooms(picture, rooms_of(tmp_path)) == ["config/", "rail"]
+    assert changed_rooms(picture, rooms_of(tmp_path)) == ["rail"]  # nothing is known of its configuration
+    stamp(picture, "python docs/some.py", rooms_of(tmp_path))
+    (tmp_path / "config/scenes/one.yaml").write_text("x: 2\n")
+    assert changed_rooms(picture, rooms_of(tmp_path)) == ["config/scenes"]
     stamp(picture, "python docs/some.py", rooms_of(tmp_path))
     shutil.rmtree(code / "record")
     (code / "run.py").write_text("x = 2\n")

@@ -87,9 +87,9 @@ def judged_crosswise(estimator: Estimator, runs: Described, parts: int = CROSSWI
 
 
 def crosswise_parts(bearings: NDArray[Any], parts: int = CROSSWISE) -> Iterator[NDArray[np.bool_]]:
-    """Part runs by their bearings: which are judged, part after part."""
+    """Part runs by their bearings: which are judged, part after part; none where there is one bearing."""
     names = sorted(set(bearings.tolist()))
-    for k in range(min(parts, len(names))):
+    for k in range(min(parts, len(names)) if len(names) > 1 else 0):
         yield np.isin(bearings, names[k::parts])
 
 

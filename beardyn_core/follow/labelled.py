@@ -28,7 +28,7 @@ class Described(NamedTuple):
 
     descriptors: Float  # shape [run, descriptor]
     truth: dict[str, Float]  # by quantity, SI, shape [run]; NaN where a run has none
-    bearings: NDArray[Any]  # shape [run], names
+    bearings: NDArray[Any]  # shape [run], names; of one bearing those of its rides
     conditions: NDArray[Any]  # shape [run]
 
 
@@ -61,9 +61,8 @@ def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES)
         else np.full(len(chosen), np.nan)
         for each in QUANTITIES
     }
-    return Described(
-        rows, truth, *(np.asarray(known[name]).astype(str) for name in ("bearing_id", "condition"))
-    )
+    made = [f"ride {run}" for run in chosen] if is_one_bearing(runs) else known["bearing_id"]
+    return Described(rows, truth, *(np.asarray(names).astype(str) for names in (made, known["condition"])))
 
 
 def plate_of(runs: LabelledSet) -> NamePlate:
@@ -117,25 +116,33 @@ def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
 def check_unseen(learnt: Sequence[LabelledSet], other: LabelledSet) -> None:
     """Check that none of the bearings of a set is in the sets that were learnt from.
 
+    Lots of bearings are known by the seed of their scatter, whatever grade they are of. Where all runs were
+    of one bearing, it is their rides that may not come again.
+
     Raises
     ------
     InputError
-        Some are, as of the same sweep drawn from the same seed in another tier.
+        Some do, as of the same sweep drawn from the same seed in another tier.
     """
     for runs in learnt:
-        if shared := _drawn(runs) & _drawn(other):
+        key, words = ("seed", "rides") if is_one_bearing(runs) else ("scatter_seed", "bearings")
+        if shared := _numbers(runs, key) & _numbers(other, key):
             raise InputError(
-                f"{other.folder}: {len(shared)} of its bearings are those of {runs.folder}, so it does not "
+                f"{other.folder}: {len(shared)} of its {words} are those of {runs.folder}, so it does not "
                 "tell how an estimator does on others; draw it from another seed (`beardyn sweep --seed`)"
             )
 
 
-def _drawn(runs: LabelledSet) -> set[tuple[str, int]]:
-    """Tell the bearings of the complete runs; without scatter they are one, told apart by its rides."""
-    table = runs.table[runs.table["status"] == "complete"]
-    made = table["scatter_seed"] if "scatter_seed" in table else table["seed"]
-    seeds = made.fillna(table["seed"]).astype(int)
-    return set(zip(table["bearing_id"].astype(str), seeds, strict=True))
+def is_one_bearing(runs: LabelledSet) -> bool:
+    """Tell whether all runs of a set are of one bearing as made, or of one without scatter."""
+    return len(_numbers(runs, "scatter_seed")) < 2
+
+
+def _numbers(runs: LabelledSet, key: str) -> set[int]:
+    """Take the different numbers of the complete runs under a key; none where there is no such key."""
+    if key not in runs.table:
+        return set()
+    return set(runs.table.loc[runs.table["status"] == "complete", key].dropna().astype(int))
 
 
 def _unlike(runs: LabelledSet, other: LabelledSet, what: str, first: str, second: str) -> str:

@@ -10,7 +10,15 @@ from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.judging import judged_by, judged_crosswise
-from beardyn_core.follow.labelled import check_alike, check_unseen, described, joined, plate_of, sampling_of
+from beardyn_core.follow.labelled import (
+    check_alike,
+    check_unseen,
+    described,
+    is_one_bearing,
+    joined,
+    plate_of,
+    sampling_of,
+)
 from beardyn_core.follow.learning import FEWEST, calibrated, trained
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
@@ -73,7 +81,7 @@ def train(
         "quantities": dict(quantities),
         "set": about["sweep"],
         "runs": len(seen.bearings),
-        "bearings": len(set(seen.bearings)),
+        "bearings": 1 if is_one_bearing(runs) else len(set(seen.bearings)),
         "calibration": [each.about["sweep"] for each in calibration] or [f"{about['sweep']}, {VALIDATION}"],
         "test": "calibration, crosswise" if across else own,
         "levels": LEVELS,

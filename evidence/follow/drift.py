@@ -20,6 +20,7 @@ import beardyn_core as bd
 from beardyn_core.api.following import follower_of
 from beardyn_core.arrays import Float
 from beardyn_core.config import load_bearing
+from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.edge import written
 from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
@@ -116,7 +117,10 @@ def heard_of(piece: Piece, estimator: Estimator) -> Float:
 def digest_of(pieces: Sequence[Piece], estimator: Estimator) -> str:
     """Give what the descriptors of a drift depend on: simulator, pieces, how an estimator hears."""
     heard = (estimator.axes, estimator.rate, estimator.stretch, names_of(estimator.axes))
-    return hashlib.sha256(repr((simulator_digest(), tuple(pieces), heard)).encode()).hexdigest()[:12]
+    scene = scene_text(bd.scene(SCENE))
+    digest = hashlib.sha256(repr((simulator_digest(), tuple(pieces), heard, scene)).encode())
+    digest.update(Path(__file__).read_bytes())
+    return digest.hexdigest()[:12]
 
 
 def rows_of(name: str, pieces: Sequence[Piece], estimator: Estimator, kept: Path | None) -> list[Float]:

@@ -4,40 +4,44 @@ from __future__ import annotations
 
 import hashlib
 import json
+import sys
 from collections.abc import Iterator
 from dataclasses import asdict, fields
 from importlib.metadata import version
 from pathlib import Path
 
-import beardyn_core
 from beardyn_core.engine import Cluster, Engine
 from evidence.random.trial import FAILED, Tried, tried
 
 AT_ONCE = 20  # scenes of a task: a result is on disk at the latest after some seconds
 _HERE = Path(__file__).resolve().parent
+_ROOT = _HERE.parents[1]
 # of the simulator that a run goes through; the others make, read and judge recordings and sets
 _ROOMS = (
     "bearing", "choice", "config", "effects", "integrate", "kernels", "model", "observe", "rail", "scene",
     "structure",
 )  # fmt: skip
+_NOUNS = ("backgrounds", "bearings", "effects", "lubricants", "structures", "vehicles")
 
 
 def code() -> str:
     """Hash all that a result depends on: what a run goes through, and how scenes are drawn and judged."""
     digest = hashlib.sha256()
-    for path in sources():
-        digest.update(f"\n{path.name}\n".encode() + path.read_bytes())
-    for package in ("numba", "numpy"):
+    digest.update(sys.version.encode())
+    for package in ("numba", "numpy", "scipy", "llvmlite"):
         digest.update(version(package).encode())
+    for path in sources():
+        digest.update(f"\n{path.relative_to(_ROOT)}\n".encode() + path.read_bytes())
     return digest.hexdigest()[:12]
 
 
 def sources() -> list[Path]:
-    """List the modules that decide what becomes of a scene."""
-    package = Path(beardyn_core.__path__[0])
-    rooms = [package, *(package / room for room in _ROOMS)]
-    found = [path for room in rooms for path in sorted(room.glob("*.py" if room == package else "**/*.py"))]
-    return found + [_HERE / f"{name}.py" for name in ("drawing", "scenes", "trial")]
+    """List the modules and tables that decide what becomes of a scene."""
+    package, tables = _ROOT / "beardyn_core", _ROOT / "config"
+    found = [*package.glob("*.py"), *(_HERE / f"{name}.py" for name in ("drawing", "scenes", "trial"))]
+    for folder in [*(package / room for room in _ROOMS), *(tables / noun for noun in _NOUNS)]:
+        found += [path for path in folder.rglob("*") if path.suffix in (".py", ".json", ".yaml", ".csv")]
+    return sorted(found)
 
 
 def results(folder: Path, speed: str, seed: int, made_by: str) -> list[Tried]:

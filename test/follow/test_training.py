@@ -24,12 +24,12 @@ ABOUT = {"sweep": "made", "code": "digest", "licence": "CC-BY-4.0"}
 PARTS = {"train": 80, "validation": 40, "test": 60, None: 50}
 
 
-def bearings_made(seed: int, scatter: bool = True) -> pd.DataFrame:
-    """The columns that tell the bearings of a set apart."""
+def bearings_made(seed: int, one: bool = False) -> pd.DataFrame:
+    """The columns that tell the bearings of a set and their rides apart."""
     seeds = seed + np.arange(4)
-    names = [f"b{each}" if scatter else "b" for each in seeds]
-    made = {"bearing_id": names, "status": "complete", "seed": seeds}
-    return pd.DataFrame({**made, "scatter_seed": seeds} if scatter else made)
+    lots = np.full(4, 7) if one else seeds
+    names = [f"b{each}" for each in lots]
+    return pd.DataFrame({"bearing_id": names, "status": "complete", "seed": seeds, "scatter_seed": lots})
 
 
 @pytest.fixture
@@ -88,22 +88,44 @@ def test_sets_that_calibrate_judge_themselves_crosswise(runs: Any, monkeypatch: 
     assert len({least for least, _ in judged_by}) > 1  # each by the others
 
 
-@pytest.mark.parametrize("scatter", [True, False])
+@pytest.mark.parametrize("one", [False, True])
 @pytest.mark.parametrize("role", ["calibration", "test", "both"])
-def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, scatter: bool, runs: Any) -> None:
-    """The same sweep in another tier draws the same bearings; one bearing without scatter rides anew."""
-    runs.table = bearings_made(0, scatter)
+def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, one: bool, runs: Any) -> None:
+    """The same sweep in another tier draws the same bearings; one bearing alone rides anew."""
+    runs.table = bearings_made(0, one)
     others = [
-        SimpleNamespace(**{**vars(runs), "folder": "others", "table": bearings_made(seed, scatter)})
+        SimpleNamespace(**{**vars(runs), "folder": "others", "table": bearings_made(seed, one)})
         for seed in ((100, 102) if role == "both" else (2, 2))
     ]
-    sentence = "others: 2 of its bearings are those of " + ("others" if role == "both" else "made")
-    with pytest.raises(InputError, match=sentence):
+    of = "others" if role == "both" else "made"
+    with pytest.raises(
+        InputError, match=f"others: 2 of its {'rides' if one else 'bearings'} are those of {of}"
+    ):
         training.train(
             runs,
             calibration=others[:1] if role != "test" else [],  # type: ignore[arg-type]
             test=others[1] if role != "calibration" else None,  # type: ignore[arg-type]
         )
+
+
+@pytest.mark.parametrize("changed", [{"bearing_id": "of another grade"}, {"scatter_seed": None, "seed": 9}])
+def test_a_lot_is_known_by_the_seed_of_its_scatter(changed: dict[str, Any], runs: Any) -> None:
+    table = bearings_made(0)
+    other: Any = SimpleNamespace(folder="others", table=table.assign(**changed))
+    if "bearing_id" in changed:
+        with pytest.raises(InputError, match="others: 4 of its bearings are those of made"):
+            labelled.check_unseen([runs], other)
+    else:
+        labelled.check_unseen([runs], other)
+    older: Any = SimpleNamespace(folder="others", table=table[["bearing_id", "status"]])
+    labelled.check_unseen([older], other)  # has no column to know its bearings by
+
+
+def test_runs_of_one_bearing_are_parted_by_their_rides() -> None:
+    assert list(judging.crosswise_parts(np.array(["b", "b"]))) == []
+    one, several = (SimpleNamespace(table=bearings_made(0, each)) for each in (True, False))
+    assert labelled.is_one_bearing(one)  # type: ignore[arg-type]
+    assert not labelled.is_one_bearing(several)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
