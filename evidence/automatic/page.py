@@ -1,9 +1,9 @@
 """Put what `effects: auto` chooses on trial and write docs/automatic.md: ``make automatic``.
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
-converged reference of the ladder; what a band leaves open runs once more, three times as long. Finished
+converged reference of the ladder; what a band leaves open runs once more, six times as long. Finished
 scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the package begins anew, one
-of the rules only where they choose otherwise. An hour or two:
+of the rules only where they choose otherwise. Two hours or three:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
@@ -64,7 +64,7 @@ CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
     "service_metro_roller": ((USUAL, 0.05),),
 }
 PAGE = DOCS / "automatic.md"
-LONGER = 3  # times, of what is compared where a band crosses the limit
+LONGER = 6  # times, of what is compared where a band crosses the limit
 
 HEAD = """# The automatic choice on trial
 
