@@ -61,7 +61,7 @@ def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES)
         else np.full(len(chosen), np.nan)
         for each in QUANTITIES
     }
-    made = [f"ride {run}" for run in chosen] if is_one_bearing(runs) else known["bearing_id"]
+    made = [f"{runs.folder}, ride {run}" for run in chosen] if is_one_bearing(runs) else known["bearing_id"]
     return Described(rows, truth, *(np.asarray(names).astype(str) for names in (made, known["condition"])))
 
 
@@ -125,24 +125,27 @@ def check_unseen(learnt: Sequence[LabelledSet], other: LabelledSet) -> None:
         Some do, as of the same sweep drawn from the same seed in another tier.
     """
     for runs in learnt:
-        key, words = ("seed", "rides") if is_one_bearing(runs) else ("scatter_seed", "bearings")
-        if shared := _numbers(runs, key) & _numbers(other, key):
+        one = is_one_bearing(runs)
+        scattered = len(_different(runs, "scatter_seed")) > 1
+        key = "seed" if one else "scatter_seed" if scattered else "bearing_id"
+        if shared := _different(runs, key) & _different(other, key):
             raise InputError(
-                f"{other.folder}: {len(shared)} of its {words} are those of {runs.folder}, so it does not "
-                "tell how an estimator does on others; draw it from another seed (`beardyn sweep --seed`)"
+                f"{other.folder}: {len(shared)} of its {'rides' if one else 'bearings'} are those of "
+                f"{runs.folder}, so it does not tell how an estimator does on others; draw it from another "
+                "seed (`beardyn sweep --seed`)"
             )
 
 
 def is_one_bearing(runs: LabelledSet) -> bool:
-    """Tell whether all runs of a set are of one bearing as made, or of one without scatter."""
-    return len(_numbers(runs, "scatter_seed")) < 2
+    """Tell whether all runs of a set are of one bearing as drawn and made."""
+    return len(_different(runs, "bearing_id")) < 2
 
 
-def _numbers(runs: LabelledSet, key: str) -> set[int]:
-    """Take the different numbers of the complete runs under a key; none where there is no such key."""
+def _different(runs: LabelledSet, key: str) -> set[Any]:
+    """Take what is under a key of the complete runs; nothing where there is no such key."""
     if key not in runs.table:
         return set()
-    return set(runs.table.loc[runs.table["status"] == "complete", key].dropna().astype(int))
+    return set(runs.table.loc[runs.table["status"] == "complete", key].dropna())
 
 
 def _unlike(runs: LabelledSet, other: LabelledSet, what: str, first: str, second: str) -> str:

@@ -151,9 +151,10 @@ def _share(bearing: Bearing, lean: float, step: float) -> float:
     """Work out what bounds the film, so that it, damper and spring of the wall do not swing together.
 
     Steps h that move with the new velocity are stable up to h c Y + h^2 k Y / 2 of 2, for dampers c and
-    springs k that act on what yields by Y.
+    springs k that act on what yields by Y. Bars that lean push along the pitch circle with the cosine, and
+    the cage across, where it yields by half at any lean.
     """
-    cage, yields = bearing.cage, _yielding(bearing) * math.cos(lean) ** 2
+    cage, yields = bearing.cage, _yielding(bearing) * max(math.cos(lean) ** 2, 0.5)
     dry = step * (cage.damping + 0.5 * step * cage.stiffness) * yields
     return step * yields / (2.0 * max(_MOST_OF_STABLE - 0.5 * dry, _LEAST_OF_FILM))
 

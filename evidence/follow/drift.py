@@ -116,7 +116,7 @@ def heard_of(piece: Piece, estimator: Estimator) -> Float:
 
 def digest_of(pieces: Sequence[Piece], estimator: Estimator) -> str:
     """Give what the descriptors of a drift depend on: simulator, pieces, how an estimator hears."""
-    heard = (estimator.axes, estimator.rate, estimator.stretch, names_of(estimator.axes))
+    heard = (estimator.axes, estimator.rate, estimator.stretch, estimator.plate, names_of(estimator.axes))
     scene = scene_text(bd.scene(SCENE))
     digest = hashlib.sha256(repr((simulator_digest(), tuple(pieces), heard, scene)).encode())
     digest.update(Path(__file__).read_bytes())

@@ -108,17 +108,22 @@ def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, one: bool
         )
 
 
-@pytest.mark.parametrize("changed", [{"bearing_id": "of another grade"}, {"scatter_seed": None, "seed": 9}])
-def test_a_lot_is_known_by_the_seed_of_its_scatter(changed: dict[str, Any], runs: Any) -> None:
+@pytest.mark.parametrize("key", ["scatter_seed", "bearing_id"])
+def test_a_lot_is_known_by_the_seed_of_its_scatter_and_without_by_its_drawing(key: str) -> None:
     table = bearings_made(0)
-    other: Any = SimpleNamespace(folder="others", table=table.assign(**changed))
-    if "bearing_id" in changed:
+    if key == "bearing_id":  # bearings of several drawings, none with scatter
+        table = table.assign(scatter_seed=None)
+    runs: Any = SimpleNamespace(folder="made", table=table)
+    other: Any = SimpleNamespace(folder="others", table=table.assign(bearing_id="of another grade", seed=9))
+    if key == "scatter_seed":
         with pytest.raises(InputError, match="others: 4 of its bearings are those of made"):
             labelled.check_unseen([runs], other)
     else:
         labelled.check_unseen([runs], other)
-    older: Any = SimpleNamespace(folder="others", table=table[["bearing_id", "status"]])
-    labelled.check_unseen([older], other)  # has no column to know its bearings by
+        other.table = table.assign(seed=9)
+        with pytest.raises(InputError, match="others: 4 of its bearings are those of made"):
+            labelled.check_unseen([runs], other)
+    assert not labelled.is_one_bearing(runs)
 
 
 def test_runs_of_one_bearing_are_parted_by_their_rides() -> None:
