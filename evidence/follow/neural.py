@@ -129,12 +129,14 @@ def by_way(
 
 
 def verdict(ours: Mapping[str, Guessed], flows: Mapping[str, Mapping[str, Guessed]]) -> str:
-    """Say where a flow errs less."""
+    """Say where a flow errs less, and how often its intervals are right there."""
     better = []
     for name in SHOWN:
-        errors = {way: score_of(BY_NAME[name], each).error for way, each in by_way(name, ours, flows).items()}
-        if min(errors, key=lambda way: errors[way]) != "shipped":
-            better.append(BY_NAME[name].words)
+        found = {way: score_of(BY_NAME[name], each) for way, each in by_way(name, ours, flows).items()}
+        best = min(found, key=lambda way: found[way].error)
+        if best != "shipped":
+            held = f"{100 * found[best].coverage[-1]:.0f} % of runs inside of {100 * LEVELS[-1]:.0f} %"
+            better.append(f"{BY_NAME[name].words} ({best}, {held})")
     if not better:
         return "The flows err more in every number, so `sbi` and its PyTorch are not an extra."
     return f"A flow errs less in: {', '.join(better)}."
