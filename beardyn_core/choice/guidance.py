@@ -23,7 +23,7 @@ from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCa
 
 _GRAVITY = 9.80665
 # Torque that a cage which cannot sink leaves out, over that of the pockets of idle rollers: 1.2 to 1.3 in
-# runs of three spalled scenes (docs/automatic.md).
+# runs of three spalled scenes, tried by `make automatic`.
 _HELD_UP = 1.35
 MOST_SLIP = 1.0
 

@@ -71,7 +71,7 @@ def test_a_small_dent_does_not_make_a_large_spall_drown_the_pockets(on: str) -> 
 
 
 def test_contacts_damp_where_a_wheel_strikes() -> None:
-    """Without it the 99 % quantile of the roller load was 17 % off in a run (docs/automatic.md)."""
+    """Without it the 99 % quantile of the roller load was 17 % off in a run of `make automatic`."""
     forces = ["force", "deflection", "roller_load"]
     struck, smooth = (
         load_scene(name, effects="auto", tier="auto", quantities=forces)

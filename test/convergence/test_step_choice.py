@@ -184,7 +184,7 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
 
 
 def test_rings_on_an_axle_that_bends_get_another_step() -> None:
-    """With two, rollers of this scene carried twice their load: docs/automatic.md."""
+    """With two, rollers of this scene carried twice their load."""
     scene = load_scene("service_high_speed")
     of_scene = partial(steps, FULL, mounting=scene.mounting, axial=5e3, end_play=scene.end_play)
     assert (of_scene(), of_scene(bending=partial(bending_give, scene))) == (2, 3)
