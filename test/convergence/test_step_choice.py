@@ -192,7 +192,7 @@ def test_rings_on_an_axle_that_bends_get_another_step() -> None:
 
 @pytest.mark.slow
 def test_films_of_pockets_knock_alike_at_the_usual_step_and_a_finer_one() -> None:
-    """Bounded three times as low as explicit pockets need it, they were 1.7 dB louder from 5 to 10 kHz.
+    """Bounded three times as low as explicit pockets need it, they were 1.2 dB louder from 5 to 10 kHz.
 
     Now it is 0.6 dB; of 2 s chance makes 0.3 dB of it more or less, so 6 s are compared.
     """
