@@ -29,7 +29,7 @@ def sinks(blocks: int, repetitions: int) -> Table:
         for name in ("mcap", "memory"):
             times = []
             for _ in range(repetitions):
-                sink: Sink = McapSink(path) if name == "mcap" else MemorySink()
+                sink: Sink = McapSink(path, replace=True) if name == "mcap" else MemorySink()
                 began = time.perf_counter()
                 sink.open(description)
                 for block in run:

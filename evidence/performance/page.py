@@ -28,11 +28,23 @@ BUSY = "**The machine was busy with other work: all times are too long, ratios w
 
 GOALS = """## Goals
 
-The real-time factor (RTF) is simulated over wall time, all channels of a run included.
+Of presets and starts; those of right answers are in the next table. The real-time factor (RTF) is simulated
+over wall time, all channels of a run included.
 
 """
 
 TEXTS = {
+    "right_answers": """## Speed of right answers
+
+What is asked of one core for an answer within 5 %, and what this machine gave. What `auto` takes was
+[tried beside every effect](automatic.md). Processor time: what the core did for others does not count.
+
+""",
+    "train": """## A train
+
+Axleboxes of one process in `lumped`, all in one recording.
+
+""",
     "real_time_factor": """## Tiers and effects
 
 Every tier with every shipped set of effects and the step it takes by itself, steady 80 kN at 1165 rpm, 6
@@ -83,7 +95,7 @@ of the springs, which needs 3 steps for each sample where damping of its end nee
 """,
     "rollers": """## Rollers
 
-Eight lanes hold four rollers of each row; a number that is no multiple of four fills up with shadows.
+Eight lanes hold four rollers of each row, four lanes two; a number that is no multiple fills up with shadows.
 
 """,
     "cold_start": """## Start
@@ -163,13 +175,14 @@ def goal_rows(tables: dict[str, Any]) -> list[tuple[str, str, str, str, str]]:
         if found is not None:
             came = "goal" if found >= goal else "floor" if found >= floor else "short of the floor"
             rows.append((what, f"{floor:g}", f"{goal:g}", f"{found:.3g}", came))
-    for what, found, most in (
-        ("cold start to the first block, s", of("cold_start", "part", "to the first block", "s"), 3.0),
-        ("compiling `standard`, s", of("compiling", "effects", "standard", "wall s"), 20.0),
-        ("compiling `full`, s", of("compiling", "effects", "full", "wall s"), 20.0),
+    for what, found, floor, goal in (
+        ("cold start to the first block, s", of("cold_start", "part", "to the first block", "s"), 3.0, 3.0),
+        ("compiling `standard`, s", of("compiling", "effects", "standard", "wall s"), 15.0, 8.0),
+        ("compiling `full`, s", of("compiling", "effects", "full", "wall s"), 15.0, 8.0),
     ):
         if found is not None:
-            rows.append((what, "", f"< {most:g}", f"{found:.3g}", "goal" if found < most else "missed"))
+            came = "goal" if found < goal else "floor" if found < floor else "short of the floor"
+            rows.append((what, f"< {floor:g}", f"< {goal:g}", f"{found:.3g}", came))
     fit = of("laminae", "effects", "standard", "R^2")
     if fit is not None:
         rows.append(
