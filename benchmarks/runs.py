@@ -187,4 +187,16 @@ def machine() -> dict[str, Cell]:
         "load_average_before": os.getloadavg()[0],
         "python": platform.python_version(),
         "numba": numba.__version__,
+        "python_loop_s": _python_loop(),
     }
+
+
+def _python_loop() -> float:
+    """Time ten million turns of a plain loop, by which cores can be compared, median of three, [s]."""
+    took = []
+    for _ in range(3):
+        began, total = time.perf_counter(), 0
+        for number in range(10_000_000):
+            total += number
+        took.append(time.perf_counter() - began)
+    return statistics.median(took)

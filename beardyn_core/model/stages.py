@@ -18,6 +18,9 @@ _EMPTY_MARKS = 2  # in a marked step, the last of them kept
 OWN, MARKS, CYCLES = 0, 1, 2
 ROW, LAST = 0, 1  # in the own row: where this step counts, 0 for not at all; the counter at the last mark
 TIMED_STEPS = 8
+_TURNS = 3  # `model.build.HELD_STEPS`; the steps between two timed ones are no multiple of it
+# times the usual cycles of a step; one that works all out has 1.5 times those of the others
+_INTERRUPTED = 2.5
 
 
 def new_timers() -> NDArray[np.float64]:
@@ -28,14 +31,17 @@ def new_timers() -> NDArray[np.float64]:
 def stage_cycles(timers: NDArray[np.float64] | None) -> NDArray[np.float64]:
     """Count cycles that each of `KERNEL_STAGES` took in a step, shape [stage]; zeros if none was timed.
 
-    Medians over the steps timed last, without what the marks themselves took. A step during which the
-    processor did something else for a while is so left out.
+    Means over the steps timed last, without what the marks themselves took. A step during which the
+    processor did something else for a while is left out. What is worked out in every third step counts by
+    a third: three steps timed one after the other are of all its turns.
     """
     if timers is None:
         return np.zeros(len(KERNEL_STAGES))
     counted = timers[CYCLES:][timers[CYCLES:, EMPTY] > 0.0]
     if not len(counted):
         return np.zeros(len(KERNEL_STAGES))
-    cycles = np.median(counted, axis=0)
+    turns = counted[: len(counted) - len(counted) % _TURNS or None]
+    whole = turns.sum(axis=1)
+    cycles = turns[whole <= _INTERRUPTED * np.median(whole)].mean(axis=0)
     per_step = timers[MARKS] / (timers[MARKS, EMPTY] / _EMPTY_MARKS)
     return np.maximum(cycles[:EMPTY] - per_step[:EMPTY] * cycles[EMPTY], 0.0)

@@ -15,6 +15,7 @@ import pytest
 
 from beardyn_core.jit import OPTIONS, entry, inline
 from beardyn_core.kernels.stage_timer import PERIOD, mark, time_step
+from beardyn_core.model.build import HELD_STEPS
 from beardyn_core.model.stages import (
     CAGE,
     CONTACT,
@@ -92,6 +93,16 @@ def test_a_step_that_was_interrupted_is_left_out_and_marks_are_free() -> None:
     timers[MARKS, CONTACT], timers[MARKS, EMPTY] = 6.0 * TIMED_STEPS, 2.0 * TIMED_STEPS
     timers[CYCLES + 2, CONTACT] = 1e7  # the processor did something else for 4 ms
     assert stage_cycles(timers)[CONTACT] == 1300.0 - 6.0 * 50.0
+
+
+def test_what_is_worked_out_in_every_third_step_counts_by_a_third() -> None:
+    timers = new_timers()
+    timers[CYCLES:, CONTACT] = 1000.0
+    timers[CYCLES::3, FILM] = 600.0
+    timers[CYCLES:, EMPTY] = 1.0
+    timers[MARKS, EMPTY] = 2.0 * TIMED_STEPS
+    assert stage_cycles(timers)[FILM] == pytest.approx(200.0)
+    assert PERIOD % HELD_STEPS != 0
 
 
 @entry
