@@ -52,7 +52,7 @@ def stages(blocks: int) -> Table:
         "Stages of a step, full tier, 80 kN, 6 laminae",
         ("stage", "standard us/step", "standard %", "full us/step", "full %"),
         rows,
-        "contact to rings: shares of the kernel, measured in one step of 256 with the stages kept apart.",
+        "contact to rings: shares of the kernel, measured in one step of 128 with the stages kept apart.",
     )
 
 

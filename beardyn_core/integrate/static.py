@@ -34,9 +34,9 @@ _ACCEPTABLE_FORCE = 1.0e-3
 # Longest step of the cone; it also carries a cone that touches nothing through its play.
 _LONGEST_STEP = 1.0e-4
 _REFERENCE_STIFFNESS = 1.0e9
-# Beyond its play a cone gives way by some 0.3 mm under the static rating; one that is farther off drives
-# away, into poses that no contact law is for and that cost the most.
-_FARTHEST = 3.0e-3
+# Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
+# one that is farther off drives away, into poses that no contact law is for and that cost the most.
+_FARTHEST = 0.03
 
 
 @dataclass(frozen=True)
@@ -191,9 +191,10 @@ def solve(
     )  # fmt: skip
     load = np.concatenate([load, np.asarray(modal_load, dtype=np.float64)])
     cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
-    farthest = np.full(5, _FARTHEST + abs(end_play))
-    if axial_stiffness > 0.0:  # a prop gives way under the thrust
-        farthest[1] += float(np.abs(load[:3]).max()) / axial_stiffness
+    farthest = np.full(5, _FARTHEST * bearing.pitch_diameter + abs(end_play))
+    if axial_stiffness > 0.0:  # a prop gives way under load and thrust, which opens the rows across, too
+        backed = float(np.abs(load[:3]).sum()) / axial_stiffness
+        farthest[:3] += backed * np.array([math.tan(bearing.cup_angle), 1.0, math.tan(bearing.cup_angle)])
     state, unknowns, iterations = _equilibrium(cone, farthest)
     residual = cone.residual(unknowns, state)
     held, free = _stiffness(_bending_follows(state.cone_stiffness + np.diag(springs)))
@@ -268,14 +269,14 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
     damping = 10.0
     stalled = 0
     for iteration in range(_ITERATIONS):
-        if np.any(cone.off(unknowns) > farthest):
-            break
         size = float(np.abs(cone.residual(unknowns, state)).max())
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
         if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
             (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale + _ACCEPTABLE_FORCE
         ):
             return state, unknowns, iteration
+        if np.any(cone.off(unknowns) > farthest):
+            break
         step = cone.step(unknowns, state, damping)
         moved = unknowns + step
         guess = state.position + state.follow @ step
@@ -293,7 +294,7 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
     force = np.array2string(cone.load[:3], precision=1)
     raise ValidityError(
         f"static equilibrium of {cone.model.bearing.name} under {force} N was not found: after "
-        f"{iteration} steps the cone is {1e3 * cone.off(unknowns).max():.2g} mm off its place and "
+        f"{iteration + 1} steps the cone is {1e3 * cone.off(unknowns).max():.2g} mm off its place and "
         f"{size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
         "rows in contact; a single row needs an axial load or a prop against its own thrust "
         "(mounting.axial_prop_stiffness_MN_per_m)."

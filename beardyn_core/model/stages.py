@@ -17,10 +17,9 @@ _EMPTY_MARKS = 2  # in a marked step, the last of them kept
 # Rows: the first is the timer's own, then how often each stage was marked, then cycles of the timed steps.
 OWN, MARKS, CYCLES = 0, 1, 2
 ROW, LAST = 0, 1  # in the own row: where this step counts, 0 for not at all; the counter at the last mark
-TIMED_STEPS = 8
-_TURNS = 3  # `model.build.HELD_STEPS`; the steps between two timed ones are no multiple of it
-# times the usual cycles of a step; one that works all out has 1.5 times those of the others
-_INTERRUPTED = 2.5
+TIMED_STEPS = 9  # whole turns, also where a block has more of them
+_TURN = 3  # steps: in one of them friction that is held for the others is worked out
+_INTERRUPTED = 1.5  # times the least cycles of such a step
 
 
 def new_timers() -> NDArray[np.float64]:
@@ -31,17 +30,19 @@ def new_timers() -> NDArray[np.float64]:
 def stage_cycles(timers: NDArray[np.float64] | None) -> NDArray[np.float64]:
     """Count cycles that each of `KERNEL_STAGES` took in a step, shape [stage]; zeros if none was timed.
 
-    Means over the steps timed last, without what the marks themselves took. A step during which the
-    processor did something else for a while is left out. What is worked out in every third step counts by
-    a third: three steps timed one after the other are of all its turns.
+    What is worked out in one step of three counts by a third: steps timed one after the other take turns, and
+    means are over the steps of each turn, then over the turns. A step during which the processor did
+    something else for a while is left out, and so is what the marks themselves took.
     """
     if timers is None:
         return np.zeros(len(KERNEL_STAGES))
     counted = timers[CYCLES:][timers[CYCLES:, EMPTY] > 0.0]
     if not len(counted):
         return np.zeros(len(KERNEL_STAGES))
-    turns = counted[: len(counted) - len(counted) % _TURNS or None]
-    whole = turns.sum(axis=1)
-    cycles = turns[whole <= _INTERRUPTED * np.median(whole)].mean(axis=0)
+    turns = min(_TURN, len(counted))
+    steps = counted[: len(counted) // turns * turns].reshape(-1, turns, TIMER_SLOTS)
+    whole = steps.sum(axis=-1)
+    kept = (whole <= _INTERRUPTED * whole.min(axis=0))[..., None]
+    cycles = ((steps * kept).sum(axis=0) / kept.sum(axis=0)).mean(axis=0)
     per_step = timers[MARKS] / (timers[MARKS, EMPTY] / _EMPTY_MARKS)
     return np.maximum(cycles[:EMPTY] - per_step[:EMPTY] * cycles[EMPTY], 0.0)

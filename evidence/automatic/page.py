@@ -176,7 +176,9 @@ class Kept:
             undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
             if not undecided:
                 break
-            again = self._read(path.with_stem(f"{path.stem}-{times}"), scene, choices, undecided, times)
+            which = "_".join(map(str, undecided))
+            longest = path.with_stem(f"{path.stem}-{times}-{which}")
+            again = self._read(longest, scene, choices, undecided, times)
             for k, case in zip(undecided, again, strict=True):
                 found[k] = case
         return [case | {"expected": _expected_of(each)} for case, each in zip(found, choices, strict=True)]

@@ -21,7 +21,8 @@ _ROOMS = (
     "bearing", "choice", "config", "effects", "integrate", "kernels", "model", "observe", "rail", "scene",
     "structure",
 )  # fmt: skip
-_CLOCKS = ("stages.py", "stage_clock.py", "stage_timer.py")  # which time a run and do nothing to it
+# which time a run and do nothing to it
+_CLOCKS = ("model/stages.py", "observe/stage_clock.py")
 _NOUNS = ("backgrounds", "bearings", "effects", "lubricants", "structures", "vehicles")
 
 
@@ -42,7 +43,7 @@ def sources() -> list[Path]:
     found = [*package.glob("*.py"), *(_HERE / f"{name}.py" for name in ("drawing", "scenes", "trial"))]
     for folder in [*(package / room for room in _ROOMS), *(tables / noun for noun in _NOUNS)]:
         found += [path for path in folder.rglob("*") if path.suffix in (".py", ".json", ".yaml", ".csv")]
-    return sorted(path for path in found if path.name not in _CLOCKS)
+    return sorted(set(found) - {package / clock for clock in _CLOCKS})
 
 
 def results(folder: Path, speed: str, seed: int, made_by: str) -> list[Tried]:

@@ -95,14 +95,22 @@ def test_a_step_that_was_interrupted_is_left_out_and_marks_are_free() -> None:
     assert stage_cycles(timers)[CONTACT] == 1300.0 - 6.0 * 50.0
 
 
-def test_what_is_worked_out_in_every_third_step_counts_by_a_third() -> None:
+@pytest.mark.parametrize("steps_per_sample", [1, 2, 3, 4, 5, 6, 9, 10, 16])
+@pytest.mark.parametrize("interrupted", [None, 0, 1])
+def test_what_is_worked_out_in_every_third_step_counts_by_a_third(
+    steps_per_sample: int, interrupted: int | None
+) -> None:
     timers = new_timers()
-    timers[CYCLES:, CONTACT] = 1000.0
-    timers[CYCLES::3, FILM] = 600.0
-    timers[CYCLES:, EMPTY] = 1.0
-    timers[MARKS, EMPTY] = 2.0 * TIMED_STEPS
-    assert stage_cycles(timers)[FILM] == pytest.approx(200.0)
-    assert PERIOD % HELD_STEPS != 0
+    timers[MARKS, EMPTY] = 2.0
+    timed = [step for step in range(512 * steps_per_sample) if step % PERIOD == 4]
+    for k, step in enumerate(timed):
+        row = CYCLES + (step // PERIOD) % TIMED_STEPS
+        timers[row, CONTACT], timers[row, EMPTY] = 1000.0, 1.0
+        timers[row, FILM] = 900.0 if step % HELD_STEPS == 0 else 0.0
+        if k == interrupted and len(timed) >= 6:
+            timers[row, CONTACT] += 1e5
+    assert stage_cycles(timers)[FILM] == pytest.approx(300.0)
+    assert stage_cycles(timers)[CONTACT] == pytest.approx(1000.0)
 
 
 @entry
