@@ -25,9 +25,11 @@ from beardyn_core.kernels.kinematic_rings import hold_stiffness
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
+    add_tilt,
     load_rollers,
     show_springs,
     sum_rollers,
+    tilt_stiffness,
     torque_and_stiffness,
 )
 from beardyn_core.model.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
@@ -51,7 +53,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
     stride = steps // roller_trend.shape[0]
     begin_advance(rollers)
     direction = cage_direction(bodies)
-    losses = (0.0, 0.0)
+    losses, tilting = (0.0, 0.0), (0.0, 0.0, 0.0)
     response = work.response
     for step in range(steps):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
@@ -69,6 +71,8 @@ def advance_lumped(lanes, state, work, loads, output, p):
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
+            tilting = tilt_stiffness(sums, direction, p)
+        wrench = add_tilt(wrench, tilting, motion, p.base.effects.damping)
         finish_step(
             lanes, bodies, flex, axle, Drive(wrench, rib, losses, None), wrenches, box, loads[step],
             loads[step + 1], signals[step], energy, response, p,

@@ -155,6 +155,7 @@ def settle_lumped(
         pose_of = np.stack([cup.cosine * outward[0], lean, cup.cosine * outward[1], tilt_x, tilt_z], axis=1)
         rows.append(np.concatenate([pose_of[:, :held], -bends], axis=1))
     normal, gap = np.concatenate(rows), np.concatenate(gaps)
+    tilts = normal[:, 3:held] / spring.lever  # how far the tilt of the cone tilts each roller's rings
     found = np.concatenate([pose[:held], bent])
     scale = np.array([1.0, 1.0, 1.0, spring.lever, spring.lever])[:held]
     # modes count as far as they open a raceway
@@ -170,7 +171,11 @@ def settle_lumped(
         tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12) * (pressed > 0.5 * idle)
         force = np.maximum(pressed + 0.5 * idle, idle)
         stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
-        return load - force @ normal - springs * place, stiffness
+        lengths = spring.gyration * (tilts * tangent[:, None]).T @ tilts
+        stiffness[3:held, 3:held] += lengths
+        left = load - force @ normal - springs * place
+        left[3:held] -= lengths @ place[3:held]
+        return left, stiffness
 
     missing, stiffness = missing_at(found)
     most = float(np.abs(load / scale).max())

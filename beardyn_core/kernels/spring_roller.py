@@ -13,13 +13,20 @@ from beardyn_core.kernels.kinematic_bending import (
     keep_tangent,
     less_opening,
 )
-from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
+from beardyn_core.kernels.kinematic_rings import (
+    STIFF_CC,
+    STIFF_CS,
+    STIFF_SS,
+    add_stiffness,
+    store_stiffness,
+)
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
     RIB_SUM,
     TORQUE_RIB,
     TORQUE_ROLLING,
+    lane_total,
     pocket_torque,
     rolling_torque,
     row_totals,
@@ -234,6 +241,43 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
+
+
+@inline
+def tilt_stiffness(sums, direction, p):
+    """Work out what the lengths of the rollers hold of the tilt of cone against cup, from the stored stiffness.
+
+    A roller that is pressed along its length stands halfway between two rings that tilt against each other:
+    each contact turns it back with its stiffness times the squared radius of gyration of the length, both in
+    series with that of the spring. Returns the stiffness about x, between x and z, and about z, [N m/rad].
+    """
+    cc, ss, cs = lane_total(sums, STIFF_CC), lane_total(sums, STIFF_SS), lane_total(sums, STIFF_CS)
+    c, s = direction[0], direction[1]
+    about_x = cc * c * c - 2.0 * cs * c * s + ss * s * s
+    across = (ss - cc) * c * s - cs * (c * c - s * s)
+    about_z = cc * s * s + 2.0 * cs * c * s + ss * c * c
+    return p.spring.gyration * about_x, p.spring.gyration * across, p.spring.gyration * about_z
+
+
+@inline
+def add_tilt(wrench, stiffness, motion, damping):
+    """Add to the wrench on the cup what a tilt of the cone and its rate push by `tilt_stiffness`."""
+    about_x, about_z = _tilt_push(motion[3], damping), _tilt_push(motion[4], damping)
+    return (
+        wrench[0],
+        wrench[1],
+        wrench[2],
+        wrench[3] + (stiffness[0] * about_x + stiffness[1] * about_z),
+        wrench[4],
+        wrench[5] + (stiffness[1] * about_x + stiffness[2] * about_z),
+    )
+
+
+@inline
+def _tilt_push(tilt, damping):
+    if damping is None:
+        return tilt[0]
+    return tilt[0] + damping.time_constant * tilt[1]
 
 
 @inline
