@@ -79,7 +79,7 @@ class Statics:
             )
             for side in sides
         ]
-        # the tilt of the exact solution is kept: it follows from the moment and hardly from the spring
+        # the tilt of the exact solution is kept: the lengths of the rollers hold it in both
         tilting = [
             spring.lever * side * (np.cos(azimuth) * exact.tilt[0] - np.sin(azimuth) * exact.tilt[1])
             for side in sides
