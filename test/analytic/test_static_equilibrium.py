@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 from beardyn_core.bearing.contact_law import line_contact_factor, rib_contact_factor
 from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.life import static_rating
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import InputError
+from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate import equilibria
 from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.roller_contacts import (
@@ -359,3 +360,27 @@ def test_a_choice_solves_each_equilibrium_once(monkeypatch):
     equilibria._solved.cache_clear()
     choose(load_scene("smooth_run"))
     assert len(solved) == len(set(solved)) > 5
+
+
+def test_a_cone_that_nothing_holds_is_told_soon_with_how_far_it_is_off() -> None:
+    """A single row without a prop drives away by 0.1 mm a step: 300 of them took half a minute."""
+    with pytest.raises(ValidityError, match=r"after (\d+) steps the cone is [\d.]+ mm off its place") as told:
+        solve(HS, (0.0, 0.0, 5e3), end_play=0.0, rows=1, laminae=6)
+    steps = int(str(told.value).split("after ")[1].split()[0])
+    assert steps < 100
+
+
+@pytest.mark.parametrize(
+    ("load", "more"),
+    [
+        ((0.0, static_rating(HS), 0.0), {}),
+        ((0.0, 2e4, 0.0), {"rows": 1, "axial_stiffness": 5e6}),
+        ((0.0, 0.0, 1e5), {"rows": 1, "axial_stiffness": 3e6, "tilt": "locked"}),
+        ((0.0, 0.0, 8e4), {"end_play": 5e-3}),
+        ((1e4, 0.0, 8e4), {"tilt": "free", "tilt_stiffness": (1e5, 1e5)}),
+    ],
+)
+def test_no_equilibrium_is_taken_for_a_cone_that_drives_away(load: tuple[float, ...], more: dict) -> None:
+    """Rings that yield far: under the static rating along the axle, on a soft prop, through much play."""
+    found = solve(HS, load, **({"end_play": 1e-4, "laminae": 6} | more))
+    assert found.residual < 1e-3 * max(map(abs, load))
