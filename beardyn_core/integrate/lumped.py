@@ -71,7 +71,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
-            tilting = tilt_stiffness(sums, direction, p)
+            tilting = tilt_stiffness(sums, direction)
         wrench = add_tilt(wrench, tilting, motion, p.base.effects.damping)
         finish_step(
             lanes, bodies, flex, axle, Drive(wrench, rib, losses, None), wrenches, box, loads[step],

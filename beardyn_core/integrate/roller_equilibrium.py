@@ -84,22 +84,23 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
         rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
         idle=centrifugal_cup_load(1.0, bearing.cup_angle, bearing.rib_angle),
         give=float((approach / load).min()),
-        gyration=gyration(bearing, laminae),
+        reach=reach(bearing, laminae),
     )
 
 
-def gyration(bearing: Bearing, laminae: int) -> float:
-    """Work out the stiffness of a roller against the tilt of its rings over that along the normal, [m^2].
+def reach(bearing: Bearing, laminae: int) -> float:
+    """Work out half of the length by which a roller holds a tilt of its rings against each other, [m].
 
-    For straight rollers L^2/12 less what the laminae are too coarse for; a profile that takes the ends out of
-    contact leaves less, the more the lighter the load: taken at a load in the middle of those of service.
+    Of a line of springs whose third of the square is the stiffness against tilt over that along the normal:
+    for straight rollers half of their length, less what the laminae are too coarse for; a profile that takes
+    the ends out of contact leaves less, the more the lighter the load: taken at one in the middle of service.
     """
     model = contact_model(bearing, 0.0, laminae, 0.0, 0.0)
     depth = np.array([0.0, -_USUAL_APPROACH / np.sin(bearing.cup_angle), 0.0])
     stiffness = solve_rollers(model, ConePose(depth, np.eye(3)), None).cone_stiffness
     # about where a displacement across does not tilt
     tilting = stiffness[3, 3] - stiffness[3, 2] ** 2 / stiffness[2, 2]
-    return float(max(tilting, 0.0) * np.cos(bearing.cup_angle) ** 2 / stiffness[2, 2])
+    return math.sqrt(3.0 * max(tilting, 0.0) / stiffness[2, 2]) * math.cos(bearing.cup_angle)
 
 
 _ITERATIONS = 80

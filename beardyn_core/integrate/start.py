@@ -171,7 +171,11 @@ def settle_lumped(
         tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12) * (pressed > 0.5 * idle)
         force = np.maximum(pressed + 0.5 * idle, idle)
         stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
-        lengths = spring.gyration * (tilts * tangent[:, None]).T @ tilts
+        # what the lengths of the rollers hold of the tilt, `kernels.spring_roller.add_length`
+        turned, depth = tilts @ place[3:held], np.maximum(approach, 1e-12)
+        lifted = np.maximum(np.abs(turned) * spring.reach / depth, 1.0)
+        holding = np.maximum(pressed - 0.5 * idle, 0.0) / depth * (3.0 - 2.0 / np.sqrt(lifted)) / lifted
+        lengths = 10.0 / 27.0 * spring.reach**2 * (tilts * holding[:, None]).T @ tilts
         stiffness[3:held, 3:held] += lengths
         left = load - force @ normal - springs * place
         left[3:held] -= lengths @ place[3:held]

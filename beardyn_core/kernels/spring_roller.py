@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
-from beardyn_core.kernels.exchange import load_vector
+from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.kinematic_bending import (
     PLACE,
     SPEED,
@@ -13,13 +13,7 @@ from beardyn_core.kernels.kinematic_bending import (
     keep_tangent,
     less_opening,
 )
-from beardyn_core.kernels.kinematic_rings import (
-    STIFF_CC,
-    STIFF_CS,
-    STIFF_SS,
-    add_stiffness,
-    store_stiffness,
-)
+from beardyn_core.kernels.kinematic_rings import STIFF_CS, add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -39,7 +33,9 @@ from beardyn_core.kernels.lane_math import (
     at_most,
     exp2,
     log2,
+    magnitude,
     quick_ninth_root,
+    sqrt,
     where_greater,
 )
 from beardyn_core.kernels.lanes import any_positive
@@ -51,6 +47,8 @@ TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft an
 _SMALLEST_APPROACH = 1e-12
 _LEAST_FIRM = 1e-6
 _FETCHED_AHEAD = 4  # steps
+# Sums of the stiffness against tilt over the rollers, times cosine and sine of the pocket angle.
+_LENGTH_CC, _LENGTH_SS, _LENGTH_CS = range(STIFF_CS + 1, STIFF_CS + 4)
 _PI = 3.141592653589793
 
 
@@ -221,7 +219,8 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
     rolling, sliding = zero, zero
-    stiff = (zero, zero, zero, zero, zero, zero)
+    stiff, lengths = (zero, zero, zero, zero, zero, zero), (zero, zero, zero)
+    tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
     for block in range(blocks):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
@@ -238,25 +237,57 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
         keep_tangent(lanes, block, tangent, p.bending)
+        pressed, tilted = at_least(load - idle, 0.0), tilt[0] * cosine + tilt[1] * sine
+        lengths = add_length(lengths, counted * pressed, approach, tilted, cosine, sine, p.spring.reach)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
+    store_vector(lanes, sums, 0, _LENGTH_CC, lengths)
 
 
 @inline
-def tilt_stiffness(sums, direction, p):
-    """Work out what the lengths of the rollers hold of the tilt of cone against cup, from the stored stiffness.
+def add_length(lengths, load, approach, tilt, cosine, sine, reach):
+    """Add what a block of rollers holds of the tilt of cone against cup by its length, [N m/rad].
 
-    A roller that is pressed along its length stands halfway between two rings that tilt against each other:
-    each contact turns it back with its stiffness times the squared radius of gyration of the length, both in
-    series with that of the spring. Returns the stiffness about x, between x and z, and about z, [N m/rad].
+    ``lengths`` (3 numbers): sums so far; ``load``: of the cone on the rollers [N]; ``approach`` [m];
+    ``tilt``: of the rings against each other in the rollers' meridian planes [rad]; ``reach``: half of a
+    roller's length [m].
+
+    A roller stands halfway between its rings, so that each contact, a row of springs, turns it back with its
+    stiffness times ``reach^2/3``, and the two are in series as along the normal. Where the tilt lifts an end
+    off, the load goes to the other one: with ``x = tilt reach / approach`` above 1 the moment of linear
+    springs is that of a triangle of pressure on ``1/sqrt(x)`` of the length, ``load reach (1 - 2/3 /
+    sqrt(x))``.
     """
-    cc, ss, cs = lane_total(sums, STIFF_CC), lane_total(sums, STIFF_SS), lane_total(sums, STIFF_CS)
-    c, s = direction[0], direction[1]
+    depth = at_least(approach, _SMALLEST_APPROACH)
+    lifted = at_least(magnitude(tilt) * reach / depth, 1.0)
+    held = (3.0 - 2.0 / sqrt(lifted)) / lifted
+    stiffness = (10.0 / 27.0 * reach * reach) * held * load / depth
+    with_c = stiffness * cosine
+    return lengths[0] + with_c * cosine, lengths[1] + stiffness * sine * sine, lengths[2] + with_c * sine
+
+
+@inline
+def _in_cages_frame(about_x, about_z, direction):
+    """Turn a tilt into what rollers at the pocket angles 0 and 90 degrees feel of it."""
+    return (
+        about_x * direction[0] - about_z * direction[1],
+        -about_x * direction[1] - about_z * direction[0],
+    )
+
+
+@inline
+def tilt_stiffness(sums, direction):
+    """Turn what `torque_and_stiffness` kept of `add_length` to world axes, [N m/rad].
+
+    Returns the stiffness of the rollers' lengths about x, between x and z, and about z.
+    """
+    cc, ss = lane_total(sums, _LENGTH_CC), lane_total(sums, _LENGTH_SS)
+    cs, c, s = lane_total(sums, _LENGTH_CS), direction[0], direction[1]
     about_x = cc * c * c - 2.0 * cs * c * s + ss * s * s
     across = (ss - cc) * c * s - cs * (c * c - s * s)
     about_z = cc * s * s + 2.0 * cs * c * s + ss * c * c
-    return p.spring.gyration * about_x, p.spring.gyration * across, p.spring.gyration * about_z
+    return about_x, across, about_z
 
 
 @inline

@@ -88,7 +88,7 @@ class SpringParams(NamedTuple):
     rib_centrifugal: float  # rib load over centrifugal force, at a given cup load
     idle: float  # cup load of a roller that the cone does not press, over centrifugal force
     give: float  # least approach over cup load: that of the stiffest spring [m/N]
-    gyration: float  # stiffness against the tilt of cone and cup over that along the normal [m^2]
+    reach: float  # half of the length that holds a tilt of the rings [m]
 
 
 class LooseParams(NamedTuple):

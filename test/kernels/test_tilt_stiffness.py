@@ -1,66 +1,76 @@
-"""What the lengths of the rollers hold of the tilt of cone against cup, beside a sum roller by roller."""
+"""What the lengths of the rollers hold of the tilt of cone against cup, beside brute force."""
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from beardyn_core.jit import entry
-from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
+from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.kernels.spring_roller import add_tilt, tilt_stiffness
+from beardyn_core.kernels.spring_roller import (
+    _LENGTH_CC,
+    _in_cages_frame,
+    add_length,
+    add_tilt,
+    tilt_stiffness,
+)
 from beardyn_core.model.layout import SUM_FIELDS
 from beardyn_core.model.parameters import DampingParams
 
 Float = NDArray[np.float64]
-GYRATION, TIME = 2.1e-4, 3e-6
-
-
-class Spring(NamedTuple):
-    """What `tilt_stiffness` reads of the springs."""
-
-    gyration: float
-
-
-class Params(NamedTuple):
-    """What it reads of the parameters."""
-
-    spring: Spring
+REACH, TIME, FOUNDATION = 0.024, 3e-6, 4e10
 
 
 @entry
-def tilt_wrench(lanes, sums, rollers, direction, motion, damping, p, wrench):
-    """Sum the stiffness of rollers [block, (tangent, cosine, sine), lane]; write what a tilt pushes by."""
+def tilt_wrench(lanes, sums, rollers, direction, motion, damping, reach, wrench):
+    """Write what a tilt pushes the cup by; ``rollers`` [block, (load, approach, cosine, sine), lane]."""
     zero = lanes.constant(0.0)
-    stiff = (zero, zero, zero, zero, zero, zero)
+    lengths = (zero, zero, zero)
+    tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
     for block in range(rollers.shape[0]):
-        tangent = lanes.load(rollers, block, 0)
-        stiff = add_stiffness(stiff, tangent, lanes.load(rollers, block, 1), lanes.load(rollers, block, 2))
-    store_stiffness(lanes, sums[0], stiff)
-    tilted = add_tilt((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), tilt_stiffness(sums, direction, p), motion, damping)
+        load, approach = lanes.load(rollers, block, 0), lanes.load(rollers, block, 1)
+        cosine, sine = lanes.load(rollers, block, 2), lanes.load(rollers, block, 3)
+        tilted = tilt[0] * cosine + tilt[1] * sine
+        lengths = add_length(lengths, load, approach, tilted, cosine, sine, reach)
+    store_vector(lanes, sums[0], 0, _LENGTH_CC, lengths)
+    tilted = add_tilt((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), tilt_stiffness(sums, direction), motion, damping)
     for i in range(6):
         wrench[i] = tilted[i]
 
 
+def naive_moment(load: float, tilt: float) -> float:
+    """Moment of a row of linear springs between rings that tilt by half of it against the roller each."""
+    place = np.linspace(-REACH, REACH, 200_001)
+    width = place[1] - place[0]
+
+    def pressure(depth: float) -> Float:
+        return FOUNDATION * np.maximum(depth + 0.5 * tilt * place, 0.0)
+
+    depth = brentq(lambda depth: pressure(depth).sum() * width - load, -abs(tilt) * REACH, 1e-3, xtol=1e-18)
+    return float((pressure(depth) * place).sum() * width)
+
+
+@pytest.mark.parametrize("size", [1e-4, 3e-3], ids=["along the whole length", "ends lifted off"])
 @pytest.mark.parametrize("damped", [False, True])
-def test_each_roller_turns_the_cup_after_the_cone(lanes: Lanes, damped: bool) -> None:
-    """In the meridian plane at its azimuth: the part of the tilt there, times stiffness and gyration."""
+def test_each_roller_turns_the_cup_after_the_cone(lanes: Lanes, damped: bool, size: float) -> None:
+    """In the meridian plane at its azimuth, by the moment of its row of springs."""
     if lanes.width == 1:
         pytest.skip("rows lie in halves of the lanes")
     random = np.random.default_rng(3)
-    tangent, pocket = random.uniform(0.0, 1e9, (3, lanes.width)), random.uniform(0.0, 7.0, (3, lanes.width))
-    turn, tilt, rate = 0.7, np.array([3e-4, -2e-4]), np.array([0.4, 0.1])
+    load, pocket = random.uniform(1e3, 1e4, (3, lanes.width)), random.uniform(0.0, 7.0, (3, lanes.width))
+    turn, tilt, rate = 0.7, size * np.array([1.0, -0.6]), np.array([0.4, 0.1])
+    approach = load / (REACH * FOUNDATION)  # of both contacts
     sums, wrench = np.zeros((1, 1, SUM_FIELDS, lanes.width)), np.zeros(6)
-    rollers = np.ascontiguousarray(np.stack([tangent, np.cos(pocket), np.sin(pocket)], axis=1))
+    rollers = np.ascontiguousarray(np.stack([load, approach, np.cos(pocket), np.sin(pocket)], axis=1))
     motion = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (tilt[0], rate[0]), (tilt[1], rate[1]))
     damping = DampingParams(TIME) if damped else None
-    direction = (np.cos(turn), np.sin(turn))
-    tilt_wrench(lanes, sums, rollers, direction, motion, damping, Params(Spring(GYRATION)), wrench)
-    azimuth = (pocket + turn).ravel()
-    plane = np.stack([np.cos(azimuth), -np.sin(azimuth)])  # how far tilts about x and z tilt it
-    moving = tilt + (TIME * rate if damped else 0.0)
-    moment = GYRATION * (plane * tangent.ravel()) @ (plane.T @ moving)
-    np.testing.assert_allclose(wrench, [1, 2, 3, 4 + moment[0], 5, 6 + moment[1]], rtol=1e-12)
+    tilt_wrench(lanes, sums, rollers, (np.cos(turn), np.sin(turn)), motion, damping, REACH, wrench)
+    moment = np.zeros(2)
+    for force, azimuth in zip(load.ravel(), (pocket + turn).ravel(), strict=True):
+        plane = np.array([np.cos(azimuth), -np.sin(azimuth)])  # how far tilts about x and z tilt it
+        secant = 10.0 / 9.0 * naive_moment(force, plane @ tilt) / (plane @ tilt)
+        moment += secant * plane * (plane @ (tilt + (TIME * rate if damped else 0.0)))
+    np.testing.assert_allclose(wrench - [1, 2, 3, 4, 5, 6], [0, 0, 0, moment[0], 0, moment[1]], rtol=1e-4)

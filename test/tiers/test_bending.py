@@ -329,7 +329,12 @@ def _springs(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
     normal = normal.reshape(-1, normal.shape[2])
     depth = normal @ np.concatenate([pose, bent]) - 0.5 * scene.end_play * math.sin(angle)
     spring = np.where(depth > 0.0, np.interp(depth, approach[order], slope), 0.0)
-    return np.asarray((normal.T * spring) @ normal)
+    # both contacts of a roller are lines of springs, which hold a tilt in its meridian plane
+    plane = np.stack([along, -across], axis=2).reshape(-1, 2)
+    square = bearing.effective_length**2 / 12.0 * (1.0 - 1.0 / scene.numerics.laminae**2)
+    stiffness = (normal.T * spring) @ normal
+    stiffness[3:5, 3:5] += square * (plane.T * spring) @ plane
+    return np.asarray(stiffness)
 
 
 def _laminae(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
