@@ -1,9 +1,9 @@
 """Put what `effects: auto` chooses on trial and write docs/automatic.md: ``make automatic``.
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
-converged reference of the ladder; what a band leaves open runs again, six times as long, and what is open
-then 24 times. Finished scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the
-package begins anew, one of the rules only where they choose otherwise. Three hours or four:
+converged reference of the ladder; what a band leaves open runs once more, six times as long. Finished
+scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the package begins anew, one
+of the rules only where they choose otherwise. Two hours or three:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
@@ -64,7 +64,7 @@ CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
     "service_metro_roller": ((USUAL, 0.05),),
 }
 PAGE = DOCS / "automatic.md"
-LONGER = (6, 24)  # times, of what is compared where a band crosses the limit
+LONGER = 6  # times, of what is compared where a band crosses the limit
 
 HEAD = """# The automatic choice on trial
 
@@ -73,9 +73,9 @@ converged reference of the [ladder](ladder.md): every effect, {laminae} laminae,
 of 25.6 kHz, {runs} runs. Errors are those of the ladder, the worst component of a quantity, in brackets when
 they are inside the run-to-run band; behind them what the rules had *expected*. *yes*: every component of what
 is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes one look
-with 5 % at most, two with 10, three with 15); *no*: one is beyond it with its whole band; *open*: the runs
-are too short to tell. Doubt shrinks with what is compared, so an open case is run again, {longer} times as
-long; its row is of its last run. *Simpler*: effects that are chosen with other options than `full` has.
+with 5 % at most, two with 10); *no*: one is beyond it with its whole band; *open*: the runs are too short to
+tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long; its row
+is of that run. *Simpler*: effects that are chosen with other options than `full` has.
 
 | scene | asked | chosen | found (*expected*) | verdict |
 |---|---|---|---|---|
@@ -166,20 +166,16 @@ class Kept:
         self._folder = folder
         folder.mkdir(parents=True, exist_ok=True)
 
-    def cases(self, name: str, longer: Sequence[int] = ()) -> list[dict[str, Any]]:
-        """Give the cases of a scene, those that are open from longer runs; run what is not there yet."""
+    def cases(self, name: str, longer: int = 1) -> list[dict[str, Any]]:
+        """Give the cases of a scene, those that are open from a longer run; run what is not there yet."""
         scene = standard_scene(name)
         choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
         path = self._folder / f"{name}-{digest_of(scene, choices)}.json"
         found = self._read(path, scene, choices, range(len(choices)), 1)
-        for times in longer:
-            undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
-            if not undecided:
-                break
-            which = "_".join(map(str, undecided))
-            longest = path.with_stem(f"{path.stem}-{times}-{which}")
-            again = self._read(longest, scene, choices, undecided, times)
-            for k, case in zip(undecided, again, strict=True):
+        undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
+        if longer > 1 and undecided:
+            path = path.with_stem(f"{path.stem}-{longer}-{'_'.join(map(str, undecided))}")
+            for k, case in zip(undecided, self._read(path, scene, choices, undecided, longer), strict=True):
                 found[k] = case
         return [case | {"expected": _expected_of(each)} for case, each in zip(found, choices, strict=True)]
 
@@ -229,12 +225,7 @@ def main() -> None:
         for case in kept.cases(name):
             print(row(case), flush=True)
     rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
-    head = HEAD.format(
-        laminae=REFERENCE_LAMINAE,
-        steps=REFERENCE_STEPS,
-        runs=REFERENCE_RUNS,
-        longer=" then ".join(map(str, LONGER)),
-    )
+    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, runs=REFERENCE_RUNS, longer=LONGER)
     arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
 
 
