@@ -21,8 +21,6 @@ _ROOMS = (
     "bearing", "choice", "config", "effects", "integrate", "kernels", "model", "observe", "rail", "scene",
     "structure",
 )  # fmt: skip
-# which time a run and do nothing to it
-_CLOCKS = ("model/stages.py", "observe/stage_clock.py")
 _NOUNS = ("backgrounds", "bearings", "effects", "lubricants", "structures", "vehicles")
 
 
@@ -43,7 +41,7 @@ def sources() -> list[Path]:
     found = [*package.glob("*.py"), *(_HERE / f"{name}.py" for name in ("drawing", "scenes", "trial"))]
     for folder in [*(package / room for room in _ROOMS), *(tables / noun for noun in _NOUNS)]:
         found += [path for path in folder.rglob("*") if path.suffix in (".py", ".json", ".yaml", ".csv")]
-    return sorted(set(found) - {package / clock for clock in _CLOCKS})
+    return sorted(found)
 
 
 def results(folder: Path, speed: str, seed: int, made_by: str) -> list[Tried]:
