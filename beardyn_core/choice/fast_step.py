@@ -47,7 +47,7 @@ def fastest_mode(
     tangent = roller_tangent(bearing) * heaviest**0.1
     carrying = rollers * (1.0 if preloaded else 0.5)
     across, along = 0.5 * carrying * tangent * cosine**2, carrying * tangent * sine**2
-    about = 0.5 * carrying * tangent * lever**2
+    about = 0.5 * carrying * tangent * (lever**2 + bearing.effective_length**2 / 12.0)
     moving = [0, 1, 2, 3, 5]
     give = np.zeros((6, 6))
     if mounting.cup == "suspended":

@@ -37,6 +37,7 @@ _SAMPLES = 31
 # below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
 _SMALLEST_SHARE = 1.0e-3
 _SMALLEST_APPROACH, _USUAL_APPROACH, _LARGEST_APPROACH = 2.0e-7, 1.5e-5, 4.0e-4
+_FINE = 20  # laminae
 
 
 @cache
@@ -84,20 +85,24 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
         rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
         idle=centrifugal_cup_load(1.0, bearing.cup_angle, bearing.rib_angle),
         give=float((approach / load).min()),
-        reach=reach(bearing, laminae),
+        reach=reach(bearing),
     )
 
 
-def reach(bearing: Bearing, laminae: int) -> float:
+@cache
+def reach(bearing: Bearing) -> float:
     """Work out half of the length by which a roller holds a tilt of its rings against each other, [m].
 
     Of a line of springs whose third of the square is the stiffness against tilt over that along the normal:
-    for straight rollers half of their length, less what the laminae are too coarse for; a profile that takes
-    the ends out of contact leaves less, the more the lighter the load: taken at one in the middle of service.
+    for straight rollers half of their length. A profile that takes the ends out of contact leaves less, the
+    more the lighter the load: taken at one in the middle of service, and with many laminae, for the spring
+    has none.
     """
-    model = contact_model(bearing, 0.0, laminae, 0.0, 0.0)
+    model = contact_model(bearing, 0.0, _FINE, 0.0, 0.0)
     depth = np.array([0.0, -_USUAL_APPROACH / np.sin(bearing.cup_angle), 0.0])
     stiffness = solve_rollers(model, ConePose(depth, np.eye(3)), None).cone_stiffness
+    if stiffness[2, 2] <= 0.0:  # so much crown that nothing touches
+        return 0.0
     # about where a displacement across does not tilt
     tilting = stiffness[3, 3] - stiffness[3, 2] ** 2 / stiffness[2, 2]
     return math.sqrt(3.0 * max(tilting, 0.0) / stiffness[2, 2]) * math.cos(bearing.cup_angle)

@@ -174,8 +174,9 @@ def settle_lumped(
         # what the lengths of the rollers hold of the tilt, `kernels.spring_roller.add_length`
         turned, depth = tilts @ place[3:held], np.maximum(approach, 1e-12)
         lifted = np.maximum(np.abs(turned) * spring.reach / depth, 1.0)
-        holding = np.maximum(pressed - 0.5 * idle, 0.0) / depth * (3.0 - 2.0 / np.sqrt(lifted)) / lifted
-        lengths = 10.0 / 27.0 * spring.reach**2 * (tilts * holding[:, None]).T @ tilts
+        share = (1.0 - 17.0 / 27.0 / np.sqrt(lifted)) / lifted
+        holding = spring.reach**2 * share * np.maximum(pressed - 0.5 * idle, 0.0) / depth
+        lengths = (tilts * holding[:, None]).T @ tilts
         stiffness[3:held, 3:held] += lengths
         left = load - force @ normal - springs * place
         left[3:held] -= lengths @ place[3:held]

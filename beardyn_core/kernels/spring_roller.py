@@ -13,7 +13,7 @@ from beardyn_core.kernels.kinematic_bending import (
     keep_tangent,
     less_opening,
 )
-from beardyn_core.kernels.kinematic_rings import STIFF_CS, add_stiffness, store_stiffness
+from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -41,14 +41,23 @@ from beardyn_core.kernels.lane_math import (
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.rolling_waves import fetch_waves, wave_places, waved
 from beardyn_core.kernels.vectors import add_scaled
-from beardyn_core.model.layout import COUNTED, OVERSIZE, PENETRATION, POCKET_ANGLE, POCKET_COSINE, POCKET_SINE
+from beardyn_core.model.layout import (
+    COUNTED,
+    OVERSIZE,
+    PENETRATION,
+    POCKET_ANGLE,
+    POCKET_COSINE,
+    POCKET_SINE,
+    REACTION,
+)
 
 TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
 _SMALLEST_APPROACH = 1e-12
 _LEAST_FIRM = 1e-6
 _FETCHED_AHEAD = 4  # steps
-# Sums of the stiffness against tilt over the rollers, times cosine and sine of the pocket angle.
-_LENGTH_CC, _LENGTH_SS, _LENGTH_CS = range(STIFF_CS + 1, STIFF_CS + 4)
+# Sums of the stiffness against tilt over the rollers, times cosine and sine of the pocket angle; tier
+# quasistatic, which has none, keeps its cages here.
+_LENGTH_CC, _LENGTH_SS, _LENGTH_CS = range(REACTION + 14, REACTION + 17)
 _PI = 3.141592653589793
 
 
@@ -253,16 +262,17 @@ def add_length(lengths, load, approach, tilt, cosine, sine, reach):
     ``tilt``: of the rings against each other in the rollers' meridian planes [rad]; ``reach``: half of a
     roller's length [m].
 
-    A roller stands halfway between its rings, so that each contact, a row of springs, turns it back with its
-    stiffness times ``reach^2/3``, and the two are in series as along the normal. Where the tilt lifts an end
-    off, the load goes to the other one: with ``x = tilt reach / approach`` above 1 the moment of linear
-    springs is that of a triangle of pressure on ``1/sqrt(x)`` of the length, ``load reach (1 - 2/3 /
-    sqrt(x))``.
+    A roller stands halfway between its rings, so that each contact, a row of springs of a 10/9 law, turns it
+    back with its stiffness times ``reach^2/3``, and the two are in series as along the normal: with ``x =
+    tilt reach / approach`` the moment is ``10/27 load reach x``, until at 1 an end lifts off, and ``load
+    reach (1 - 17/27 / sqrt(x))`` from there on, within 2 % of such a row. Where the cone lets go of a roller,
+    which its centrifugal force presses to the cup alone, nothing is held. The moment of a patch that is not
+    in the middle is left out.
     """
     depth = at_least(approach, _SMALLEST_APPROACH)
     lifted = at_least(magnitude(tilt) * reach / depth, 1.0)
-    held = (3.0 - 2.0 / sqrt(lifted)) / lifted
-    stiffness = (10.0 / 27.0 * reach * reach) * held * load / depth
+    held = (1.0 - 17.0 / 27.0 / sqrt(lifted)) / lifted
+    stiffness = reach * reach * held * load / depth
     with_c = stiffness * cosine
     return lengths[0] + with_c * cosine, lengths[1] + stiffness * sine * sine, lengths[2] + with_c * sine
 

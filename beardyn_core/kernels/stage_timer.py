@@ -28,9 +28,8 @@ from beardyn_core.jit import inline
 from beardyn_core.kernels.lanes import VectorType
 from beardyn_core.model.stages import CYCLES, EMPTY, LAST, MARKS, OWN, ROW, TIMED_STEPS, TIMER_SLOTS
 
-PERIOD = (
-    128  # no multiple of the steps that hold friction, so that steps timed one after the other take turns
-)
+# No multiple of the steps that hold friction, so that steps timed one after the other take turns.
+PERIOD = 128
 _TIMED = 4  # not the first step of a block, which takes the energy audit
 _HAS_COUNTER = platform.machine().lower() in ("x86_64", "amd64", "i386", "i686")
 _DOUBLE, _INT = ir.DoubleType(), ir.IntType(64)

@@ -21,7 +21,7 @@ from beardyn_core.model.layout import SUM_FIELDS
 from beardyn_core.model.parameters import DampingParams
 
 Float = NDArray[np.float64]
-REACH, TIME, FOUNDATION = 0.024, 3e-6, 4e10
+REACH, TIME, FOUNDATION = 0.024, 3e-6, 1.3e11
 
 
 @entry
@@ -42,18 +42,18 @@ def tilt_wrench(lanes, sums, rollers, direction, motion, damping, reach, wrench)
 
 
 def naive_moment(load: float, tilt: float) -> float:
-    """Moment of a row of linear springs between rings that tilt by half of it against the roller each."""
-    place = np.linspace(-REACH, REACH, 200_001)
+    """Moment of a row of springs of a 10/9 law whose rings tilt by half of it against the roller each."""
+    place = np.linspace(-REACH, REACH, 20_001)
     width = place[1] - place[0]
 
     def pressure(depth: float) -> Float:
-        return FOUNDATION * np.maximum(depth + 0.5 * tilt * place, 0.0)
+        return FOUNDATION * np.maximum(depth + 0.5 * tilt * place, 0.0) ** (10.0 / 9.0)
 
     depth = brentq(lambda depth: pressure(depth).sum() * width - load, -abs(tilt) * REACH, 1e-3, xtol=1e-18)
     return float((pressure(depth) * place).sum() * width)
 
 
-@pytest.mark.parametrize("size", [1e-4, 3e-3], ids=["along the whole length", "ends lifted off"])
+@pytest.mark.parametrize("size", [2e-5, 3e-3], ids=["along the whole length", "ends lifted off"])
 @pytest.mark.parametrize("damped", [False, True])
 def test_each_roller_turns_the_cup_after_the_cone(lanes: Lanes, damped: bool, size: float) -> None:
     """In the meridian plane at its azimuth, by the moment of its row of springs."""
@@ -62,7 +62,7 @@ def test_each_roller_turns_the_cup_after_the_cone(lanes: Lanes, damped: bool, si
     random = np.random.default_rng(3)
     load, pocket = random.uniform(1e3, 1e4, (3, lanes.width)), random.uniform(0.0, 7.0, (3, lanes.width))
     turn, tilt, rate = 0.7, size * np.array([1.0, -0.6]), np.array([0.4, 0.1])
-    approach = load / (REACH * FOUNDATION)  # of both contacts
+    approach = 2.0 * (load / (2.0 * REACH * FOUNDATION)) ** 0.9  # of both contacts
     sums, wrench = np.zeros((1, 1, SUM_FIELDS, lanes.width)), np.zeros(6)
     rollers = np.ascontiguousarray(np.stack([load, approach, np.cos(pocket), np.sin(pocket)], axis=1))
     motion = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (tilt[0], rate[0]), (tilt[1], rate[1]))
@@ -71,6 +71,6 @@ def test_each_roller_turns_the_cup_after_the_cone(lanes: Lanes, damped: bool, si
     moment = np.zeros(2)
     for force, azimuth in zip(load.ravel(), (pocket + turn).ravel(), strict=True):
         plane = np.array([np.cos(azimuth), -np.sin(azimuth)])  # how far tilts about x and z tilt it
-        secant = 10.0 / 9.0 * naive_moment(force, plane @ tilt) / (plane @ tilt)
+        secant = naive_moment(force, plane @ tilt) / (plane @ tilt)
         moment += secant * plane * (plane @ (tilt + (TIME * rate if damped else 0.0)))
-    np.testing.assert_allclose(wrench - [1, 2, 3, 4, 5, 6], [0, 0, 0, moment[0], 0, moment[1]], rtol=1e-4)
+    np.testing.assert_allclose(wrench - [1, 2, 3, 4, 5, 6], [0, 0, 0, moment[0], 0, moment[1]], rtol=0.02)

@@ -331,7 +331,7 @@ def _springs(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
     spring = np.where(depth > 0.0, np.interp(depth, approach[order], slope), 0.0)
     # both contacts of a roller are lines of springs, which hold a tilt in its meridian plane
     plane = np.stack([along, -across], axis=2).reshape(-1, 2)
-    square = bearing.effective_length**2 / 12.0 * (1.0 - 1.0 / scene.numerics.laminae**2)
+    square = bearing.effective_length**2 / 12.0
     stiffness = (normal.T * spring) @ normal
     stiffness[3:5, 3:5] += square * (plane.T * spring) @ plane
     return np.asarray(stiffness)
