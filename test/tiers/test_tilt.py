@@ -12,7 +12,7 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.roller_contacts import ConePose, contact_model
 from beardyn_core.integrate.roller_equilibrium import reach, solve_rollers, spring_params
-from beardyn_core.model.layout import CONE_BODY, CUP_BODY, POSITION, TILT
+from beardyn_core.model.layout import CONE_BODY, CUP_BODY, POSITION
 from beardyn_core.model.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from test.tiers.runs import blocks_of
@@ -67,13 +67,14 @@ def test_deflection_and_tilt_in_a_box_that_opens_its_rows_unevenly_are_those_of_
 
 
 def test_a_bent_box_stays_where_it_was_put() -> None:
-    """The start and the step have one law of what the lengths hold."""
-    twin = start(bent_scene("lumped", "modes", "smooth_run"), 0.02).twin
-    before = twin.snapshot().state.bodies[:, POSITION : POSITION + 3].copy()
-    tilted = twin.snapshot().state.bodies[:, TILT].copy()
+    """The start and the step have one law of what lengths hold; rollers as drawn, for waves move the cone."""
+    twin = start(replace(bent_scene("lumped", "modes", "smooth_run"), scatter=None), 0.02).twin
+    before = _apart(twin.snapshot().state.bodies)
     twin.advance()
-    after = twin.snapshot().state.bodies
-    size = np.abs(before[CONE_BODY] - before[CUP_BODY]).max()
-    moved = after[:, POSITION : POSITION + 3] - before
-    print(size, moved, after[:, TILT] - tilted)
-    assert np.abs(moved[CONE_BODY] - moved[CUP_BODY]).max() < 0.02 * size
+    moved = _apart(twin.snapshot().state.bodies) - before
+    assert np.abs(moved).max() < 0.02 * np.abs(before).max()
+
+
+def _apart(bodies: Float) -> Float:
+    """Displacement of the cone against the cup."""
+    return np.array(bodies[CONE_BODY, POSITION : POSITION + 3] - bodies[CUP_BODY, POSITION : POSITION + 3])
