@@ -35,23 +35,25 @@ def test_crowned_rollers_hold_less_whatever_the_laminae(laminae: int, drop_um: f
     assert 0.0 < spring_params(bearing, laminae).reach < reach(straight)
 
 
-def test_it_is_what_a_tilt_takes_beside_the_arms_of_the_normals() -> None:
-    """A tilt of a pressed row about x, of all rollers in equilibrium, beside that of rollers of no length."""
-    bearing, tilt, depth = load_bearing("HS130x230"), 2e-5, 2e-5
-    cosine, sine = np.cos(tilt), np.sin(tilt)
-    rotation = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
-    push = np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0])
-
-    def moment(laminae: int) -> float:
-        model = contact_model(bearing, 0.0, laminae, 0.0, 0.0)
-        there = [solve_rollers(model, ConePose(push, turn), None) for turn in (rotation, rotation.T)]
-        return float(there[0].cone_force[3] - there[1].cone_force[3]) / (2.0 * tilt)
-
+def test_it_is_what_a_tilt_takes_about_the_point_where_it_pushes_nothing_across() -> None:
+    """Forces of a pressed row, all rollers in equilibrium, after small tilts about x and motions along z."""
+    bearing, tilt, shift, depth = load_bearing("HS130x230"), 2e-5, 1e-7, 2e-5
     model = contact_model(bearing, 0.0, 20, 0.0, 0.0)
-    load = solve_rollers(model, ConePose(push, np.eye(3)), None).cup.force[1].sum(axis=-1)
-    tangent = 10.0 / 9.0 * load / depth
+
+    def force(about_x: float, along_z: float) -> Float:
+        cosine, sine = np.cos(about_x), np.sin(about_x)
+        rotation = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+        place = np.array([0.0, -depth / np.sin(bearing.cup_angle), along_z])
+        found: Float = solve_rollers(model, ConePose(place, rotation), None).cone_force
+        return found
+
+    by_tilt = (force(-tilt, 0.0) - force(tilt, 0.0)) / (2.0 * tilt)
+    by_shift = (force(0.0, -shift) - force(0.0, shift)) / (2.0 * shift)
+    pushed = np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0])
+    load = solve_rollers(model, ConePose(pushed, np.eye(3)), None)
+    tangent = 10.0 / 9.0 * load.cup.force[1].sum(axis=-1) / depth
     held = 0.5 * float(tangent.sum()) * reach(bearing) ** 2 / 3.0
-    assert moment(1) - moment(20) == pytest.approx(held, rel=0.15)
+    assert by_tilt[3] - by_tilt[2] * by_shift[3] / by_shift[2] == pytest.approx(held, rel=0.02)
 
 
 def test_deflection_and_tilt_in_a_box_that_opens_its_rows_unevenly_are_those_of_quasistatic() -> None:
