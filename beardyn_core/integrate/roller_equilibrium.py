@@ -113,6 +113,8 @@ _ITERATIONS = 80
 _RELATIVE_TOLERANCE = 3.0e-12
 _ABSOLUTE_TOLERANCE = 5.0e-9
 _STALL_LIMIT = 2
+# [m]; a longer one jumps over the rib, beyond which centrifugal force drives a roller out of the bearing
+_LONGEST_STEP = 1.0e-4
 # A roller counts as free when its cone gap, with cup and rib just touching, is above this.
 _ROUNDING_GAP = 1.0e-15
 
@@ -248,11 +250,11 @@ def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
         )
         if done.all():
             break
-        step = (
-            np.linalg.solve(_regular(best.stiffness, damping), best.force[..., None])[..., 0] / solver.scale
-        )
+        step = np.linalg.solve(_regular(best.stiffness, damping), best.force[..., None])[..., 0]
+        length = np.linalg.norm(step, axis=-1, keepdims=True)
+        step *= np.minimum(1.0, _LONGEST_STEP / np.maximum(length, _LONGEST_STEP))
         step[done] = 0.0
-        trial = solver.at(best.position + step)
+        trial = solver.at(best.position + step / solver.scale)
         smaller = np.abs(trial.force).max(axis=-1) < size
         lower = trial.energy < best.energy - 1.0e-12 * np.abs(best.energy)
         accepted = (lower | smaller) & ~done

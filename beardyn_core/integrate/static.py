@@ -34,6 +34,12 @@ _ACCEPTABLE_FORCE = 1.0e-3
 # Longest step of the cone; it also carries a cone that touches nothing through its play.
 _LONGEST_STEP = 1.0e-4
 _REFERENCE_STIFFNESS = 1.0e9
+# Along the axle, of the length of a roller: a prop that yields more lets a row slide off its raceways.
+_MOST_YIELD = 0.5
+# A pose in which a roller is out of balance by this share of the largest load is one that rollers have no
+# place in; a search that meets so many of them one after the other finds none.
+_OUT_OF_BALANCE = 1.0e-3
+_MOST_OUT_OF_BALANCE = 10
 # Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
 # one that is farther off drives away, into poses that no contact law is for and that cost the most.
 _FARTHEST = 0.03
@@ -189,6 +195,7 @@ def solve(
         bearing, end_play, laminae, speed, roller_phase, coupling, oversize, body, rows, missing,
         crown,
     )  # fmt: skip
+    _require_held(model, load, axial_stiffness)
     load = np.concatenate([load, np.asarray(modal_load, dtype=np.float64)])
     cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
     farthest = np.full(5, _FARTHEST * bearing.pitch_diameter + abs(end_play))
@@ -267,7 +274,7 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
     state = cone.at(unknowns, None)
     energy = cone.energy(unknowns, state)
     damping = 10.0
-    stalled = 0
+    stalled = lost = 0
     for iteration in range(_ITERATIONS):
         size = float(np.abs(cone.residual(unknowns, state)).max())
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
@@ -275,16 +282,18 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
             (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale + _ACCEPTABLE_FORCE
         ):
             return state, unknowns, iteration
-        if np.any(cone.off(unknowns) > farthest):
+        if np.any(cone.off(unknowns) > farthest) or lost > _MOST_OUT_OF_BALANCE:
             break
         step = cone.step(unknowns, state, damping)
         moved = unknowns + step
         guess = state.position + state.follow @ step
         trial = cone.at(moved, guess)
+        lost = lost + 1 if trial.residual > _OUT_OF_BALANCE * trial.cup.force.sum(axis=-1).max() else 0
         trial_energy = cone.energy(moved, trial)
         smaller = float(np.abs(cone.residual(moved, trial)).max()) < size
-        lower = trial_energy < energy - 1.0e-12 * abs(energy)
-        if lower or smaller:
+        rounding = 1.0e-12 * abs(energy)
+        # a smaller residual counts where energies are told apart no longer: elsewhere it leads in circles
+        if trial_energy < energy - rounding or (smaller and trial_energy <= energy + rounding):
             unknowns, state, energy = moved, trial, trial_energy
             damping = max(0.1 * damping, 1.0e-12)
             stalled = 0
@@ -299,6 +308,28 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
         "rows in contact; a single row needs an axial load or a prop against its own thrust "
         "(mounting.axial_prop_stiffness_MN_per_m)."
     )
+
+
+def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> None:
+    """Refuse a single row that its radial load drives off its raceways along the axle.
+
+    Every cup load has the angle of the cup, so their sum along the axle is at least its tangent times the
+    radial one, less what rollers that are missing leave of centrifugal force; no pose changes that.
+    """
+    if len(model.centre) > 1:
+        return
+    radial = math.hypot(load[0], load[2])
+    uneven = float(model.inertia_load[0]) * np.count_nonzero(model.missing)
+    thrust = math.tan(model.bearing.cup_angle) * max(radial - uneven, 0.0)
+    lacking = thrust - float(load[1])
+    softest = max(lacking, 0.0) / (_MOST_YIELD * model.bearing.effective_length)
+    if lacking > _ACCEPTABLE * radial and axial_stiffness <= softest:
+        raise ValidityError(
+            f"static equilibrium of {model.bearing.name}, one row, does not exist: under {radial:.4g} N across "
+            f"the axle the row drives itself apart with at least {thrust:.4g} N along it, and is pressed "
+            f"together with {load[1]:.4g} N. Give an axial load of that size, or a prop of at least "
+            f"{1e-6 * softest:.2g} MN/m (mounting.axial_prop_stiffness_MN_per_m)."
+        )
 
 
 def _rotation(about_x: float, about_z: float) -> Float:

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pickle
+import re
 import time
 
 import numpy as np
@@ -362,12 +363,61 @@ def test_a_choice_solves_each_equilibrium_once(monkeypatch):
     assert len(solved) == len(set(solved)) > 5
 
 
-def test_a_cone_that_nothing_holds_is_told_soon_with_how_far_it_is_off() -> None:
-    """A single row without a prop drives away by 0.1 mm a step: 300 of them took half a minute."""
+@pytest.mark.parametrize(
+    ("load", "prop"), [((0.0, 0.0, 5e3), 0.0), ((3e3, 1e3, -5e3), 0.0), ((0.0, 0.0, 1e5), 5e5)]
+)
+def test_a_row_that_its_own_thrust_drives_off_its_raceways_is_refused(load: tuple, prop: float) -> None:
+    """A cone pressed across rises on the cup: tan(cup angle) of the load, and the sentence's prop is enough."""
+    with pytest.raises(ValidityError, match=r"at least ([\d.e+]+) N along it") as told:
+        solve(HS, load, end_play=0.0, rows=1, laminae=6, axial_stiffness=prop)
+    thrust, stiffness = re.search(r"at least ([\d.e+]+) N along it.*at least ([\d.]+) MN", str(told.value)).groups()
+    across = math.hypot(load[0], load[2])
+    assert float(thrust) == pytest.approx(across * math.tan(HS.cup_angle), rel=1e-3)
+    pressed = (load[0], 4.0 * float(thrust), load[2])
+    assert solve(HS, pressed, end_play=0.0, rows=1, laminae=6).residual < 1e-8 * across
+    held = solve(HS, load, end_play=0.0, rows=1, laminae=6, axial_stiffness=4e6 * float(stiffness))
+    assert held.residual < 1e-3 * across
+
+
+def test_a_row_of_one_that_is_pressed_as_much_as_it_must_is_not_refused() -> None:
+    """The thrust of the bound is that of a load on one roller: with a full zone it takes more."""
+    load, across = (0.0, 5e3, 8e3), 8e3
+    found = solve(HS, load, end_play=0.0, rows=1, laminae=6)
+    needed = math.tan(HS.cup_angle) * across
+    assert found.cup_load.sum() * math.sin(HS.cup_angle) == pytest.approx(load[1], rel=1e-6)
+    assert load[1] > needed
+
+
+def test_a_cone_that_drives_away_is_told_soon_with_how_far_it_is_off() -> None:
+    """Rollers that turn press their cone away along the axle, and nothing holds a single row there."""
     with pytest.raises(ValidityError, match=r"after (\d+) steps the cone is [\d.]+ mm off its place") as told:
-        solve(HS, (0.0, 0.0, 5e3), end_play=0.0, rows=1, laminae=6)
+        solve(HS, (0.0, 0.0, 0.0), end_play=0.0, rows=1, laminae=6, speed=200.0)
     steps = int(str(told.value).split("after ")[1].split()[0])
     assert steps < 100
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rollers_that_only_centrifugal_force_presses_stay_in_the_bearing(seed: int) -> None:
+    """A crown error of a micrometre holds little moment: a long step took rollers over the rib, 10 cm off."""
+    bearing = load_bearing("FR130x230x150")
+    crown = np.random.default_rng(seed).uniform(-4e-3, 4.5e-3, (2, bearing.roller_count))
+    found = solve(
+        bearing, (138e3, 110e3, -183e3), (-885.0, 0.0, -739.0), end_play=2e-4, laminae=3, tilt="free",
+        tilt_stiffness=(1e5, 1e5), crown=crown, speed=212.0,
+    )  # fmt: skip
+    assert np.abs(found.roller_radial).max() < 1e-3
+    assert (found.cup_load > 0.0).all()
+    assert (found.rib_load > 0.0).all()
+
+
+def test_a_row_that_only_its_prop_holds_is_found_though_its_residual_leads_in_circles() -> None:
+    """Next to no load at 4000 rpm: steps of a smaller residual and of a lower energy went to and fro."""
+    metro = load_bearing("METRO120x220")
+    found = solve(
+        metro, (0.0, 0.0, 1.5), end_play=1.7e-3, laminae=7, rows=1, tilt="free", tilt_stiffness=(1e5, 1e5),
+        axial_stiffness=2.5e7, speed=424.5,
+    )  # fmt: skip
+    assert found.residual < 1e-3
 
 
 @pytest.mark.parametrize(
