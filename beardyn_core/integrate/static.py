@@ -275,8 +275,10 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
     energy = cone.energy(unknowns, state)
     damping = 10.0
     stalled = lost = 0
+    smallest = math.inf
     for iteration in range(_ITERATIONS):
         size = float(np.abs(cone.residual(unknowns, state)).max())
+        smallest = min(smallest, size)
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
         if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
             (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale + _ACCEPTABLE_FORCE
@@ -290,10 +292,10 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
         trial = cone.at(moved, guess)
         lost = lost + 1 if trial.residual > _OUT_OF_BALANCE * trial.cup.force.sum(axis=-1).max() else 0
         trial_energy = cone.energy(moved, trial)
-        smaller = float(np.abs(cone.residual(moved, trial)).max()) < size
-        rounding = 1.0e-12 * abs(energy)
-        # a smaller residual counts where energies are told apart no longer: elsewhere it leads in circles
-        if trial_energy < energy - rounding or (smaller and trial_energy <= energy + rounding):
+        # one that is only smaller than the last leads in circles, with steps that lower the energy in between
+        smaller = float(np.abs(cone.residual(moved, trial)).max()) < smallest
+        lower = trial_energy < energy - 1.0e-12 * abs(energy)
+        if lower or smaller:
             unknowns, state, energy = moved, trial, trial_energy
             damping = max(0.1 * damping, 1.0e-12)
             stalled = 0
@@ -325,9 +327,9 @@ def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> N
     softest = max(lacking, 0.0) / (_MOST_YIELD * model.bearing.effective_length)
     if lacking > _ACCEPTABLE * radial and axial_stiffness <= softest:
         raise ValidityError(
-            f"static equilibrium of {model.bearing.name}, one row, does not exist: under {radial:.4g} N across "
-            f"the axle the row drives itself apart with at least {thrust:.4g} N along it, and is pressed "
-            f"together with {load[1]:.4g} N. Give an axial load of that size, or a prop of at least "
+            f"static equilibrium of {model.bearing.name}, one row, does not exist: under {radial:.4g} N "
+            f"across the axle the row drives itself apart with at least {thrust:.4g} N along it, and is "
+            f"pressed together with {load[1]:.4g} N. Give an axial load of that size, or a prop of at least "
             f"{1e-6 * softest:.2g} MN/m (mounting.axial_prop_stiffness_MN_per_m)."
         )
 
