@@ -329,8 +329,9 @@ def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> N
         raise ValidityError(
             f"static equilibrium of {model.bearing.name}, one row, does not exist: under {radial:.4g} N "
             f"across the axle the row drives itself apart with at least {thrust:.4g} N along it, and is "
-            f"pressed together with {load[1]:.4g} N. Give an axial load of that size, or a prop of at least "
-            f"{1e-6 * softest:.2g} MN/m (mounting.axial_prop_stiffness_MN_per_m)."
+            f"pressed together with {load[1]:.4g} N. Give an axial load of more than that, or a prop that "
+            f"does not yield by half a roller as one of {1e-6 * softest:.2g} MN/m would "
+            "(mounting.axial_prop_stiffness_MN_per_m)."
         )
 
 

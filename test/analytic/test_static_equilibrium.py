@@ -370,7 +370,7 @@ def test_a_row_that_its_own_thrust_drives_off_its_raceways_is_refused(load: tupl
     """A cone pressed across rises on the cup: tan(cup angle) of the load; four times the prop holds."""
     with pytest.raises(ValidityError, match=r"at least ([\d.e+]+) N along it") as told:
         solve(HS, load, end_play=0.0, rows=1, laminae=6, axial_stiffness=prop)
-    found = re.search(r"at least ([\d.e+]+) N along it.*at least ([\d.]+) MN", str(told.value))
+    found = re.search(r"at least ([\d.e+]+) N along it.*one of ([\d.]+) MN", str(told.value))
     assert found
     thrust, stiffness = found.groups()
     across = math.hypot(load[0], load[2])
