@@ -1,8 +1,9 @@
 """Equilibrium of every roller between cup, cone and rib for a given pose of the cone.
 
-The contact energy of a roller is convex in its position, so a damped Newton step that only accepts a
-lower energy (or a smaller residual force) finds the one equilibrium. A roller that the rings leave free is
-put where a turning bearing would carry it: against cup and rib, just touching.
+The contact energy of a roller is convex in its position as long as it stays before its rib, so damped Newton
+steps that are short and only accept a lower energy (or a smaller residual force) find the one equilibrium. A
+roller that the rings leave free is put where a turning bearing would carry it: against cup and rib, just
+touching.
 """
 
 from __future__ import annotations
@@ -113,7 +114,8 @@ _ITERATIONS = 80
 _RELATIVE_TOLERANCE = 3.0e-12
 _ABSOLUTE_TOLERANCE = 5.0e-9
 _STALL_LIMIT = 2
-# [m]; a longer one jumps over the rib, beyond which centrifugal force drives a roller out of the bearing
+# Of a roller, tilt as lever times angle, [m]; a longer one jumps over the rib, beyond which centrifugal force
+# drives a roller out of the bearing.
 _LONGEST_STEP = 1.0e-4
 # A roller counts as free when its cone gap, with cup and rib just touching, is above this.
 _ROUNDING_GAP = 1.0e-15
@@ -252,7 +254,7 @@ def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
             break
         step = np.linalg.solve(_regular(best.stiffness, damping), best.force[..., None])[..., 0]
         length = np.linalg.norm(step, axis=-1, keepdims=True)
-        step *= np.minimum(1.0, _LONGEST_STEP / np.maximum(length, _LONGEST_STEP))
+        step *= _LONGEST_STEP / np.maximum(length, _LONGEST_STEP)
         step[done] = 0.0
         trial = solver.at(best.position + step / solver.scale)
         smaller = np.abs(trial.force).max(axis=-1) < size

@@ -2,7 +2,7 @@
 
 Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z,
 and the amplitudes of the modes of the box when it is not rigid. The rollers follow (`roller_equilibrium`);
-what is left is a convex problem in three or five unknowns and one for each mode.
+what is left is a nearly convex problem in three or five unknowns and one for each mode.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _REFERENCE_STIFFNESS = 1.0e9
 # Along the axle, of the length of a roller: a prop that yields more lets a row slide off its raceways.
 _MOST_YIELD = 0.5
 # A pose in which a roller is out of balance by this share of the largest load is one that rollers have no
-# place in; a search that meets so many of them one after the other finds none.
+# place in; a search that meets more of them than this, one after the other, finds none.
 _OUT_OF_BALANCE = 1.0e-3
 _MOST_OUT_OF_BALANCE = 10
 # Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
@@ -303,36 +303,44 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
             damping = min(20.0 * damping, 1.0e6)
             stalled += 1
     force = np.array2string(cone.load[:3], precision=1)
+    placeless = ", where rollers have no place," if lost > _MOST_OUT_OF_BALANCE else ""
     raise ValidityError(
         f"static equilibrium of {cone.model.bearing.name} under {force} N was not found: after "
-        f"{iteration + 1} steps the cone is {1e3 * cone.off(unknowns).max():.2g} mm off its place and "
-        f"{size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
+        f"{iteration + 1} steps the cone is {1e3 * cone.off(unknowns).max():.2g} mm off its place{placeless} "
+        f"and {size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
         "rows in contact; a single row needs an axial load or a prop against its own thrust "
         "(mounting.axial_prop_stiffness_MN_per_m)."
     )
 
 
 def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> None:
-    """Refuse a single row that its radial load drives off its raceways along the axle.
+    """Refuse a single row that its own thrust drives off its raceways.
 
-    Every cup load has the angle of the cup, so their sum along the axle is at least its tangent times the
-    radial one, less what rollers that are missing leave of centrifugal force; no pose changes that.
+    Every cup load has the angle of the cup, so their sum along the axle is at least its tangent times their
+    sum across, in any pose. Across they carry the load, and centrifugal forces where rollers are missing:
+    those of the others add up to no more than the missing ones would have.
     """
     if len(model.centre) > 1:
         return
-    radial = math.hypot(load[0], load[2])
+    across, pressed = math.hypot(load[0], load[2]), float(load[1])
     uneven = float(model.inertia_load[0]) * np.count_nonzero(model.missing)
-    thrust = math.tan(model.bearing.cup_angle) * max(radial - uneven, 0.0)
-    lacking = thrust - float(load[1])
-    softest = max(lacking, 0.0) / (_MOST_YIELD * model.bearing.effective_length)
-    if lacking > _ACCEPTABLE * radial and axial_stiffness <= softest:
-        raise ValidityError(
-            f"static equilibrium of {model.bearing.name}, one row, does not exist: under {radial:.4g} N "
-            f"across the axle the row drives itself apart with at least {thrust:.4g} N along it, and is "
-            f"pressed together with {load[1]:.4g} N. Give an axial load of more than that, or a prop that "
-            f"does not yield by half a roller as one of {1e-6 * softest:.2g} MN/m would "
-            "(mounting.axial_prop_stiffness_MN_per_m)."
-        )
+    thrust = math.tan(model.bearing.cup_angle) * max(across - uneven, 0.0)
+    lacking = thrust - pressed
+    if lacking <= _ACCEPTABLE * across + _ACCEPTABLE_FORCE:
+        return
+    word, yields = "a prop", ""
+    if axial_stiffness > 0.0:
+        gives_way = lacking / axial_stiffness
+        if gives_way <= _MOST_YIELD * model.bearing.effective_length:
+            return
+        word = "a stiffer prop"
+        yields = f"; its prop would yield by {1e3 * gives_way:.3g} mm, more than half a roller"
+    raise ValidityError(
+        f"static equilibrium of {model.bearing.name} does not exist: a single row under {across:.4g} N "
+        f"across the axle drives its rings apart unless more than {thrust:.4g} N press them together along "
+        f"it, and {pressed:.4g} N do{yields}. Give more axial load, or {word} "
+        "(mounting.axial_prop_stiffness_MN_per_m)."
+    )
 
 
 def _rotation(about_x: float, about_z: float) -> Float:
