@@ -183,9 +183,9 @@ def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _n
             ready.add(kernels)
 
 
-def repeats_of(level: Level) -> int:
+def repeats_of(level: Level, least: int = 1) -> int:
     """Say how often a level is run."""
-    return CHEAP_RUNS if expected_cost(level) <= CHEAP else 1
+    return max(CHEAP_RUNS if expected_cost(level) <= CHEAP else 1, least)
 
 
 def expected_wall(levels: LevelList, plan: Plan) -> float:
@@ -193,9 +193,12 @@ def expected_wall(levels: LevelList, plan: Plan) -> float:
     return sum(_expected(attempt, plan) for attempt in attempts(levels))
 
 
-def attempts(levels: LevelList) -> list[Attempt]:
+def attempts(levels: LevelList, least: int = 1) -> list[Attempt]:
     """List all runs of a ladder, the reference first, then the cheapest level first."""
-    repeats = [(levels.reference, REFERENCE_RUNS), *((level, repeats_of(level)) for level in levels.levels)]
+    repeats = [
+        (levels.reference, max(REFERENCE_RUNS, least)),
+        *((level, repeats_of(level, least)) for level in levels.levels),
+    ]
     return [
         Attempt(place, level, number)
         for place, (level, count) in enumerate(repeats)
@@ -214,6 +217,7 @@ def climb(
     asked: tuple[str, ...] = USUAL_QUANTITIES,
     progress: Progress = lambda _name, _wall: None,
     runner: Runner | None = None,
+    least_runs: int = 1,
 ) -> Ladder:
     """Run all levels, the reference first, then the cheapest first.
 
@@ -229,6 +233,8 @@ def climb(
         Told which level is next, and the wall time that was expected of the run before, 0 at first, [s].
     runner : callable, optional
         Runs one scene in this process; when left out, `simulate` does in a process of the engine.
+    least_runs : int
+        Runs of every level at least; usual are three of the reference, and two or one of the others.
 
     Returns
     -------
@@ -242,7 +248,7 @@ def climb(
     ValidityError
         When the reference leaves the model's validity.
     """
-    todo = attempts(levels)
+    todo = attempts(levels, least_runs)
     done: list[list[Run]] = [[] for _ in (levels.reference, *levels.levels)]
     interrupted = False
     try:
@@ -261,7 +267,7 @@ def climb(
     rows = [
         _result(level, runs, truth)
         for level, runs in zip(levels.levels, done[1:], strict=True)
-        if len(runs) == repeats_of(level)
+        if len(runs) == repeats_of(level, least_runs)
     ]
     reference = _result(levels.reference, truth, truth)
     return Ladder(

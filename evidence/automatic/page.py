@@ -1,9 +1,9 @@
 """Put what `effects: auto` chooses on trial and write docs/automatic.md: ``make automatic``.
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
-converged reference of the ladder; what a band leaves open runs once more, six times as long. Finished
-scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the package begins anew, one
-of the rules only where they choose otherwise. Two hours or three:
+converged reference of the ladder; what a band leaves open runs once more, six times as long and
+eight times. Finished scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the
+package begins anew, one of the rules only where they choose otherwise. Two hours or three:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
@@ -64,7 +64,8 @@ CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
     "service_metro_roller": ((USUAL, 0.05),),
 }
 PAGE = DOCS / "automatic.md"
-LONGER = 6  # times, of what is compared where a band crosses the limit
+# where a band crosses the limit: times, of what is compared, and runs of the chosen and of the reference
+LONGER, MORE_RUNS = 6, 8
 
 HEAD = """# The automatic choice on trial
 
@@ -74,8 +75,9 @@ of 25.6 kHz, {runs} runs. Errors are those of the ladder, the worst component of
 they are inside the run-to-run band; behind them what the rules had *expected*. *yes*: every component of what
 is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes one look
 with 5 % at most, two with 10); *no*: one is beyond it with its whole band; *open*: the runs are too short to
-tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long; its row
-is of that run. *Simpler*: effects that are chosen with other options than `full` has.
+tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long and
+{more} times, as is the reference beside it; its row is of those runs. *Simpler*: effects that are chosen with
+other options than `full` has.
 
 | scene | asked | chosen | found (*expected*) | verdict |
 |---|---|---|---|---|
@@ -85,14 +87,17 @@ is of that run. *Simpler*: effects that are chosen with other options than `full
 def tried(
     scene: Scene, choices: Sequence[Choice], chosen: Sequence[int], longer: int
 ) -> list[dict[str, Any]]:
-    """Run the chosen of a scene's cases, one reference for all of them, so many times as long as usual."""
+    """Run the chosen of a scene's cases, one reference for all of them, so many times as long as usual.
+
+    What is run longer is also run more often: two runs may stay as far apart as they began to be.
+    """
     plan = plan_of(scene)
     if longer > 1:
         plan = plan_of(scene, duration=longer * (plan.edges[-1] - plan.settling), settling=plan.settling)
     levels = tuple(level_of(choices[k].applied(scene), AUTO, name=f"case {k}") for k in chosen)
     few = replace(levels_of(scene, quick=True), levels=levels)
     compile_levels(plan, few)
-    ladder = climb(plan, few, 0.05)
+    ladder = climb(plan, few, 0.05, least_runs=MORE_RUNS if longer > 1 else 1)
     if ladder.interrupted:
         raise KeyboardInterrupt
     rows = [next(row for row in ladder.rows if row.level == level) for level in levels]
@@ -174,7 +179,7 @@ class Kept:
         found = self._read(path, scene, choices, range(len(choices)), 1)
         undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
         if longer > 1 and undecided:
-            path = path.with_stem(f"{path.stem}-{longer}-{'_'.join(map(str, undecided))}")
+            path = path.with_stem(f"{path.stem}-{longer}x{MORE_RUNS}-{'_'.join(map(str, undecided))}")
             for k, case in zip(undecided, self._read(path, scene, choices, undecided, longer), strict=True):
                 found[k] = case
         return [case | {"expected": _expected_of(each)} for case, each in zip(found, choices, strict=True)]
@@ -225,7 +230,8 @@ def main() -> None:
         for case in kept.cases(name):
             print(row(case), flush=True)
     rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
-    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, runs=REFERENCE_RUNS, longer=LONGER)
+    runs = {"runs": REFERENCE_RUNS, "longer": LONGER, "more": MORE_RUNS}
+    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, **runs)
     arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
 
 
