@@ -18,6 +18,8 @@ from beardyn_core.edge import INTERNAL, At, Vector
 if TYPE_CHECKING:
     from beardyn_core.bearing.kinematics import FaultFrequencies
 
+MOST_END_PLAY = 5.0e-3  # either way, [m]; rollers keep their raceways and ribs within it
+
 
 @dataclass(frozen=True)
 class Material:

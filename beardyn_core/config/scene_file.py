@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, Tag, WithJsonSchema, field_validator
 from pydantic_core import PydanticKnownError
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import tagged
@@ -171,10 +171,9 @@ class SceneFile(FileModel):
             bearing = replace(bearing, raceway_roughness=um.to_si(self.roughness.raceway_um))
         if self.roughness.rib_um is not None:
             bearing = replace(bearing, rib_roughness=um.to_si(self.roughness.rib_um))
-        closure = given["temperatures"].closure(bearing) if given["temperatures"] else 0.0
-        mounted = bearing.end_play if given["end_play"] is None else given["end_play"]
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
-        given |= {"bearing": bearing, "end_play": mounted + closure, "defects": defects}
+        end_play = _mounted(given, bearing) + _closure(given, bearing)
+        given |= {"bearing": bearing, "end_play": end_play, "defects": defects}
         return Scene(**{**given, "mounting": self._with_box_of_table(given, bearing)})
 
     def _with_box_of_table(self, given: dict[str, Any], bearing: Bearing) -> Mounting:
@@ -233,6 +232,8 @@ class SceneFile(FileModel):
                     "box rings on its end at 2.7 kHz"
                 )
         yield from _axle_held_twice(given["operation"], given["mounting"])
+        if isinstance(given["bearing"], Bearing):
+            yield from _play_out_of_range(given, given["bearing"])
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (
@@ -240,6 +241,28 @@ class SceneFile(FileModel):
                 f"less, or give one rate_kHz {RATES[-1] / 1e3:g}, which hears to {PASSBAND * RATES[-1]:g} Hz"
             )
         yield from _rough_twice(given["background"], given["operation"])
+
+
+def _mounted(given: dict[str, Any], bearing: Bearing) -> float:
+    """Return the end play when mounted, [m]."""
+    return float(bearing.end_play if given["end_play"] is None else given["end_play"])
+
+
+def _closure(given: dict[str, Any], bearing: Bearing) -> float:
+    """Return what the temperatures of the parts add to it, [m]."""
+    return float(given["temperatures"].closure(bearing)) if given["temperatures"] else 0.0
+
+
+def _play_out_of_range(given: dict[str, Any], bearing: Bearing) -> Iterator[Problem]:
+    """Find temperatures that open or close the bearing beyond what its contacts are for."""
+    mm, mounted, closure = UNITS["mm"], _mounted(given, bearing), _closure(given, bearing)
+    if abs(mounted + closure) > MOST_END_PLAY:
+        yield Problem(
+            f"temperatures make the end play of {mm.to_edge(mounted):.3g} mm when mounted one of "
+            f"{mm.to_edge(mounted + closure):.3g} mm; it must lie between {-mm.to_edge(MOST_END_PLAY):g} and "
+            f"{mm.to_edge(MOST_END_PLAY):g} mm",
+            ("temperatures",),
+        )
 
 
 def _axle_held_twice(operation: Any, mounting: Any) -> Iterator[str]:

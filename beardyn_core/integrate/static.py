@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.consistency import require_sound
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
@@ -385,8 +385,8 @@ def _checked_load(
             problems.append(f"{name} is {vector.tolist()}; three finite numbers are needed.")
     if not problems and moment[1] != 0.0:
         problems.append(f"moment about the axle is {moment[1]:g} N m; without friction it must be 0.")
-    if not (math.isfinite(end_play) and abs(end_play) <= 5.0e-3):
-        problems.append(f"end_play is {end_play:g} m; it must lie within +-0.005 m.")
+    if not (math.isfinite(end_play) and abs(end_play) <= MOST_END_PLAY):
+        problems.append(f"end_play is {end_play:g} m; it must lie within +-{MOST_END_PLAY:g} m.")
     if tilt not in TILT_MODES:
         problems.append(f"tilt is {tilt!r}; allowed are {', '.join(TILT_MODES)}.")
     if not (isinstance(laminae, int | np.integer) and 1 <= laminae <= 1000):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -19,6 +20,7 @@ from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import SCHEMA_KINDS, json_schema, scene_text, shipped_names
 from beardyn_core.config.folders import find
+from beardyn_core.config.load import read_scene
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.edge import Place, outside, places, rules_of, written
 from beardyn_core.errors import InputError
@@ -48,6 +50,20 @@ def test_an_end_play_changed_beside_temperatures_is_recorded_as_it_is() -> None:
     again = scene_from_text(scene_text(scene))
     assert again.end_play == pytest.approx(1.7e-4, rel=1e-15)  # the sum of two numbers may miss the last bit
     assert replace(again, end_play=1.7e-4) == scene
+
+
+@pytest.mark.parametrize(("cup_C", "others_C", "sign"), [(250.0, -60.0, ""), (-60.0, 250.0, "-")])
+def test_temperatures_that_move_the_rings_too_far_are_refused_with_their_key(
+    cup_C: float, others_C: float, sign: str
+) -> None:
+    parts = {"cup_C": cup_C, "cone_C": others_C, "rollers_C": others_C, "expansion_um_per_m_K": 60.0}
+    with pytest.raises(InputError) as told:
+        read_scene("static_80kN", {("temperatures",): parts})
+    assert len(told.value.problems) == 1
+    sentence = (
+        rf"make the end play of 0 mm when mounted one of {sign}[\d.]+ mm; it must lie between -5 and 5 mm"
+    )
+    assert re.search(f"temperatures {sentence}", str(told.value))
 
 
 @pytest.mark.parametrize("name", shipped_names("scenes"))
