@@ -24,7 +24,7 @@ extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-16s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
 demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
@@ -107,7 +107,8 @@ docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/html
 links: $(VENV)/.ready-docs ## set up, then try the links of the pages to the world outside
 	@$(BIN)/sphinx-build -b linkcheck --quiet -d $(VENV)/doctrees docs docs/site/links $(ARGS)
 
-dist: $(VENV)/.ready-release ## set up, then wheel and sdist in dist/, tried in a new environment
+dist: $(VENV)/.ready-release ## set up, then lint the Dockerfile, and wheel and sdist in dist/, tried in new environments of every Python 3.11 to 3.13 here
+	@$(BIN)/hadolint Dockerfile
 	@$(BIN)/python release/try_release.py $(ARGS)
 
 sbom: $(VENV)/.ready-release ## set up, then what an installation consists of: sbom.json (CycloneDX)

@@ -1,11 +1,13 @@
 """Build wheel and sdist, try both in new environments: ``python release/try_release.py [PYTHON ...]``.
 
-PYTHON are interpreters to try them with, by default this one. Nothing of the working tree is on their paths.
+PYTHON are interpreters to try them with, by default those of `SUPPORTED` that are here. Nothing of the
+working tree is on their paths.
 """
 
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 DIST = ROOT / "dist"
+SUPPORTED = ("python3.11", "python3.12", "python3.13")
 TRIAL = """
 import beardyn_core as bd
 assert "site-packages" in bd.__file__, bd.__file__
@@ -50,11 +53,27 @@ def tried(python: str, package: Path) -> str:
         return f"{call(own / 'python', '--version', folder=folder).strip()}, {version}"
 
 
+def packages() -> list[Path]:
+    """List wheel and sdist."""
+    return [*DIST.glob("*.whl"), *DIST.glob("*.tar.gz")]
+
+
+def is_here(python: str) -> bool:
+    """Tell whether an interpreter runs; the name of one may stand for none."""
+    found = shutil.which(python)
+    return (
+        found is not None
+        and not subprocess.run([found, "--version"], capture_output=True, check=False).returncode
+    )
+
+
 def main(pythons: list[str]) -> None:
     """Build, then try each package with each interpreter."""
+    for old in packages():
+        old.unlink()
     call(sys.executable, "-m", "build", "--outdir", DIST, ROOT, folder=ROOT)
-    for package in (*DIST.glob("*.whl"), *DIST.glob("*.tar.gz")):
-        for python in pythons or [sys.executable]:
+    for package in packages():
+        for python in pythons or [each for each in SUPPORTED if is_here(each)]:
             print(f"{package.name}: installed and tried, {tried(python, package)}", flush=True)
 
 

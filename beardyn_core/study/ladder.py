@@ -193,10 +193,10 @@ def expected_wall(levels: LevelList, plan: Plan) -> float:
     return sum(_expected(attempt, plan) for attempt in attempts(levels))
 
 
-def attempts(levels: LevelList, least: int = 1) -> list[Attempt]:
+def attempts(levels: LevelList, reference_runs: int = REFERENCE_RUNS, least: int = 1) -> list[Attempt]:
     """List all runs of a ladder, the reference first, then the cheapest level first."""
     repeats = [
-        (levels.reference, max(REFERENCE_RUNS, least)),
+        (levels.reference, reference_runs),
         *((level, repeats_of(level, least)) for level in levels.levels),
     ]
     return [
@@ -217,6 +217,7 @@ def climb(
     asked: tuple[str, ...] = USUAL_QUANTITIES,
     progress: Progress = lambda _name, _wall: None,
     runner: Runner | None = None,
+    reference_runs: int = REFERENCE_RUNS,
     least_runs: int = 1,
 ) -> Ladder:
     """Run all levels, the reference first, then the cheapest first.
@@ -233,8 +234,10 @@ def climb(
         Told which level is next, and the wall time that was expected of the run before, 0 at first, [s].
     runner : callable, optional
         Runs one scene in this process; when left out, `simulate` does in a process of the engine.
+    reference_runs : int
+        Two or more.
     least_runs : int
-        Runs of every level at least; usual are three of the reference, and two or one of the others.
+        Of every other level; usual are two of those that are cheap, and one of the others.
 
     Returns
     -------
@@ -248,7 +251,7 @@ def climb(
     ValidityError
         When the reference leaves the model's validity.
     """
-    todo = attempts(levels, least_runs)
+    todo = attempts(levels, reference_runs, least_runs)
     done: list[list[Run]] = [[] for _ in (levels.reference, *levels.levels)]
     interrupted = False
     try:

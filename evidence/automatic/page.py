@@ -2,7 +2,7 @@
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder; what a band leaves open runs once more, six times as long and
-eight times. Finished scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the
+more often. Finished scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the
 package begins anew, one of the rules only where they choose otherwise. Two hours or three:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
@@ -65,7 +65,7 @@ CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
 }
 PAGE = DOCS / "automatic.md"
 # where a band crosses the limit: times, of what is compared, and runs of the chosen and of the reference
-LONGER, MORE_RUNS = 6, 8
+LONGER, MORE_RUNS, MORE_REFERENCE_RUNS = 6, 24, 12
 
 HEAD = """# The automatic choice on trial
 
@@ -76,8 +76,8 @@ they are inside the run-to-run band; behind them what the rules had *expected*. 
 is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes one look
 with 5 % at most, two with 10); *no*: one is beyond it with its whole band; *open*: the runs are too short to
 tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long and
-{more} times, as is the reference beside it; its row is of those runs. *Simpler*: effects that are chosen with
-other options than `full` has.
+{more} times, beside {references} of the reference; its row is of those runs. *Simpler*: effects that are
+chosen with other options than `full` has.
 
 | scene | asked | chosen | found (*expected*) | verdict |
 |---|---|---|---|---|
@@ -97,7 +97,10 @@ def tried(
     levels = tuple(level_of(choices[k].applied(scene), AUTO, name=f"case {k}") for k in chosen)
     few = replace(levels_of(scene, quick=True), levels=levels)
     compile_levels(plan, few)
-    ladder = climb(plan, few, 0.05, least_runs=MORE_RUNS if longer > 1 else 1)
+    if longer > 1:
+        ladder = climb(plan, few, 0.05, reference_runs=MORE_REFERENCE_RUNS, least_runs=MORE_RUNS)
+    else:
+        ladder = climb(plan, few, 0.05)
     if ladder.interrupted:
         raise KeyboardInterrupt
     rows = [next(row for row in ladder.rows if row.level == level) for level in levels]
@@ -179,7 +182,8 @@ class Kept:
         found = self._read(path, scene, choices, range(len(choices)), 1)
         undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
         if longer > 1 and undecided:
-            path = path.with_stem(f"{path.stem}-{longer}x{MORE_RUNS}-{'_'.join(map(str, undecided))}")
+            which = f"{longer}x{MORE_RUNS}x{MORE_REFERENCE_RUNS}-{'_'.join(map(str, undecided))}"
+            path = path.with_stem(f"{path.stem}-{which}")
             for k, case in zip(undecided, self._read(path, scene, choices, undecided, longer), strict=True):
                 found[k] = case
         return [case | {"expected": _expected_of(each)} for case, each in zip(found, choices, strict=True)]
@@ -230,8 +234,8 @@ def main() -> None:
         for case in kept.cases(name):
             print(row(case), flush=True)
     rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
-    runs = {"runs": REFERENCE_RUNS, "longer": LONGER, "more": MORE_RUNS}
-    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, **runs)
+    runs = {"runs": REFERENCE_RUNS, "more": MORE_RUNS, "references": MORE_REFERENCE_RUNS}
+    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, longer=LONGER, **runs)
     arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
 
 
