@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import re
 import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+from mcap.records import Channel, Schema
 
 from beardyn_core.errors import InputError
 from beardyn_core.record import viewer
+from beardyn_core.record.other_messages import _decoder
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
@@ -77,6 +80,40 @@ def test_a_monitor_comes_from_the_working_folder_or_the_path_and_by_name_only(tm
 
 class _StartedError(Exception):
     pass
+
+
+HOSTILE = "__import__('pathlib').Path({here!r}).touch()"
+
+
+@pytest.mark.parametrize("name", ["pkg/msg/Plain", "pkg/msg/Evil(int): {code} #", "pkg/msg/Evil\n{code}\n"])
+@pytest.mark.parametrize(
+    "definition",
+    [
+        "float64 x\n",
+        "float64 x {code}\n",
+        "float64 LIMIT={code}\n",
+        "string LIMIT={code}\n",
+        "string x '{code}'\n",
+        "float64 x: {code}\n",
+        "float64 x; {code}\n",
+        "float64[{code}] x\n",
+        "float64 x\n{code}\n",
+    ],
+)
+def test_a_recorded_definition_of_a_message_runs_nothing(tmp_path: Path, name: str, definition: str) -> None:
+    """Of other programs' recordings definitions become classes; none of these becomes a call."""
+    here = tmp_path / "touched"
+    code = HOSTILE.format(here=str(here))
+    schema = Schema(
+        id=1, name=name.format(code=code), encoding="ros2msg", data=definition.format(code=code).encode()
+    )
+    channel = Channel(id=1, topic="/x", message_encoding="cdr", metadata={}, schema_id=1)
+    decode = _decoder(channel, schema)
+    if decode is not None:
+        with contextlib.suppress(Exception):
+            decode(bytes(64))
+    assert not here.exists()
+    assert name != "pkg/msg/Plain" or definition != "float64 x\n" or decode is not None
 
 
 @pytest.mark.parametrize("window", ["open_window", "waiting_window", "web_viewer", "screenshot"])
