@@ -427,6 +427,15 @@ def test_a_row_of_one_that_is_pressed_as_much_as_it_must_is_not_refused() -> Non
     assert load[1] > needed
 
 
+def test_a_search_ends_where_rollers_find_no_place() -> None:
+    """775 kN beside the centre of a row that tilts: its rollers were out of balance for half of 82 steps."""
+    row: dict[str, Any] = {"end_play": 2e-4, "rows": 1, "axial_stiffness": 4.9e7, "laminae": 2}
+    metro = load_bearing("METRO120x220")
+    with pytest.raises(ValidityError, match=r"mm off its place, where rollers have no place, and"):
+        solve(metro, (0.0, 0.0, 7.75e5), tilt="free", tilt_stiffness=(1e5, 1e5), **row)
+    assert solve(metro, (0.0, 0.0, 7.75e5), tilt="locked", **row).residual < 1e-3
+
+
 def test_a_cone_that_drives_away_is_told_soon_with_how_far_it_is_off() -> None:
     """Rollers that turn press their cone away along the axle, and nothing holds a single row there."""
     with pytest.raises(ValidityError, match=r"after (\d+) steps the cone is [\d.]+ mm off its place") as told:
