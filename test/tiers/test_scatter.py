@@ -135,14 +135,15 @@ def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -
 
     That mode's damper is friction. Along y at 125 Hz, a few lines of the spacing, the fast tiers are 4.1 dB
     above and 3.2 dB below.
-    Of identical rollers it is not: 10 dB and more along z, and along y the fast tiers have nothing at all.
+    Of identical rollers it is not: along z 10 dB and more in `lumped`, 6 and more where rollers move in their
+    pockets, and along y the fast tiers have nothing at all.
     """
     apart = np.abs(levels(tier, True) - levels("full", True))
     assert apart[1].max() < 3.0
     assert apart[0][1:][((AXIAL[0] > BANDS) | (AXIAL[1] < BANDS))[1:]].max() < 3.0
     assert apart[0][0] < 5.0
     identical = np.abs(levels(tier, False) - levels("full", False))
-    assert identical[0].min() > 10.0
+    assert identical[0].min() > {"lumped": 10.0, "quasistatic": 6.0}[tier]
 
 
 @pytest.mark.slow
