@@ -71,6 +71,7 @@ def test_without_a_cage_rollers_keep_their_places() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("shipped_configuration")
 def test_slip_spacing_lines_and_torque_are_those_of_the_full_tier() -> None:
     """Nothing is fitted: slip within a quarter, scatter of spacing within 40 %, torque within 3 %, lines of
     the rollers' passing over their surroundings within 3 dB on average and 6 dB each, third octaves from
