@@ -90,10 +90,11 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
     """The rolling resistance is that of the static solution, drag and seal the lost power over the speed.
 
     Of rings that do not bend: a cup that does spreads the load over more rollers, and a couple grows far less
-    than its load, so that the couples add up to a third more.
+    than its load, so that the couples add up to a third more. Without cages: what drag presses idle rollers
+    on their bars with rubs there, which the budget counts as friction of pockets and not as drag.
     """
     base = load_scene("static_80kN", tier=tier, effects="full")
-    effects, bearing = replace(base.effects, structure=None), base.bearing
+    effects, bearing = replace(base.effects, structure=None, cage=None), base.bearing
     assert effects.rib is not None
     assert effects.rolling_resistance is not None
     assert {"rolling_resistance", "drag", "seal"}.isdisjoint(base.missing_effects)
