@@ -1,6 +1,6 @@
 """The real twin node in real time: twin and load node as processes, lateness of every block.
 
-``python -m benchmarks.paced_twin --scene smooth_run --effects full --laminae 6 --seconds 60`` runs one
+``python -m benchmarks.paced_twin --scene smooth_run --tier full --effects auto --seconds 60`` runs one
 level alone. A block is late when it is handed over more than 40 ms after it is due.
 """
 
@@ -12,23 +12,33 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-
-import yaml
+from typing import NamedTuple
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import scene_text
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_stamp
 from beardyn_core.record.topics import topic
+from beardyn_core.scene.scene import Scene
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
 from beardyn_ros.processes import Processes, free_domain_id, local_environment
 from benchmarks.runs import Table
 
 SCENE = "smooth_run"
-# effects, laminae, steps per sample (2: converged for all but vibration, see docs/step.md)
-LEVELS = (("full", 6, 4), ("full", 6, 3), ("full", 6, 2), ("standard", 6, 4), ("dry", 6, 4))
+
+
+class Level(NamedTuple):
+    """What a twin computes with; laminae and steps are those that tier and effects get by themselves."""
+
+    tier: str
+    effects: str
+
+
+# the dearest first
+LEVELS = (Level("full", "full"), Level("full", "auto"), Level("quasistatic", "auto"), Level("lumped", "auto"))
 READY_TIMEOUT_S = 600.0
 COLUMNS = (
     *(
+        "tier",
         "effects",
         "laminae",
         "steps a sample",
@@ -111,30 +121,13 @@ class _Listener:
         self._context.try_shutdown()
 
 
-def run_paced(
-    scene: str, effects: str, laminae: int, seconds: float, steps: int = 4, mode: str = "lockstep"
-) -> Heard:
-    """Do one run at speed factor 1.
-
-    Parameters
-    ----------
-    scene, effects : str
-    laminae : int
-    seconds : float
-        Simulated time, [s].
-    steps : int
-        Time steps per sample.
-    mode : str
-        ``lockstep`` or ``live``.
-    """
+def run_paced(scene: Scene, mode: str = "lockstep") -> Heard:
+    """Run a scene at speed factor 1; ``mode``: ``lockstep`` or ``live``."""
     prepare_environment()
-    keys = yaml.safe_load(scene_text(load_scene(scene, effects=effects, laminae=laminae, duration=seconds)))
-    keys["numerics"]["steps_per_sample"] = steps
-    text = yaml.safe_dump(keys)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         file = folder / "paced.yaml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(scene_text(scene), encoding="utf-8")
         domain = free_domain_id()
         common = ["-p", f"scene:={file}", "-p", f"mode:={mode}", "-p", "speed_factor:=1.0"]
         with Processes(local_environment(domain), folder) as processes:
@@ -143,9 +136,16 @@ def run_paced(
                 processes.start("twin", "-m", "beardyn_ros", "twin", "--ros-args", *common)
                 listener.until(("waiting for load",), READY_TIMEOUT_S, processes)
                 processes.start(
-                    "load", "-m", "beardyn_ros", "load", "--ros-args", *common, "-p", f"duration:={seconds}"
+                    "load",
+                    "-m",
+                    "beardyn_ros",
+                    "load",
+                    "--ros-args",
+                    *common,
+                    "-p",
+                    f"duration:={scene.duration}",
                 )
-                listener.until(("finished", "stopped"), 60.0 + 20.0 * seconds, processes)
+                listener.until(("finished", "stopped"), 60.0 + 20.0 * scene.duration, processes)
             finally:
                 listener.close()
     assert listener.twin is not None
@@ -154,16 +154,16 @@ def run_paced(
     return Heard(listener.twin, wall_s, max(offsets) - min(offsets))
 
 
-def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | float | int, ...]:
+def row(level: Level, scene: Scene, heard: Heard) -> tuple[str | float | int, ...]:
     """Write the row of the table."""
 
     def number(key: str) -> float:
         return float(heard.last.value(key) or 0.0)
 
     return (
-        effects,
-        laminae,
-        steps,
+        *level,
+        scene.numerics.laminae,
+        scene.numerics.steps_per_sample,
         number("simulated_time"),
         heard.wall_s,
         int(number("blocks")),
@@ -176,38 +176,40 @@ def row(effects: str, laminae: int, steps: int, heard: Heard) -> tuple[str | flo
     )
 
 
-def paced(seconds: float, scene: str = SCENE, levels: tuple[tuple[str, int, int], ...] = LEVELS) -> Table:
+def paced(seconds: float, name: str = SCENE, levels: tuple[Level, ...] = LEVELS) -> Table:
     """Try levels from the finest down to the first that keeps up for the whole time."""
     rows: list[tuple[str | float | int, ...]] = []
     note = f"speed factor 1, lockstep; load average {os.getloadavg()[0]:.2f} before"
     if not ros_available():
         return Table("paced", "Twin node in real time", COLUMNS, rows, MISSING_ROS)
-    for effects, laminae, steps in levels:
-        heard = run_paced(scene, effects, laminae, seconds, steps)
-        rows.append(row(effects, laminae, steps, heard))
+    for level in levels:
+        scene = load_scene(name, tier=level.tier, effects=level.effects, duration=seconds)
+        heard = run_paced(scene)
+        rows.append(row(level, scene, heard))
         if heard.last.value("late_blocks") == "0" and heard.last.value("state") == "finished":
             break
     else:
         note += "; no level has kept up"
-    return Table("paced", f"Twin node in real time, {scene}, {seconds:g} s", COLUMNS, rows, note)
+    return Table("paced", f"Twin node in real time, {name}, {seconds:g} s", COLUMNS, rows, note)
 
 
 def main() -> None:
     """Run one level."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.paced_twin", description=__doc__)
     parser.add_argument("--scene", default=SCENE)
-    parser.add_argument("--effects", default=LEVELS[0][0])
-    parser.add_argument("--laminae", type=int, default=LEVELS[0][1])
-    parser.add_argument("--steps", type=int, default=LEVELS[0][2])
+    parser.add_argument("--tier", default=LEVELS[0].tier)
+    parser.add_argument("--effects", default=LEVELS[0].effects)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--mode", choices=("lockstep", "live"), default="lockstep")
     given = parser.parse_args()
-    heard = run_paced(given.scene, given.effects, given.laminae, given.seconds, given.steps, given.mode)
+    level = Level(given.tier, given.effects)
+    scene = load_scene(given.scene, **level._asdict(), duration=given.seconds)
+    heard = run_paced(scene, given.mode)
     table = Table(
         "paced",
         f"Twin node in real time, {given.scene}, {given.mode}",
         COLUMNS,
-        [row(given.effects, given.laminae, given.steps, heard)],
+        [row(level, scene, heard)],
     )
     print("\n".join(table.lines()))
 

@@ -23,7 +23,6 @@ _CHOSEN_AS = {"fault_line": "vibration"}
 # wall time per simulated second on one core of a 2.5 GHz machine, for the progress bar and the order of runs
 _FAST_COST = {"lumped": (0.06, 0.002), "quasistatic": (0.06, 0.012)}
 _FULL_COST = (0.10, 0.025)
-_FAST_EFFECTS = "standard"  # of a fast level whose name does not say
 _MANY_EFFECTS, _MANY_EFFECTS_FACTOR = 10, 1.8
 
 
@@ -59,9 +58,7 @@ class LevelList:
 
 
 def _level(tier: str, effects_name: str, effects: EffectSet, laminae: int, steps: float) -> Level:
-    words = [] if tier == "full" else [tier]
-    if tier == "full" or effects_name != _FAST_EFFECTS:
-        words.append(f"effects {effects_name}")
+    words = [*([] if tier == "full" else [tier]), f"effects {effects_name}"]
     name = ", ".join([*words, f"{laminae} laminae x {steps}"])
     return Level(name, tier, effects_name, effects, laminae, steps)
 
@@ -108,7 +105,7 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
     if each_effect:
         steps |= {f"full - {name}": (less, [(6, usual)]) for name, less in _one_less(full)}
     rows: list[tuple[str, str, EffectSet, list[tuple[int, int]]]] = []
-    rows += [(tier, _FAST_EFFECTS, standard, choices) for tier, choices in fast.items()]
+    rows += [(tier, "standard", standard, choices) for tier, choices in fast.items()]
     rows += [(tier, "full", full, [(6, TIERS[tier].steps_per_sample)]) for tier in fast]
     rows += [("full", name, effects, choices) for name, (effects, choices) in steps.items()]
     found = [

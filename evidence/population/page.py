@@ -108,9 +108,9 @@ def section(found: dict[str, Any]) -> str:
         "",
         f"`beardyn baseline`: random forests of 300 trees on the features of {found['trained']} runs of "
         "the sweep "
-        f"[{TRAINED}](../config/sweeps/{TRAINED}.yaml) (tier `{found['tier']}`), nothing tuned. It names "
-        "sound, cup, "
-        "cone or roller; balanced accuracy counts each condition alike (in brackets: all runs alike), "
+        f"[{TRAINED}](../config/sweeps/{TRAINED}.yaml) (tier `{found['tier']}`, effects `standard`), nothing "
+        "tuned. It names sound, cup, cone or roller; balanced accuracy counts each condition alike (in "
+        "brackets: all runs alike), "
         f"{100 * CHANCE:.0f} % is chance.",
         "",
         _gap_table(gap).markdown(),

@@ -23,10 +23,13 @@ def test_parallel_twins_are_compared_with_one_of_the_same_turns() -> None:
 @pytest.mark.ros
 @pytest.mark.skipif(ROS_IS_MISSING, reason="rclpy is not installed (pip install .[ros])")
 def test_paced_twin_is_heard_block_by_block_and_its_lateness_agrees_with_the_listener() -> None:
-    from benchmarks.paced_twin import COLUMNS, row, run_paced
+    from beardyn_core.choice import load_scene
+    from benchmarks.paced_twin import COLUMNS, Level, row, run_paced
 
-    heard = run_paced("cup_spall", "standard", 6, 1.0)
-    told = dict(zip(COLUMNS, row("standard", 6, 4, heard), strict=True))
+    level = Level("full", "standard")
+    scene = load_scene("cup_spall", **level._asdict(), duration=1.0)
+    heard = run_paced(scene)
+    told = dict(zip(COLUMNS, row(level, scene, heard), strict=True))
     assert told["state"] == "finished"
     assert told["blocks"] == 50
     assert told["simulated s"] == pytest.approx(1.0)
