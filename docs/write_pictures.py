@@ -30,7 +30,7 @@ def shrink(source: Path, target: Path) -> None:
     """Scale a picture to `WIDTH` and a palette."""
     picture = Image.open(source).convert("RGB")
     small = picture.resize((WIDTH, round(picture.height * WIDTH / picture.width)), Image.Resampling.LANCZOS)
-    small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
+    small.quantize(COLOURS, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(target, optimize=True)
     stamp(target)
 
 
