@@ -105,8 +105,9 @@ def twin_diagnostic(
             ("pace", f"{(total if ended else report.window_rtf):.4g}"),
             ("wall_time", f"{report.wall_s:.3f}"),
             ("waited_for_load", f"{report.waited_for_load_s:.3f}"),
-            ("energy_residual", f"{report.energy_residual:.3e}"),
         ]
+    if report.energy_residual is not None:
+        values.append(("energy_residual", f"{report.energy_residual:.3e}"))
     if standing.mode == "live":
         values.append(("load_age", f"{report.load_age:.3f}"))
     else:

@@ -170,7 +170,8 @@ class SessionReport:
         Real-time factor of the last second or so.
     status : int
         Status bits of the last block.
-    energy_residual : float
+    energy_residual : float or None
+        ``None`` where the effects have no audit.
     load_waiting : int
         Samples in the queue (lockstep).
     load_waiting_s : float
@@ -200,7 +201,7 @@ class SessionReport:
     processor_s: float = 0.0
     window_rtf: float = 0.0
     status: int = 0
-    energy_residual: float = 0.0
+    energy_residual: float | None = None
     load_waiting: int = 0
     load_waiting_s: float = 0.0
     load_age: float = 0.0

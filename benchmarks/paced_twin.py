@@ -135,16 +135,8 @@ def run_paced(scene: Scene, mode: str = "lockstep") -> Heard:
             try:
                 processes.start("twin", "-m", "beardyn_ros", "twin", "--ros-args", *common)
                 listener.until(("waiting for load",), READY_TIMEOUT_S, processes)
-                processes.start(
-                    "load",
-                    "-m",
-                    "beardyn_ros",
-                    "load",
-                    "--ros-args",
-                    *common,
-                    "-p",
-                    f"duration:={scene.duration}",
-                )
+                lasting = ("-p", f"duration:={scene.duration}")
+                processes.start("load", "-m", "beardyn_ros", "load", "--ros-args", *common, *lasting)
                 listener.until(("finished", "stopped"), 60.0 + 20.0 * scene.duration, processes)
             finally:
                 listener.close()
