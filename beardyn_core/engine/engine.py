@@ -240,7 +240,8 @@ class Engine:
         """Keep what Dask logs about comers and goers from the user, who is told in a sentence."""
         import distributed  # noqa: F401 (it sets its levels when it is imported)
 
-        for name in ("distributed", "distributed.client", "distributed.core", "distributed.comm", "tornado"):
+        names = ("distributed", "distributed.client", "distributed.core", "distributed.comm")
+        for name in (*names, "tornado", "tornado.application"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
