@@ -20,7 +20,7 @@ from beardyn_core.integrate.start import at_rest, initial_state
 from beardyn_core.integrate.state import Output, State, work_space
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.integrate.warming import cold_start, scene_at, warmed
+from beardyn_core.integrate.warming import blocks_between, cold_start, scene_at, warmed
 from beardyn_core.jit import LANE_WIDTH, when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
@@ -91,8 +91,7 @@ class Twin:
         self._index = 0
         self.stages = StageClock()
         self._stage_cycles = stage_cycles(None)
-        heated = scene.effects.thermal is not None and "thermal" not in scene.missing_effects
-        self._warmth = cold_start(scene) if heated else None
+        self._warmth = cold_start(scene) if scene.effects.thermal is not None else None
         self._cages = CageWatch.of(scene)
         self._channels = SIGNAL_CHANNELS + self._seat_channels
         self._signals = np.zeros((self.blocks_at_once * self._steps, self._channels))
@@ -194,11 +193,14 @@ class Twin:
 
     @property
     def blocks_at_once(self) -> int:
-        """Largest number of blocks in one `advance`: several where only the kernel acts in between."""
-        changing = self._warmth is not None or any(
-            isinstance(defect, Patch) and defect.growth is not None for defect in self.scene.defects
-        )
-        return 1 if changing else TIER_NOUNS[self.scene.tier].blocks_at_once
+        """Largest number of blocks in the next `advance`: several where only the kernel acts in between."""
+        if any(isinstance(defect, Patch) and defect.growth is not None for defect in self.scene.defects):
+            return 1
+        allowed, thermal = TIER_NOUNS[self.scene.tier].blocks_at_once, self.scene.effects.thermal
+        if thermal is None:
+            return allowed
+        between = blocks_between(thermal)
+        return min(allowed, between - self._index % between)
 
     def covered(self) -> bool:
         """Tell whether the samples that the load of the next block depends on have arrived."""
@@ -250,7 +252,7 @@ class Twin:
             self._cages = self._cages.after(self.scene.bearing, bodies, float(loads[:, 6].mean()), seconds)
             status |= self._cages.status
         audit = self._energy_audit()
-        temperature = None if self._warmth is None else self._warm_up(loads)
+        temperature = self._warm_up(loads, blocks)
         block = self._observer.observe(
             self._index, signals, loads, rollers, bodies, int(status), audit, wall, temperature
         )
@@ -290,19 +292,23 @@ class Twin:
         whole = rollers if isinstance(rollers, np.ndarray) else rollers.whole()
         return self._absence.completed(whole, bodies)
 
-    def _warm_up(self, loads: Float) -> Float:
-        """Compute the temperatures after the block, [K], and update what depends on them in the kernels."""
+    def _warm_up(self, loads: Float, blocks: int) -> Float | None:
+        """Compute the temperatures after blocks, [K], and update what depends on them in the kernels."""
         scene, state, before = self.scene, self._state, self._warmth
+        thermal = scene.effects.thermal
+        if before is None or thermal is None:
+            return None
         assert state is not None
-        assert before is not None
-        assert scene.effects.thermal is not None
-        speed = float(loads[:, 6].mean())
-        after = warmed(scene, scene.effects.thermal, before, state.energy, speed, BLOCK_NS * 1e-9)
+        between = blocks_between(thermal)
+        if (self._index + blocks) % between:
+            return before.temperature
+        speed = float(loads[-1, 6])
+        after = warmed(scene, thermal, before, state.energy, speed, between * BLOCK_NS * 1e-9)
         if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
             self._parameters = new._replace(rollers=old.rollers, mounting=old.mounting)
-            self._kernel_parameters = self._tier.parameters(scene, self._parameters)
+            self._kernel_parameters = self._tier.parameters(scene_at(scene, after), self._parameters)
         self._warmth = after
         return after.temperature
 
@@ -361,8 +367,9 @@ class Twin:
         self._index = snapshot.index
         self._state = snapshot.state.copy()
         self._parameters = snapshot.parameters
-        self._kernel_parameters = self._tier.parameters(self.scene, self._parameters)
         self._warmth, self._cages = snapshot.warmth, snapshot.cages
+        scene = self.scene if self._warmth is None else scene_at(self.scene, self._warmth)
+        self._kernel_parameters = self._tier.parameters(scene, self._parameters)
         self.load = snapshot.load.copy()
         self._first_audit = deepcopy(snapshot.first_audit)
         self._observer = deepcopy(snapshot.observer)

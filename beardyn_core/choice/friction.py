@@ -172,9 +172,11 @@ def thermal(evidence: Evidence) -> Rule:
     reason = f"in {scene.duration:g} s {_drift_text(drift)}"
     if scene.duration < _SHORT and scene.effects.thermal is None:
         return Rule("thermal", (Alternative({"thermal": None}, reason, word="off"),))
-    cost = evidence.costs.extra("thermal") + evidence.costs.saved("audit")
-    on = Alternative({"thermal": effect}, f"{reason}; the audit feeds it", {}, cost, FULL)
-    return Rule("thermal", (on, Alternative({"thermal": None}, reason, influence, word="off")))
+    cost = evidence.costs.extra("thermal")
+    fed = cost + evidence.costs.saved("audit")
+    on = Alternative({"thermal": effect}, f"{reason}; the audit feeds it", {}, fed, FULL)
+    fast = Alternative({"thermal": effect}, reason, {}, cost, FAST)
+    return Rule("thermal", (on, fast, Alternative({"thermal": None}, reason, influence, word="off")))
 
 
 def _drift_text(drift: float) -> str:

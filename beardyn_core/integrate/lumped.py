@@ -22,7 +22,7 @@ from beardyn_core.integrate.kinematic_step import (
 from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_bending import show_openings, turn_reaction
 from beardyn_core.kernels.kinematic_rings import hold_stiffness
-from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, relative_cone
+from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, keep_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
     add_tilt,
@@ -42,8 +42,8 @@ _ORBIT_FIELDS = VELOCITY + 2
 def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    The energy balance is not kept. The trend of the rollers [trend, block + TREND_EXTRAS, 1, lane] has the
-    loads, from which `show_lumped` makes the rollers.
+    The energy balance is not kept, but what each source loses. The trend of the rollers [trend,
+    block + TREND_EXTRAS, 1, lane] has the loads, from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     bending = p.bending
@@ -70,6 +70,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if due:
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)
+            keep_losses(energy, sums, speeds, 0.0, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
             tilting = tilt_stiffness(sums, direction)
         wrench = add_tilt(wrench, tilting, motion, p.base.effects.damping)

@@ -36,10 +36,12 @@ from beardyn_core.kernels.kinematic_rollers import (
     MOMENT_COSINE,
     MOMENT_SINE,
     RIB_SUM,
+    TORQUE_POCKET,
     TORQUE_RIB,
     TORQUE_ROLLING,
     cup_wrench,
     held_losses,
+    keep_losses,
     kept_wrench,
     lane_total,
     pocket_torque,
@@ -122,7 +124,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     # sums over the rollers: plain, times cosine, times sine
     loads, moments = (zero, zero, zero), (zero, zero, zero)
     kept, bent = (zero, zero, zero), (zero, zero)
-    rib_sum, rolling, sliding = zero, zero, zero
+    rib_sum, rolling, pocket, sliding = zero, zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
     clear_reaction(lanes, sums, p.bending)
     clear_cages(lanes, sums, p.loose)
@@ -199,7 +201,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         forces = (cup[0], cone[0], rib)
         if due:
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
-            rolling = rolling + counted * steady_pocket(cone[0], speeds, k, p.base.effects.drag, p.loose)
+            idling = counted * steady_pocket(cone[0], speeds, k, p.base.effects.drag, p.loose)
+            rolling, pocket = rolling + idling, pocket + idling
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
@@ -217,6 +220,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     lanes.store(sums, 0, KEPT_ABOUT_COSINE, side * bent[0])
     lanes.store(sums, 0, KEPT_ABOUT_SINE, side * bent[1])
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
+    lanes.store(sums, 0, TORQUE_POCKET, pocket)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
         store_stiffness(lanes, sums, stiff)
@@ -254,7 +258,7 @@ def cup_acceleration(bodies, rate):
 def advance_quasistatic(lanes, state, work, loads, output, p):
     """Advance the quasistatic tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
-    The energy balance is not kept.
+    The energy balance is not kept, but what each source loses.
     """
     rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     bending = p.bending
@@ -295,6 +299,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             losses = held_losses(sums, speeds, rib, p)
             rubbing = rubbing_torque(bodies, speeds, stride, p.kinematic, loose)
             losses = (losses[0] + rubbing, losses[1])
+            keep_losses(energy, sums, speeds, rubbing, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
         before, rates = cup_velocity(bodies), cage_rates(bodies, loose)
         finish_step(

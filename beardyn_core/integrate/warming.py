@@ -1,4 +1,4 @@
-"""Slow warming beside the fast motion: temperatures advanced once per block, and what they change."""
+"""Slow warming beside the fast motion: temperatures advanced every 0.2 s, and what they change."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from beardyn_core.scene.scene import Scene
 # Parameters are rebuilt when the film has warmed by this much or the end play has moved that far.
 _NOTICEABLE_WARMING = 0.02  # [K]
 _NOTICEABLE_CLOSURE = 2.0e-8  # [m]
+_LONGEST = 10  # blocks: as often as temperatures are recorded
 
 
 @dataclass(frozen=True)
 class Warmth:
-    """Temperatures at the end of a block, and the energy that was lost until then."""
+    """Temperatures at some moment, and the energy that was lost until then."""
 
     temperature: Float  # [node], of `model.heat.NODES` [K]
     lost: Float  # [source], since the start of the run [J]
@@ -33,6 +34,11 @@ def film_temperature(temperature: Float) -> float:
     return float(0.5 * temperature[ROLLER_NODE] + 0.25 * (temperature[CUP_NODE] + temperature[CONE_NODE]))
 
 
+def blocks_between(thermal: Thermal) -> int:
+    """Say how many blocks of 20 ms pass from one temperature to the next: fewer where heating is hastened."""
+    return max(1, round(_LONGEST / max(1.0, thermal.time_scale)))
+
+
 def cold_start(scene: Scene) -> Warmth:
     """Set every part to the scene's temperature, or to its own when the scene gives them."""
     temperature = np.full(len(NODES), scene.temperature)
@@ -43,9 +49,9 @@ def cold_start(scene: Scene) -> Warmth:
 
 
 def warmed(
-    scene: Scene, thermal: Thermal, now: Warmth, energy: Float, shaft_speed: float, block: float
+    scene: Scene, thermal: Thermal, now: Warmth, energy: Float, shaft_speed: float, duration: float
 ) -> Warmth:
-    """Advance the temperatures over a block.
+    """Advance the temperatures over some blocks.
 
     Parameters
     ----------
@@ -54,20 +60,20 @@ def warmed(
     energy : float64 array, shape [ENERGY_TERMS]
         At its end, [J].
     shaft_speed : float
-        Mean of the block, [rad/s].
-    block : float
-        Duration, [s].
+        At their end, [rad/s].
+    duration : float
+        [s].
 
     Notes
     -----
-    A source that gains energy over a block (a pocket bounce) takes its heat back.
+    A source that gains energy meanwhile (a pocket bounce) takes its heat back.
     """
     lost = energy[ENERGY_LOST : ENERGY_LOST + LOSSES].copy()
-    heat = (lost - now.lost) / block @ heat_shares()
+    heat = (lost - now.lost) / duration @ heat_shares()
     network = thermal_network(
         scene.bearing, thermal, scene.mounting.box_mass, shaft_speed, scene.roller_total, scene.rows
     )
-    temperature = network.after(now.temperature, heat, thermal.ambient, block)
+    temperature = network.after(now.temperature, heat, thermal.ambient, duration)
     start = cold_start(scene).temperature
     change = temperature - start
     end_play = scene.end_play + end_play_change(

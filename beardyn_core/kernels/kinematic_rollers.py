@@ -26,6 +26,7 @@ TORQUE_ROLLING, TORQUE_RIB = layout.REACTION + 6, layout.REACTION + 7
 KEPT_COSINE, KEPT_SINE, KEPT_AXIAL, KEPT_ABOUT_COSINE, KEPT_ABOUT_SINE = range(
     layout.REACTION + 18, layout.REACTION + 23
 )
+TORQUE_POCKET = layout.REACTION + 23  # part of TORQUE_ROLLING
 _SMALLEST_LOAD = 1e-3
 
 
@@ -294,3 +295,19 @@ def held_losses(sums, speeds, rib_load, p):
     steady = drag_torque(speeds, k, effects.drag) + seal_torque(speeds[0], effects.seal)
     rib = lane_total(sums, TORQUE_RIB) / max(rib_load, _SMALLEST_LOAD)
     return steady + lane_total(sums, TORQUE_ROLLING), rib
+
+
+@inline
+def keep_losses(energy, sums, speeds, rubbing, held, p):
+    """Add what each source loses while its torque is held, for those who warm by it.
+
+    ``energy`` [ENERGY_TERMS]: losses by source are added to [J]; ``rubbing``: torque of the pockets that
+    rollers move in [N m]; ``held`` [s].
+    """
+    turned, effects = held * speeds[0], p.base.effects
+    pocket = lane_total(sums, TORQUE_POCKET)
+    energy[layout.ENERGY_LOST + layout.LOSS_ROLLING] += turned * (lane_total(sums, TORQUE_ROLLING) - pocket)
+    energy[layout.ENERGY_LOST + layout.LOSS_POCKET] += turned * (pocket + rubbing)
+    energy[layout.ENERGY_LOST + layout.LOSS_RIB] += turned * lane_total(sums, TORQUE_RIB)
+    energy[layout.ENERGY_LOST + layout.LOSS_DRAG] += turned * drag_torque(speeds, p.kinematic, effects.drag)
+    energy[layout.ENERGY_LOST + layout.LOSS_SEAL] += turned * seal_torque(speeds[0], effects.seal)

@@ -18,6 +18,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
     RIB_SUM,
+    TORQUE_POCKET,
     TORQUE_RIB,
     TORQUE_ROLLING,
     lane_total,
@@ -227,7 +228,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     effects, k = p.base.effects, p.kinematic
     wave = approach_waves(lanes, motion, direction, p)[0]
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
-    rolling, sliding = zero, zero
+    rolling, pocket, sliding = zero, zero, zero
     stiff, lengths = (zero, zero, zero, zero, zero, zero), (zero, zero, zero)
     tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
     for block in range(blocks):
@@ -235,7 +236,8 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
         loads = cup_cone_rib(load, speeds, p)
         rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
-        rolling = rolling + counted * pocket_torque(loads[1], speeds, k, effects.drag, k.pocket)
+        idling = counted * pocket_torque(loads[1], speeds, k, effects.drag, k.pocket)
+        rolling, pocket = rolling + idling, pocket + idling
         sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
@@ -249,6 +251,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         pressed, tilted = at_least(load - idle, 0.0), tilt[0] * cosine + tilt[1] * sine
         lengths = add_length(lengths, counted * pressed, approach, tilted, cosine, sine, p.spring.reach)
     lanes.store(sums, 0, TORQUE_ROLLING, rolling)
+    lanes.store(sums, 0, TORQUE_POCKET, pocket)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
     store_vector(lanes, sums, 0, _LENGTH_CC, lengths)

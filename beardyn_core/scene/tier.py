@@ -34,7 +34,7 @@ class TierLimits:
 _FAST = frozenset(
     {
         *("contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
-        *("faults", "waviness", "scatter", "structure", "cage"),
+        *("faults", "waviness", "scatter", "structure", "cage", "thermal"),
     }
 )
 _FAST_ABSENT = ("raceway slip", "pocket contacts", "energy audit", "chatter")

@@ -126,15 +126,16 @@ def level_of(scene: Scene, effects_name: str, name: str = "") -> Level:
     return replace(level, name=name) if name else level
 
 
-def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Choice:
+def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...], to: float | None = None) -> Choice:
     """Choose for a scene as `effects: auto` does, whatever the scene is computed with itself.
 
-    The accuracy is a share; a fault line is asked of the vibration, of which every band counts.
+    The accuracy is a share; a fault line is asked of the vibration, of which every band counts, or those
+    up to a frequency, [Hz].
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)
     every = in_box_of(load_effects("full"), scene.effects)
-    return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities, vibration_to=None))
+    return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities, vibration_to=to))
 
 
 def automatic(scene: Scene, accuracy: float, asked: tuple[str, ...]) -> Level:

@@ -14,8 +14,9 @@ import hashlib
 import json
 import logging
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Annotated as A
 from typing import Any
 
 import beardyn_core
@@ -34,34 +35,48 @@ from beardyn_core.study.ladder_levels import (
 )
 from beardyn_core.study.ladder_report import error_text
 from beardyn_core.study.ladder_result import Ladder, LevelResult, QuantityError
-from beardyn_core.study.measures import UNITS
+from beardyn_core.study.measures import NOMINAL_BANDS, UNITS
 from evidence.pages import DOCS
 from evidence.standard import standard_scene
 
 FORCES = ("force", "deflection", "roller_load")
 MEANS = (*FORCES, "torque")
 USUAL = (*MEANS, "vibration")
-CASES: dict[str, tuple[tuple[tuple[str, ...], float], ...]] = {
-    "static_80kN": ((USUAL, 0.05), (("force",), 0.05), (FORCES, 0.01)),
-    "static_5kN": (((*MEANS, "cage_speed"), 0.05),),
-    "smooth_run": ((USUAL, 0.05), (MEANS, 0.05), (MEANS, 0.2)),
-    "cup_spall": ((USUAL, 0.05), (FORCES, 0.1)),
-    "cone_spall": ((USUAL, 0.05),),
-    "roller_spall": ((USUAL, 0.05),),
-    "oversize_roller": ((MEANS, 0.05),),
-    "worn_pocket": ((USUAL, 0.05),),
-    "waviness": ((USUAL, 0.05),),
-    "wheel_flat": ((USUAL, 0.05), (FORCES, 0.05)),
-    "healthy_80": ((USUAL, 0.05),),
-    "healthy_300": ((USUAL, 0.05),),
-    "polygon_wheel": ((USUAL, 0.05),),
-    "spall_and_flat": ((USUAL, 0.05),),
-    "service_high_speed": ((USUAL, 0.05), (MEANS, 0.05)),
-    "service_high_speed_cup": ((USUAL, 0.05),),
-    "service_freight": ((USUAL, 0.05),),
-    "service_freight_cone": ((USUAL, 0.05),),
-    "service_metro": ((USUAL, 0.05),),
-    "service_metro_roller": ((USUAL, 0.05),),
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is asked of a choice."""
+
+    asked: tuple[str, ...]
+    accuracy: A[float, "a share"]
+    to: A[float | None, "highest third octave, [Hz]; ``None``: 10 kHz"] = None
+
+
+CASES: dict[str, tuple[Case, ...]] = {
+    "static_80kN": (Case(USUAL, 0.05), Case(("force",), 0.05), Case(FORCES, 0.01)),
+    "static_5kN": (Case((*MEANS, "cage_speed"), 0.05),),
+    "smooth_run": (
+        *(Case(USUAL, 0.05), Case(USUAL, 0.05, 5000.0), Case(USUAL, 0.05, 1000.0)),
+        *(Case(MEANS, 0.05), Case(MEANS, 0.2)),
+    ),
+    "cup_spall": (Case(USUAL, 0.05), Case(FORCES, 0.1)),
+    "cone_spall": (Case(USUAL, 0.05),),
+    "roller_spall": (Case(USUAL, 0.05),),
+    "oversize_roller": (Case(MEANS, 0.05),),
+    "worn_pocket": (Case(USUAL, 0.05),),
+    "waviness": (Case(USUAL, 0.05),),
+    "wheel_flat": (Case(USUAL, 0.05), Case(FORCES, 0.05)),
+    "healthy_80": (Case(USUAL, 0.05),),
+    "healthy_300": (Case(USUAL, 0.05),),
+    "polygon_wheel": (Case(USUAL, 0.05),),
+    "spall_and_flat": (Case(USUAL, 0.05),),
+    "service_high_speed": (Case(USUAL, 0.05), Case(MEANS, 0.05)),
+    "service_high_speed_cup": (Case(USUAL, 0.05),),
+    "service_freight": (Case(USUAL, 0.05),),
+    "service_freight_cone": (Case(USUAL, 0.05),),
+    "service_metro": (Case(USUAL, 0.05),),
+    "service_metro_roller": (Case(USUAL, 0.05),),
 }
 PAGE = DOCS / "automatic.md"
 # where a band crosses the limit: times, of what is compared, and runs of the chosen and of the reference
@@ -105,18 +120,18 @@ def tried(
         raise KeyboardInterrupt
     rows = [next(row for row in ladder.rows if row.level == level) for level in levels]
     return [
-        _case(ladder, row, *CASES[scene.name][k], choices[k]) | {"longer": longer}
+        _case(ladder, row, CASES[scene.name][k], choices[k]) | {"longer": longer}
         for k, row in zip(chosen, rows, strict=True)
     ]
 
 
-def _case(
-    ladder: Ladder, row: LevelResult, asked: tuple[str, ...], accuracy: float, choice: Choice
-) -> dict[str, Any]:
+def _case(ladder: Ladder, row: LevelResult, case: Case, choice: Choice) -> dict[str, Any]:
+    asked, row = case.asked, heard(row, case.to)
     return {
         "scene": ladder.scene,
         "asked": list(asked),
-        "accuracy": accuracy,
+        "accuracy": case.accuracy,
+        "to": case.to,
         "tier": choice.tier,
         "laminae": choice.laminae,
         "steps_per_sample": choice.steps_per_sample,
@@ -127,9 +142,23 @@ def _case(
         "status": row.status,
         "seconds": row.cost.median,
         "reference_seconds": ladder.reference.cost.median,
-        "verdict": row.verdict(asked, accuracy),
+        "verdict": row.verdict(asked, case.accuracy),
         "doubt": {name: _doubt(row.of(name)) for name in asked},
     }
+
+
+def heard(row: LevelResult, to: float | None) -> LevelResult:
+    """Leave out the third octaves above a frequency, [Hz]."""
+    if to is None:
+        return row
+    bands = {f"{band:g} Hz" for band in NOMINAL_BANDS if band <= to}
+    errors = (
+        replace(error, parts=tuple(part for part in error.parts if part.name in bands))
+        if error.quantity == "vibration"
+        else error
+        for error in row.errors
+    )
+    return replace(row, errors=tuple(errors))
 
 
 def _simpler(chosen: EffectSet, every: EffectSet) -> list[str]:
@@ -157,7 +186,9 @@ def row(case: dict[str, Any]) -> str:
     few = len(case["effects"]) < len(case["missing"])
     effects = ", ".join(case["effects"]) if few else "full less " + (", ".join(case["missing"]) or "nothing")
     effects += f"; simpler {', '.join(case['simpler'])}" if case["simpler"] else ""
-    asked = f"{', '.join(case['asked'])} at {percent(case['accuracy'])}"
+    asked = ", ".join(case["asked"])
+    asked += f" to {1e-3 * case['to']:g} kHz" if case["to"] else ""
+    asked += f" at {percent(case['accuracy'])}"
     chosen = f"{case['tier']}, {case['laminae']} laminae x {case['steps_per_sample']}: {effects}"
     found = "; ".join(f"{name} {case['found'][name]} (*{case['expected'][name]}*)" for name in case["asked"])
     status = "" if case["status"] == "complete" else f"; {case['status']}"
@@ -177,7 +208,7 @@ class Kept:
     def cases(self, name: str, longer: int = 1) -> list[dict[str, Any]]:
         """Give the cases of a scene, those that are open from a longer run; run what is not there yet."""
         scene = standard_scene(name)
-        choices = [chosen_for(scene, accuracy, asked) for asked, accuracy in CASES[name]]
+        choices = [chosen_for(scene, case.accuracy, case.asked, case.to) for case in CASES[name]]
         path = self._folder / f"{name}-{digest_of(scene, choices)}.json"
         found = self._read(path, scene, choices, range(len(choices)), 1)
         undecided = [k for k, case in enumerate(found) if case["verdict"] == "open"]
@@ -200,9 +231,9 @@ class Kept:
 def digest_of(scene: Scene, choices: Sequence[Choice]) -> str:
     """Give what a result depends on: the code without its rules, what is asked, and all that was chosen."""
     digest = hashlib.sha256(_CODE)
-    for choice, (asked, accuracy) in zip(choices, CASES[scene.name], strict=True):
+    for choice, case in zip(choices, CASES[scene.name], strict=True):
         digest.update(scene_text(choice.applied(scene)).encode())
-        digest.update(json.dumps([asked, accuracy]).encode())
+        digest.update(json.dumps(asdict(case)).encode())
     return digest.hexdigest()[:12]
 
 

@@ -11,6 +11,8 @@ import pytest
 
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
+from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
+from beardyn_core.study.measures import NOMINAL_BANDS
 from evidence.automatic import page, shipped, torque
 from evidence.automatic.page import row
 from evidence.standard import standard_scene
@@ -21,6 +23,7 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
         "scene": "static_80kN",
         "asked": ["torque"],
         "accuracy": 0.05,
+        "to": None,
         "tier": "full",
         "laminae": 6,
         "steps_per_sample": 4,
@@ -36,6 +39,7 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
     assert row(case) == (
         "| `static_80kN` | torque at 5 % | full, 6 laminae x 4: full less drag | torque 1.2 % (*2*) | yes |"
     )
+    assert "| torque to 1 kHz at 5 % |" in row({**case, "to": 1000.0})
     assert "torque 1.2 % (*2*); it stopped | yes |" in row({**case, "status": "it stopped"})
     assert "full less drag; simpler rib | torque" in row({**case, "simpler": ["rib"]})
     undecided = {**case, "asked": ["vibration"], "verdict": "open", "longer": 3}
@@ -57,8 +61,23 @@ def test_a_kept_result_is_of_all_that_was_chosen_and_asked(monkeypatch: pytest.M
         replace(choice, effects=replace(choice.effects, cage=cage)),
     ):
         assert page.digest_of(scene, [other]) != kept
-    monkeypatch.setitem(page.CASES, "static_5kN", ((("force",), 0.01),))
-    assert page.digest_of(scene, [choice]) != kept
+    for case in (page.Case(("force",), 0.01), page.Case(("force", "torque"), 0.05, 1000.0)):
+        monkeypatch.setitem(page.CASES, "static_5kN", (case,))
+        assert page.digest_of(scene, [choice]) != kept
+
+
+def test_third_octaves_above_what_is_asked_for_do_not_count() -> None:
+    parts = tuple(Part(f"{band:g} Hz", 0.1 if band <= 1000 else 9.0, 0.0, 0.0) for band in NOMINAL_BANDS)
+    errors = (
+        QuantityError("torque", "%", (Part("mean", 0.2, 0.0, 0.0),)),
+        QuantityError("vibration", "dB", parts),
+    )
+    level: Any = None
+    row = LevelResult(level, 1, Cost(1.0, 1.0, 1.0), errors, (), "complete")
+    assert page.heard(row, None).verdict(("vibration",), 0.05) == "no"
+    assert page.heard(row, 1000.0).verdict(("vibration",), 0.05) == "yes"
+    assert page.heard(row, 1250.0).verdict(("vibration",), 0.05) == "no"
+    assert page.heard(row, 1000.0).of("torque") == errors[0]
 
 
 def test_what_is_kept_is_not_run_again_and_an_open_case_is_run_longer(

@@ -162,7 +162,7 @@ def _effects(chance: Chance, kernel: Kernel, bearing: str) -> dict[str, Any]:
         found["structure"] = {"kind": "rings"}
     if kernel.effects == "box":
         found["structure"] = {"kind": "modes", "table": BOXES[bearing]}
-    if kernel.tier == "full" and chance.random() < 0.2:
+    if chance.random() < 0.2:
         found["thermal"] = draw(Thermal, chance, {})
     return found
 
