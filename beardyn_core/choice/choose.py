@@ -263,7 +263,7 @@ def _choice_of(
     """Put together the choice with its reasons, cost and expected errors."""
     members = {name: value for option in taken for name, value in option.members.items()}
     effects = replace(scene.effects, **members)
-    if effects.thermal is not None:
+    if effects.thermal is not None and stage.tier == "full":
         effects = replace(effects, audit=effects.audit or Audit())
     costs = evidence.costs
     parts = [

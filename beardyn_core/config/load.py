@@ -293,7 +293,9 @@ class _Reading:
         if tier in TIER_NAMES and effects is not None and numerics is not None:
             has_rib = effects.rib is not None
             bends = "" if effects.structure is None else effects.structure.kind
-            found = contradictions(tier, has_rib, numerics.laminae, numerics.steps_per_sample, bends)
+            unaudited = bool(effects.thermal) and effects.audit is None and "audit" not in free.effects
+            steps = numerics.steps_per_sample
+            found = contradictions(tier, has_rib, numerics.laminae, steps, bends, unaudited)
             if "structure" in free.effects:
                 hint = "; effects that nobody names are chosen: name some without structure, such as dry"
                 found = [f"{each}{hint}" if "structure" in each else each for each in found]

@@ -48,13 +48,13 @@ class EffectSet:
     seal: A[Seal | None, At(switch=True), "friction of the seals"] = None
     structure: A[Structure | None, At(switch=True), "bending of the axlebox with the cup in it"] = None
     gravity: A[Gravity | None, At(switch=True), "weight of rollers, cages and axlebox"] = Gravity()
-    thermal: A[Thermal | None, At(switch=True), "slow warming of the parts; needs the audit"] = None
+    thermal: A[Thermal | None, At(switch=True), "slow warming of the parts; needs the audit in tier full"] = (
+        None
+    )
     audit: A[Audit | None, At(switch=True), "energy balance kept while the model runs"] = Audit()
 
     def rules(self) -> Iterator[str]:
         """Check the effects against each other."""
-        if self.thermal and self.audit is None:
-            yield "thermal needs the audit, which tells what each source loses: set audit to true"
         if self.film and self.drag and self.film.million_revolutions != self.drag.million_revolutions:
             yield "million_revolutions of film and drag differ; it is one grease, give both the same"
 

@@ -86,14 +86,27 @@ def long_steps(tier: str, bends: str) -> tuple[float, ...]:
 
 
 def contradictions(
-    tier: str, has_rib: bool, laminae: int, steps_per_sample: float = 1, bends: str = ""
+    tier: str,
+    has_rib: bool,
+    laminae: int,
+    steps_per_sample: float = 1,
+    bends: str = "",
+    unaudited_heat: bool = False,
 ) -> list[str]:
-    """List the reasons why a tier cannot run a scene, with what is allowed; ``bends``: kind of structure."""
+    """List the reasons why a tier cannot run a scene, with what is allowed.
+
+    ``bends``: kind of structure; ``unaudited_heat``: whether the effect thermal has no energy audit.
+    """
     limits, found = TIERS[tier], []
     if limits.needs_rib and not has_rib:
         found.append(
             f"{tier!r} needs effects.rib, which is absent: nothing else holds its rollers axially; switch "
             "effects.rib on (friction 0 leaves a frictionless rib) or take the tier 'full'"
+        )
+    if unaudited_heat and not missing_effects(tier, ("audit",)):
+        found.append(
+            f"{tier!r} warms by what effects.audit finds, which is absent: effects.thermal needs the audit; "
+            "set audit to true, or take a fast tier"
         )
     if laminae < limits.smallest_laminae:
         found.append(

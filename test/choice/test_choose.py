@@ -20,6 +20,7 @@ from beardyn_core.effects import (
     RotatingCage,
 )
 from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.tier import TIERS
 from test.choice.scenes import HELD, SPALL, constant, reasons, variant
 from test.examples import fast_ones
 
@@ -258,10 +259,13 @@ def test_a_standing_shaft_has_no_torque_to_resolve() -> None:
     assert scene.tier == "lumped"
 
 
-def test_an_hour_of_running_warms_the_oil() -> None:
-    scene = variant(duration_s=3600.0, quantities=["torque"], temperature_C=30)
+@pytest.mark.parametrize("tier", TIERS)
+def test_an_hour_of_running_warms_the_oil(tier: str) -> None:
+    """By the audit, where a tier has one."""
+    scene = variant(duration_s=3600.0, quantities=["torque"], temperature_C=30, tier=tier)
     assert scene.effects.thermal is not None
-    assert scene.effects.audit is not None
+    assert (scene.effects.audit is not None) == (tier == "full")
+    assert not {"thermal", "audit"} & set(scene.missing_effects)
     assert has_number(reasons(scene)["thermal"])
 
 

@@ -87,6 +87,14 @@ def test_thermal_without_the_audit_is_refused() -> None:
         scene_from_text(text)
 
 
+def test_a_fast_tier_needs_no_audit_to_warm() -> None:
+    text = scene_text(load_scene("static_80kN")).replace("audit: {}", "audit: false\n  thermal: true")
+    scene = scene_from_text(text.replace("tier: full", "tier: lumped"))
+    assert scene.tier == "lumped"
+    assert scene.effects.thermal is not None
+    assert not {"thermal", "audit"} & set(scene.missing_effects)
+
+
 def random_network(seed: int) -> ThermalNetwork:
     rng = np.random.default_rng(seed)
     between = rng.uniform(0.0, 50.0, (6, 6))
