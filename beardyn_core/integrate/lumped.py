@@ -21,7 +21,7 @@ from beardyn_core.integrate.kinematic_step import (
 )
 from beardyn_core.jit import entry
 from beardyn_core.kernels.kinematic_bending import show_openings, turn_reaction
-from beardyn_core.kernels.kinematic_rings import hold_stiffness
+from beardyn_core.kernels.kinematic_rings import add_sliding, hold_sliding, hold_stiffness
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, keep_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
@@ -72,8 +72,10 @@ def advance_lumped(lanes, state, work, loads, output, p):
             losses = held_losses(sums, speeds, rib, p)
             keep_losses(energy, sums, speeds, 0.0, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
+            hold_sliding(sums, direction, speeds, response, p, p.slide)
             tilting = tilt_stiffness(sums, direction)
         wrench = add_tilt(wrench, tilting, motion, p.base.effects.damping)
+        wrench = add_sliding(wrench, motion, response, p.slide)
         finish_step(
             lanes, bodies, flex, axle, Drive(wrench, rib, losses, None), wrenches, box, loads[step],
             loads[step + 1], signals[step], energy, response, p,

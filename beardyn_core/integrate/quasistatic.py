@@ -25,7 +25,14 @@ from beardyn_core.kernels.kinematic_bending import (
     show_openings,
     turn_reaction,
 )
-from beardyn_core.kernels.kinematic_rings import add_stiffness, hold_stiffness, store_stiffness
+from beardyn_core.kernels.kinematic_rings import (
+    add_sliding,
+    add_stiffness,
+    hold_sliding,
+    hold_stiffness,
+    store_loads,
+    store_stiffness,
+)
 from beardyn_core.kernels.kinematic_rollers import (
     KEPT_ABOUT_COSINE,
     KEPT_ABOUT_SINE,
@@ -126,6 +133,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     kept, bent = (zero, zero, zero), (zero, zero)
     rib_sum, rolling, pocket, sliding = zero, zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
+    pressing = stiff
     clear_reaction(lanes, sums, p.bending)
     clear_cages(lanes, sums, p.loose)
     for block in range(rollers.shape[0]):
@@ -206,6 +214,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
+            pressing = add_stiffness(pressing, counted * cup[0], pocket_cosine, pocket_sine)
             keep_tangent(lanes, block, tangent, p.bending)
         if shown:
             orbit = lanes.load(rollers, block, layout.ANGLE)
@@ -224,6 +233,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
         store_stiffness(lanes, sums, stiff)
+        store_loads(lanes, sums, pressing, p.slide)
 
 
 @inline
@@ -279,9 +289,10 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         due, shown = step % stride == 0, (step + 1) % stride == 0
         move_loose(rollers, bodies, p.step, p.kinematic, loose)
         shake = cup_acceleration(bodies, p.motion.rate)
+        motion = relative_cone(bodies)
         cages = see_cages(lanes, bodies, lanes.load(p.sides, 0, 0), loose)
         balance_rollers(
-            lanes, rollers, sums[0], relative_cone(bodies), shake, direction, cages, turns, speeds, due,
+            lanes, rollers, sums[0], motion, shake, direction, cages, turns, speeds, due,
             shown, p,
         )  # fmt: skip
         turn_reaction(sums, direction, bending)
@@ -301,6 +312,8 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             losses = (losses[0] + rubbing, losses[1])
             keep_losses(energy, sums, speeds, rubbing, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
+            hold_sliding(sums, direction, speeds, response, p, p.slide)
+        wrench = add_sliding(wrench, motion, response, p.slide)
         before, rates = cup_velocity(bodies), cage_rates(bodies, loose)
         finish_step(
             lanes, bodies, flex, axle, Drive(wrench, rib, losses, kept), wrenches, box, loads[step],

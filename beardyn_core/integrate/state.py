@@ -44,7 +44,7 @@ class WorkSpace(NamedTuple):
     wrenches: Any  # float64 [2 + row, 6]
     box: Any  # float64 [BOX_FIELDS]
     bend: BendSpace
-    response: Any  # float64 [3, 5, 5], matrices of `kernels.kinematic_rings`
+    response: Any  # float64 [4, 5, 5], matrices of `kernels.kinematic_rings`
 
 
 class Output(NamedTuple):
@@ -73,5 +73,5 @@ def work_space(arrangement: Arrangement, structure: StructureParams | None = Non
             np.zeros(modes),
             np.zeros(0 if structure is None else len(structure.seats)),
         ),
-        np.zeros((3, 5, 5)),
+        np.zeros((4, 5, 5)),
     )

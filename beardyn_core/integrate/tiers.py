@@ -69,6 +69,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         faults=tier_parameters.patches_or_none(base.effects.faults),
         waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
         bending=bending_params(scene, base, response.give, response.lever, sides),
+        slide=tier_parameters.slide_params(scene),
     )
 
 
@@ -92,6 +93,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         loose=tier_parameters.loose_params(scene, base.step),
+        slide=tier_parameters.slide_params(scene),
     )
 
 

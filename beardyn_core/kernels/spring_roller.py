@@ -13,7 +13,7 @@ from beardyn_core.kernels.kinematic_bending import (
     keep_tangent,
     less_opening,
 )
-from beardyn_core.kernels.kinematic_rings import add_stiffness, store_stiffness
+from beardyn_core.kernels.kinematic_rings import add_stiffness, store_loads, store_stiffness
 from beardyn_core.kernels.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -230,6 +230,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
     rolling, pocket, sliding = zero, zero, zero
     stiff, lengths = (zero, zero, zero, zero, zero, zero), (zero, zero, zero)
+    pressing = stiff
     tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
     for block in range(blocks):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
@@ -247,6 +248,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
+        pressing = add_stiffness(pressing, counted * load, cosine, sine)
         keep_tangent(lanes, block, tangent, p.bending)
         pressed, tilted = at_least(load - idle, 0.0), tilt[0] * cosine + tilt[1] * sine
         lengths = add_length(lengths, counted * pressed, approach, tilted, cosine, sine, p.spring.reach)
@@ -254,6 +256,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     lanes.store(sums, 0, TORQUE_POCKET, pocket)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
+    store_loads(lanes, sums, pressing, p.slide)
     store_vector(lanes, sums, 0, _LENGTH_CC, lengths)
 
 

@@ -111,6 +111,14 @@ class LooseParams(NamedTuple):
     rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
 
 
+class SlideParams(NamedTuple):
+    """Creep of the rollers along the cup, see `kernels.kinematic_rings.hold_sliding`."""
+
+    grip: float  # force over load, and over slip per rolling speed
+    slowest: float  # rolling speed below which it stays the same [m/s]
+    lever: float  # arm of the cup's line of contact about the bearing centre [m]
+
+
 class LumpedParameters(NamedTuple):
     """Everything constant during a lumped run; `faults` is ``None`` in a bearing without patches."""
 
@@ -125,6 +133,7 @@ class LumpedParameters(NamedTuple):
     faults: FaultParams | None
     waves: RollingWaveParams | None
     bending: BendingParams | None
+    slide: SlideParams | None  # ``None``: without film and friction of the raceways
 
 
 class QuasistaticParameters(NamedTuple):
@@ -141,6 +150,7 @@ class QuasistaticParameters(NamedTuple):
     highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
     bending: BendingParams | None
     loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
+    slide: SlideParams | None  # ``None``: without film and friction of the raceways
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:
@@ -241,6 +251,15 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
     )
 
 
+def slide_params(scene: Scene) -> SlideParams | None:
+    """Work out the creep along the cup; none in a bearing without film and friction of its raceways."""
+    if scene.effects.film is None and scene.effects.traction is None:
+        return None
+    angle = scene.bearing.cup_angle
+    radial, axial = _place_on_cup(scene.bearing)
+    return SlideParams(_LIMITING_SHEAR / _SLIDE, _SLOWEST, axial * math.sin(angle) - radial * math.cos(angle))
+
+
 def _pocket_params(scene: Scene) -> PocketParams | None:
     """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
     cage, bearing = scene.effects.cage, scene.bearing
@@ -327,7 +346,12 @@ def roller_tangent(bearing: Bearing) -> float:
 
 def lever_of_cup(bearing: Bearing) -> float:
     """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
+    radial, axial = _place_on_cup(bearing)
+    return axial * math.cos(bearing.cup_angle) + radial * math.sin(bearing.cup_angle)
+
+
+def _place_on_cup(bearing: Bearing) -> tuple[float, float]:
+    """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
     angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
     apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
-    axial, radial = apex + distance * math.cos(angle), distance * math.sin(angle)
-    return axial * math.cos(angle) + radial * math.sin(angle)
+    return distance * math.sin(angle), apex + distance * math.cos(angle)
