@@ -146,7 +146,7 @@ def main(words: Sequence[str]) -> int:
     if words[0] == "car_twin":
         from beardyn_ros import car_twin
 
-        car_twin.box_rig = lambda _train, _box: lambda *_: fake_rig("fake", "")
+        car_twin.box_rig = lambda train, box: lambda *_: fake_rig("fake", "")
         return car_twin.main(words[1:])
     from beardyn_ros.twin_node import main as twin_main
 

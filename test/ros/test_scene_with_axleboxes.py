@@ -49,7 +49,7 @@ def test_a_twin_or_a_load_of_one_box_says_what_to_start_instead() -> None:
 
 
 def test_refusals_end_the_nodes_with_2_and_a_sentence(graph: Graph) -> None:
-    told = {
+    told: dict[str, tuple[dict[str, Any], str]] = {
         "twin": ({}, "car.launch.py scene:=bogie"),
         "load": ({}, "car.launch.py scene:=bogie"),
         "car_twin": (
