@@ -18,7 +18,7 @@ from beardyn_core.errors import InputError
 from beardyn_core.rail.train import TrainLoads
 from beardyn_core.record.bag_scanning import scan_recording
 from beardyn_core.record.mcap_scanning import END_RECORD
-from beardyn_core.record.messages import Diagnostic, encode_diagnostics
+from beardyn_core.record.messages import Diagnostic, decode_string, encode_diagnostics
 from beardyn_core.record.reading import read_run
 from beardyn_core.scene.axleboxes import Axleboxes
 from test.ros.graph import Graph
@@ -203,9 +203,15 @@ def test_a_launch_of_a_bogie_has_its_boxes_in_one_process_and_one_file(graph: Gr
 
 
 def test_a_launch_takes_some_of_the_boxes_and_refuses_what_the_scene_says(graph: Graph) -> None:
-    car = Scene(graph, ("axle_2_left",), "scene:=bogie", "duration:=0.2")
+    text = Path("config/scenes/bogie.yaml").read_text(encoding="utf-8")
+    mine = graph.folder / "mine.yaml"
+    mine.write_text(text.replace("axle_distance_m: 2.5", "axle_distance_m: 2.0"), encoding="utf-8")
+    car = Scene(graph, ("axle_2_left",), f"scene:={mine}", "duration:=0.2")
     car.end()
-    assert tuple(read_run(graph.folder / "car.mcap").boxes) == ("car/axle_2_left",)
+    path = graph.folder / "car.mcap"
+    assert tuple(read_run(path).boxes) == ("car/axle_2_left",)
+    truth = [each.cdr for each in scan_recording(path).messages() if each.topic.endswith("/load/truth")]
+    assert json.loads(decode_string(truth[-1]))["box"]["behind_first_wheel_m"] == 2.0
     graph.processes.start(
         "refused", "-m", "test.ros.launch_stand_in", str(graph.folder), "car.launch.py",
         "scene:=bogie", "faulty_box:=axle_1_left", "axle_distance:=2.0",
