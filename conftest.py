@@ -33,6 +33,7 @@ LONG_FILES = (
     "test/ros/test_wall_time.py",
     "test/cli/test_interrupts.py",
     "test/ros/test_car.py",
+    "test/ros/test_scene_with_axleboxes.py",
     "test/ros/test_load_control.py",
     "test/browser/test_web_viewer.py",
     "test/ros/test_bag_replay.py",

@@ -32,6 +32,7 @@ live_load             load of one moment as the messages of the live mode
 load_node             replays an operation or a CSV as stamped load blocks, within the credit
 load_intake           topics that carry load, decoded for the twin or refused
 load_feed             load for the twin's thread: waiting, age, knowing pauses
+one_box               a scene with several axleboxes, where a node is of one: what to start instead
 run_state             options of a session, the messages it hands over, its report
 session               the twin in its own thread: compile, wait for load, advance, pace
 pacer                 when a block is due on the wall clock
@@ -41,17 +42,18 @@ simulation_services   the services of simulation_interfaces, where it is install
 twin_report           what the twin says about its runs, the one that a reset has left too
 twin_node             the lifecycle node around a session: topics, services, diagnostics
 twin_watch            is the twin there, has it ended, how
+shared_file           one file for the runs of several axleboxes
 recording             messages into files, one a run, with proof of what was lost
 recorder_node         every topic into a crash-safe MCAP file
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
 follower_node         load, end play and spall from vibration and shaft, as they change
 viewer_node           live view in rerun
-car                   the axleboxes of a car by name and place; one process for the nodes of all
+car                   the axleboxes of a scene or a car by name and place; one process for the nodes of all
 car_scenario          one scenario as the loads of all boxes, each wheel over the same track later
 car_twin              the twins of all boxes in one process
-car_load              feeds every box of a car, all in step
-car_recorder          records every box of a car, a file each
+car_load              feeds every box, all in step
+car_recorder          records every box: one file for those of a scene, else a file each
 diagnostics           reports as diagnostic_msgs
 launching             lets a launch end with a failure when a node has failed
 processes             child processes that never outlive their parent

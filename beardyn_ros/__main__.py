@@ -17,9 +17,12 @@ PROGRAMS = {
     "viewer": ("viewer_node", "live view in rerun"),
     "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
     "follower": ("follower_node", "load, end play and spall from vibration and shaft, with a twin beside"),
-    "car_twin": ("car_twin", "the twins of all axleboxes of a car in one process"),
-    "car_load": ("car_load", "the load of every axlebox of a car from one scenario, all in step"),
-    "car_recorder": ("car_recorder", "record every axlebox of a car, a file each"),
+    "car_twin": ("car_twin", "the twins of all axleboxes of a scene, or of a car, in one process"),
+    "car_load": ("car_load", "the load of each of these axleboxes from one scenario, all in step"),
+    "car_recorder": (
+        "car_recorder",
+        "record each of these axleboxes: one file for those of a scene, else a file each",
+    ),
     "demo": ("demo", "all of them as separate processes on one scene"),
 }
 

@@ -1,78 +1,152 @@
-"""The eight axleboxes of a car: their names, where they sit, and one process for the nodes of all.
+"""The axleboxes of a scene, or the eight of a car: names, where they sit, one process for the nodes of all.
 
-A car has two bogies of two axles. Axle 1 leads; a box is called ``axle_<n>_<side>``.
+A scene says with ``axleboxes`` which there are; where it does not, they are those of a car of two bogies.
+Axle 1 leads; a box is called ``axle_<n>_<side>``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from re import fullmatch
 from typing import Any
 
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from beardyn_core.errors import InputError
-from beardyn_core.scene.axleboxes import Axleboxes, Box
-from beardyn_ros.parameters import NodeParameter
+from beardyn_core.scene.axleboxes import AXLES_OF_A_CAR, Axleboxes, Box
+from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.run_state import Rig, scene_rig
 from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE
 
-EIGHT_BOXES = tuple(box.name for box in Axleboxes(axles=4).boxes)
+CAR = Axleboxes(axles=AXLES_OF_A_CAR)
+EIGHT_BOXES = tuple(box.name for box in CAR.boxes)
 NAMESPACE = "car"
+MOST_TOLD = 8
+HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
 
 BOXES = NodeParameter(
     "boxes",
-    " ".join(EIGHT_BOXES),
-    "axleboxes, each a namespace below that of this node: axle_<1 to 4>_<left or right>, axle 1 leads",
+    "",
+    "some of the axleboxes, each a namespace below that of this node: axle_<number>_<left or right>, axle 1 "
+    "leads; '': all that the axleboxes of the scene say, or all eight of a car",
 )
 
 
-def boxes_named(text: str) -> tuple[Box, ...]:
-    """Read the parameter ``boxes``: names with blanks or commas in between.
+def axleboxes_of(scene: str) -> Axleboxes | None:
+    """Read which axleboxes a scene has, given by name or path; ``None`` for one that is of one box."""
+    from beardyn_core.config import read_scene
+
+    return read_scene(scene).scene.axleboxes
+
+
+def train_of(values: ParameterValues, said: Mapping[str, str]) -> Axleboxes | None:
+    """Read which axleboxes the scene of a node has; ``None``: it has one, and parameters make it a car.
+
+    Parameters
+    ----------
+    values : ParameterValues
+        With ``scene``.
+    said : mapping
+        Parameters of a car, each with the key of ``axleboxes`` that says the same.
+
+    Raises
+    ------
+    InputError
+        With every one of these that is given although the scene says it.
+    """
+    train = axleboxes_of(values.scene)
+    if train is not None and (given := [name for name in said if values.given(name)]):
+        raise InputError(
+            [
+                f"parameter '{name}': scene '{values.scene}' says it, axleboxes.{said[name]}; leave the "
+                "parameter out, or change the scene"
+                for name in given
+            ]
+        )
+    return train
+
+
+def boxes_named(text: str, train: Axleboxes = CAR, parameter: str = "boxes") -> tuple[Box, ...]:
+    """Read a parameter of boxes: names with blanks or commas in between; all boxes where it has none.
 
     Raises
     ------
     InputError
         With every name that is none, or comes twice.
     """
+    known = {box.name: box for box in train.boxes}
     names = text.replace(",", " ").split()
-    problems = [] if names else ["parameter 'boxes' is empty; name one box at least, such as axle_1_left"]
-    boxes: list[Box] = []
-    for name in names:
-        found = fullmatch(r"axle_([1-4])_(left|right)", name)
-        if found is None:
-            problems.append(
-                f"parameter 'boxes': '{name}' is no axlebox of a car; allowed are {', '.join(EIGHT_BOXES)}"
-            )
-        elif names.count(name) > 1 and name in [box.name for box in boxes]:
-            problems.append(f"parameter 'boxes': '{name}' comes twice")
-        else:
-            boxes.append(Box(name, int(found[1]), found[2]))
+    allowed = list(known) if len(known) <= MOST_TOLD else [f"{next(iter(known))} to {list(known)[-1]}"]
+    problems = [
+        f"parameter '{parameter}': '{name}' is none of the axleboxes; allowed are {', '.join(allowed)}"
+        for name in names
+        if name not in known
+    ]
+    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1 and name in known]
+    problems += [f"parameter '{parameter}': '{name}' comes twice" for name in twice]
     if problems:
         raise InputError(problems)
-    return tuple(boxes)
+    return tuple(known[name] for name in names or known)
 
 
-def box_rig(car: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
+def place_of(train: Axleboxes, box: Box) -> str:
+    """Write where a box is, for the parameter ``pose_in_parent``, [m].
+
+    x goes forwards from the middle of the first car, y left, z up from the top of the rail.
+    """
+    last = max((each for each in train.boxes if each.axle <= AXLES_OF_A_CAR), key=train.behind)
+    x = 0.5 * train.behind(last) - train.behind(box)
+    return f"{x:g} {HALF_AXLE_M if box.side == 'left' else -HALF_AXLE_M:g} {AXLE_HEIGHT_M:g} 0 0 0"
+
+
+def box_rig(train: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
     """Make the loader of the rig of one box, see `TwinNode`."""
     from beardyn_core.config.boxes import scene_of_box
 
+    place = {
+        "name": box.name,
+        "axle": box.axle,
+        "side": box.side,
+        "behind_first_wheel_m": train.behind(box),
+    }
+
     def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        return scene_rig(scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=car), box))
+        build = scene_rig(
+            scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=train), box)
+        )
+
+        def build_box() -> Rig:
+            rig = build()
+            truth = {**rig.description.truth, "box": place}
+            description = replace(rig.description, truth=truth)
+            return replace(rig, description=description, pictures=train.pictures)
+
+        return build_box
 
     return load
 
 
 def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of a box whose twin has a process of its own: with the scene's defects."""
-    (box,) = boxes_named(name)
-    return box_rig(Axleboxes(axles=4, faulty=(name,)), box)
+    """Make the loader of the rig of a box whose twin has a process of its own.
+
+    It is as the scene's axleboxes say; where the scene has none, a box of a car with the scene's defects.
+    """
+
+    def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
+        train = axleboxes_of(scene) or replace(CAR, faulty=(name,))
+        boxes = boxes_named(name, train, "box")
+        if len(boxes) > 1:
+            raise InputError(
+                f"parameter 'box': '{name}' is not one box; node car_twin has the twins of several"
+            )
+        return box_rig(train, boxes[0])(scene, tier, effects)
+
+    return load
 
 
 class NodeGroup(Node):
-    """A node with a member of its own kind for every box of a car, all in one process.
+    """A node with a member of its own kind for every box, all in one process.
 
     Parameters
     ----------

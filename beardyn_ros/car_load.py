@@ -1,4 +1,4 @@
-"""The load of every box of a car from one process, all in step.
+"""The load of every axlebox of a scene, or of a car, from one process, all in step.
 
 A member is a load node in the namespace of its box, with all its topics, services and live parameters.
 Nobody is sent load further ahead than the horizon of the slowest twin: eight twins stay together within it.
@@ -7,13 +7,14 @@ Nobody is sent load further ahead than the horizon of the slowest twin: eight tw
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from std_srvs.srv import SetBool
 
 from beardyn_core.errors import InputError
 from beardyn_core.scene.axleboxes import Axleboxes, Box
-from beardyn_ros.car import BOXES, NodeGroup, boxes_named
+from beardyn_ros.car import BOXES, CAR, NodeGroup, boxes_named, train_of
 from beardyn_ros.car_scenario import CarScenario
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.load_node import LoadNode
@@ -23,19 +24,38 @@ from beardyn_ros.runtime import run_node
 
 QUICK_S = 0.02
 
-CAR_PARAMETERS = (
-    BOXES,
-    NodeParameter("axle_distance", 2.5, "between the axles of a bogie", "m", minimum=0.0, maximum=5.0),
+OF_A_CAR = (
     NodeParameter(
-        "bogie_distance", 17.5, "between the centres of the bogies", "m", minimum=0.0, maximum=30.0
+        "axle_distance",
+        CAR.axle_distance,
+        "between the axles of a bogie; of a scene with axleboxes it is theirs",
+        "m",
+        minimum=0.0,
+        maximum=5.0,
     ),
     NodeParameter(
-        "wheel_defects_on", "axle_1_left", "box whose wheel has the defects of the scene's wheel; '' for none"
+        "bogie_distance",
+        CAR.bogie_distance,
+        "between the centres of the bogies; of a scene with axleboxes it is theirs",
+        "m",
+        minimum=0.0,
+        maximum=30.0,
+    ),
+    NodeParameter(
+        "wheel_defects_on",
+        "axle_1_left",
+        "box whose wheel has the defects of the scene's wheel; '' for none; of a scene with axleboxes: the "
+        "faulty ones",
     ),
 )
+SAID_BY_AXLEBOXES = {
+    "axle_distance": "axle_distance_m",
+    "bogie_distance": "bogie_distance_m",
+    "wheel_defects_on": "faulty",
+}
 # every box has the frame of its own namespace
 BOX_PARAMETERS = tuple(each for each in LOAD_PARAMETERS if each.name != FRAME_ID.name)
-PARAMETERS = (*CAR_PARAMETERS, *BOX_PARAMETERS)
+PARAMETERS = (BOXES, *OF_A_CAR, *BOX_PARAMETERS)
 
 
 class BoxLoadNode(LoadNode):
@@ -53,25 +73,14 @@ class BoxLoadNode(LoadNode):
 
 
 class CarLoadNode(NodeGroup):
-    """Feeds the twins of all boxes of a car with one scenario."""
+    """Feeds the twins of all boxes with one scenario."""
 
     def __init__(self) -> None:
         super().__init__("load")
         values = ParameterValues(self, PARAMETERS)
-        boxes = boxes_named(values.boxes)
-        names = [box.name for box in boxes]
-        if values.wheel_defects_on and values.wheel_defects_on not in names:
-            raise InputError(
-                f"node load: wheel_defects_on '{values.wheel_defects_on}' is none of the boxes "
-                f"{', '.join(names)}"
-            )
-        car = Axleboxes(
-            axles=4,
-            axle_distance=values.axle_distance,
-            bogie_distance=values.bogie_distance,
-            faulty=(values.wheel_defects_on,) if values.wheel_defects_on else (),
-        )
-        scenario = CarScenario(boxes, car, values.scene, values.csv, values.duration)
+        train = train_of(values, SAID_BY_AXLEBOXES)
+        boxes = boxes_named(values.boxes, train or CAR)
+        scenario = CarScenario(boxes, train or _car(values, boxes), values.scene, values.csv, values.duration)
         given = {parameter.name: getattr(values, parameter.name) for parameter in BOX_PARAMETERS}
         self.members = [BoxLoadNode(scenario, box, **self.of_member(box, given)) for box in boxes]
         for member in self.members:
@@ -82,6 +91,21 @@ class CarLoadNode(NodeGroup):
         for member in self.members:
             response = member._on_pause(request, response)
         return response
+
+
+def _car(values: ParameterValues, boxes: Sequence[Box]) -> Axleboxes:
+    """Make the car that the parameters say, for a scene that has one axlebox."""
+    names = [box.name for box in boxes]
+    if values.wheel_defects_on and values.wheel_defects_on not in names:
+        raise InputError(
+            f"node load: wheel_defects_on '{values.wheel_defects_on}' is none of the boxes {', '.join(names)}"
+        )
+    return replace(
+        CAR,
+        axle_distance=values.axle_distance,
+        bogie_distance=values.bogie_distance,
+        faulty=(values.wheel_defects_on,) if values.wheel_defects_on else (),
+    )
 
 
 def main(argv: Sequence[str]) -> int:

@@ -1,4 +1,4 @@
-"""One recorder process for all boxes of a car: a crash-safe file for each box."""
+"""One recorder process for all axleboxes: one crash-safe file for those of a scene, one a box for a car."""
 
 from __future__ import annotations
 
@@ -7,13 +7,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from beardyn_core.errors import InputError
-from beardyn_ros.car import BOXES, NodeGroup, boxes_named
-from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.car import BOXES, CAR, NodeGroup, axleboxes_of, boxes_named
+from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recorder_node import PARAMETERS as RECORDER_PARAMETERS
 from beardyn_ros.recorder_node import RecorderNode
 from beardyn_ros.runtime import run_node
+from beardyn_ros.shared_file import SharedFiles
 
-PARAMETERS = (BOXES, *RECORDER_PARAMETERS)
+PARAMETERS = (
+    BOXES,
+    NodeParameter(
+        "scene",
+        "",
+        "scene of the boxes: one with axleboxes is recorded into one file, each box under its namespace, or, "
+        "with max_file_size or max_file_duration, a folder each; '' or another scene: a file each",
+    ),
+    *RECORDER_PARAMETERS,
+)
 
 
 def file_of(output: str, box: str) -> str:
@@ -23,22 +33,35 @@ def file_of(output: str, box: str) -> str:
 
 
 class CarRecorderNode(NodeGroup):
-    """Records every box of a car, each into a file of its own."""
+    """Records every box."""
 
     def __init__(self) -> None:
         super().__init__("recorder")
         values = ParameterValues(self, PARAMETERS)
         given = {parameter.name: getattr(values, parameter.name) for parameter in RECORDER_PARAMETERS}
+        train = axleboxes_of(values.scene) if values.scene else None
+        boxes = boxes_named(values.boxes, train or CAR)
+        self._shared: SharedFiles | None = None
+        if train is not None and not (values.max_file_size or values.max_file_duration):
+            spaces = [str(self.of_member(box, {})["namespace"]) for box in boxes]
+            self._shared = SharedFiles(spaces, replace=values.replace)
         members, problems = [], []
-        for box in boxes_named(values.boxes):
-            own = {**given, "output": file_of(values.output, box.name)}
+        for box in boxes:
+            own = given if self._shared else {**given, "output": file_of(values.output, box.name)}
             try:
-                members.append(RecorderNode(**self.of_member(box, own)))
+                members.append(RecorderNode(self._shared, **self.of_member(box, own)))
             except InputError as error:
                 problems += error.problems
         if problems:
-            raise InputError(problems)
+            raise InputError(list(dict.fromkeys(problems)))
         self.members = members
+
+    def close(self) -> bool:
+        """Close every member, then the file that they share."""
+        alive = super().close()
+        if self._shared is not None:
+            self._shared.close()
+        return alive
 
 
 def main(argv: Sequence[str]) -> int:

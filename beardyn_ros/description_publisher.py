@@ -30,11 +30,13 @@ LATCHED = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
+PARENT = NodeParameter(
+    "parent_frame", "", "frame that the axlebox stands in, a vehicle's for one; empty: in none"
+)
+POSE = NodeParameter("pose_in_parent", "", "place there: x y z roll pitch yaw, m and rad; empty: the origin")
 DESCRIPTION_PARAMETERS = (
-    NodeParameter(
-        "parent_frame", "", "frame that the axlebox stands in, a vehicle's for one; empty: in none"
-    ),
-    NodeParameter("pose_in_parent", "", "place there: x y z roll pitch yaw, m and rad; empty: the origin"),
+    PARENT,
+    POSE,
     NodeParameter(
         "joint_tf",
         False,

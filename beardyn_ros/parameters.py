@@ -132,6 +132,10 @@ class ParameterValues:
             node.declare_parameter(parameter.name, parameter.default, _descriptor(parameter))
         node.add_on_set_parameters_callback(self._check_live_change)
 
+    def given(self, name: str) -> bool:
+        """Tell whether a parameter was given to the node at its start."""
+        return name in self._node._parameter_overrides
+
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in self._table:
             raise AttributeError(name)

@@ -21,6 +21,7 @@ from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, RunFile, free_name, is_recorded
 from beardyn_ros.run_state import END_STATES, LEFT
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
+from beardyn_ros.shared_file import SharedFiles
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -81,12 +82,15 @@ class RecorderNode(Node):
 
     Parameters
     ----------
+    shared : SharedFiles, optional
+        Files that it shares with the recorders of other boxes, in place of its own.
     **of_node
         Passed on to the node: another namespace, parameters.
     """
 
-    def __init__(self, **of_node: Any) -> None:
+    def __init__(self, shared: SharedFiles | None = None, **of_node: Any) -> None:
         super().__init__("recorder", **{"namespace": "axlebox", **of_node})
+        self._shared = shared
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS)
@@ -94,8 +98,13 @@ class RecorderNode(Node):
             round(self._values.max_file_size * 1e6), round(self._values.max_file_duration * 1e9)
         )
         self._check_output()
+        space = self.get_namespace()
         self._recording = Recording(
-            self._path_of, self.get_namespace(), replace=self._values.replace, splitting=self._splitting
+            self._path_of,
+            space,
+            replace=self._values.replace,
+            splitting=self._splitting,
+            open_writer=None if shared is None else lambda path: shared.writer(path, space),
         )
         self._out = TopicPublishers(self, "/diagnostics")
         self._intake = RawIntake(self, polled=True)
@@ -143,6 +152,11 @@ class RecorderNode(Node):
         return path.with_suffix("") if self._splitting and path.suffix == ".mcap" else path
 
     def _path_of(self, scene: str, number: int) -> Path:
+        if self._shared is not None:
+            return self._shared.path_of(number, lambda: self._new_path(scene, number))
+        return self._new_path(scene, number)
+
+    def _new_path(self, scene: str, number: int) -> Path:
         if self._values.output:
             path = Path(self._values.output).expanduser()
         else:

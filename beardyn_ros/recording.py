@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 from beardyn_core.errors import InputError
@@ -18,7 +19,9 @@ from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_
 from beardyn_core.record.published import MissingMessages, missing_messages, published_counts
 from beardyn_core.record.topics import STRING, Topic
 from beardyn_ros.run_state import LEFT
+from beardyn_ros.shared_file import BoxWriter
 
+RunWriter = McapWriter | BagWriter | BoxWriter
 WHOLE = Splitting()
 MESSAGES_BEFORE_TRUTH = 20_000
 COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
@@ -69,7 +72,7 @@ class LossWatch:
 
 
 class RunFile:
-    """One run in one MCAP file, or in a folder of several.
+    """One run in one MCAP file, in a folder of several, or in a file that it shares.
 
     Parameters
     ----------
@@ -78,20 +81,11 @@ class RunFile:
     namespace : str
     truth : str or None
         Content of the topic; ``None`` when none has come.
-    replace : bool
-        Whether an existing file is replaced.
-    splitting : Splitting
+    writer : RunWriter
+        Of the file.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        namespace: str,
-        truth: str | None,
-        *,
-        replace: bool = False,
-        splitting: Splitting = WHOLE,
-    ) -> None:
+    def __init__(self, path: Path, namespace: str, truth: str | None, writer: RunWriter) -> None:
         self.path = path
         self._namespace = namespace
         self.run_id = ""
@@ -102,11 +96,7 @@ class RunFile:
         self.last_ns: dict[str, int] = {}
         self._parts: set[bytes] = set()  # whose temperature of the last stamp has come
         self._simulated_ns = 0
-        self._writer: McapWriter | BagWriter
-        if splitting:
-            self._writer = BagWriter(path, namespace, splitting, replace=replace, background=True)
-        else:
-            self._writer = McapWriter(path, namespace, replace=replace, background=True)
+        self._writer = writer
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
             return
@@ -177,6 +167,8 @@ class Recording:
     replace : bool
         Whether existing files are replaced.
     splitting : Splitting
+    open_writer : callable, optional
+        ``open_writer(path)`` opens what a run is written with, in place of a file of its own.
 
     Notes
     -----
@@ -192,10 +184,10 @@ class Recording:
         *,
         replace: bool = False,
         splitting: Splitting = WHOLE,
+        open_writer: Callable[[Path], RunWriter] | None = None,
     ) -> None:
         self._path_of = path_of
-        self._splitting = splitting
-        self._replace = replace
+        self._open_writer = open_writer or partial(own_file, namespace, replace, splitting)
         self._namespace = namespace
         self._early: list[tuple[Topic, bytes]] = []
         self._ahead: set[str] = set()
@@ -257,7 +249,7 @@ class Recording:
         if truth is not None:
             scene = str(parsed_truth(truth).get("scene", "run"))
         path = self._path_of(scene, len(self.paths) + 1)
-        self.current = RunFile(path, self._namespace, truth, replace=self._replace, splitting=self._splitting)
+        self.current = RunFile(path, self._namespace, truth, self._open_writer(path))
         self.paths.append(path)
         self._recorded.add(self.current.run_id)
         self.current.last_word = self._last_words.get(self.current.run_id)
@@ -337,6 +329,13 @@ class Recording:
     def lost_samples(self) -> int:
         """Of the present run."""
         return self.current.loss.total if self.current else 0
+
+
+def own_file(namespace: str, replace: bool, splitting: Splitting, path: Path) -> McapWriter | BagWriter:
+    """Open a file, or a folder where files are split, for one run of one box."""
+    if splitting:
+        return BagWriter(path, namespace, splitting, replace=replace, background=True)
+    return McapWriter(path, namespace, replace=replace, background=True)
 
 
 def free_name(path: Path, number: int) -> Path:

@@ -46,13 +46,20 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
         '' for the scene's operation.
     duration : float
         0 for the scene's own, or the whole CSV, [s].
+
+    Raises
+    ------
+    InputError
+        With every mistake in the scene, or it has several axleboxes.
     """
     from beardyn_core.config import read_scene
     from beardyn_core.rail.build import load_of_scene
     from beardyn_core.rail.measured import read_measurement
     from beardyn_core.scene.operation import MeasuredOperation
+    from beardyn_ros.one_box import check_one_box
 
     scene = read_scene(scene_name).scene  # of which only the load matters
+    check_one_box(scene, scene_name, "load node", "node car_load has the loads of all")
     length = duration or scene.duration
     if csv:
         path = Path(csv)

@@ -210,6 +210,7 @@ class TwinSession:
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
         self._encoder = BlockEncoder(description.roller_count, description.sensor_names, self.options.frame)
+        self._pictures = rig.pictures
         self._wait(lambda: self._active)
         run_id = f"{self.options.instance}-{self._run_count}"
         self._run_count += 1
@@ -267,7 +268,7 @@ class TwinSession:
     def _outgoing_of(self, block: Block, ordered: bool = False) -> tuple[Outgoing, Block]:
         messages, trends = [], []
         first_ns = int(block.trend_time_ns[0]) if len(block.trend_time_ns) else 0
-        for name, stamp_ns, cdr in self._encoder.encode(block):
+        for name, stamp_ns, cdr in self._encoder.encode(block, self._pictures):
             if name in TREND_TOPICS:
                 trends.append(((stamp_ns - first_ns) * 1e-9, name, cdr))
             else:

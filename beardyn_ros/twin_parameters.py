@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from beardyn_core.scene.tier import TIER_NAMES
-from beardyn_ros.car import EIGHT_BOXES
 from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter
@@ -12,9 +11,9 @@ from beardyn_ros.run_state import SCENE_OWN
 BOX = NodeParameter(
     "box",
     "",
-    "which axlebox of a car this is: a right one is mirrored, each has another bearing of the lot and other "
-    "noise; '': that of the scene, a left one",
-    choices=("", *EIGHT_BOXES),
+    "which of the scene's axleboxes this is, axle_<number>_<left or right>; of a scene without them, of the "
+    "four axles of a car: a right one is mirrored, each has another bearing of the lot and other noise; "
+    "'': the one box of the scene, a left one",
 )
 PARAMETERS = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),

@@ -128,27 +128,35 @@ A bag does not wait for credit: with `--rate` it may run ahead of the twin by `l
 """
 
 CAR = """
-## Eight boxes of a car
+## Several boxes
 
-`ros2 launch beardyn car.launch.py` starts a twin in each of `/car/axle_1_left` to `/car/axle_4_right`, with
-one load (`car_load`) and one recorder (`car_recorder`); `--show-args` lists its arguments. The twins are of
-tier `lumped` unless `tier:=` says otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of
-them a spall. Each is told its `box`: right ones are mirrored. The first twin publishes `/clock`.
+`ros2 launch beardyn car.launch.py scene:=bogie` runs the axleboxes that the scene says with
+[`axleboxes`](rail.md#several-axleboxes-at-once), as `beardyn simulate bogie` does: which there are, how far
+apart, which are faulty, with the same loads. `car_twin` has the twins of all in one process, `car_load`
+their loads, `car_recorder` records them into one file, each under its namespace: `beardyn report`, `monitor`
+and `view` take a box of it as `--box car/axle_2_left`. `boxes:="axle_1_left axle_1_right"` chooses some of
+them; what the scene says is no parameter then, and is refused as one. With `pictures: false` the twins
+publish no `bodies` and `contacts`. A `twin` or `load` node refuses such a scene; a twin that is told its
+`box` is that box of the scene.
 
-`car_twin` has the twins of all boxes in one process instead, each as `beardyn simulate` makes it of a scene
-with `axleboxes`: the right ones mirrored, every box another bearing of the lot, the defects of the scene in
-those of `faulty`. Beside it go `car_load` and `car_recorder`:
-`ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`.
+A scene without `axleboxes` is that of every box of a car: `ros2 launch beardyn car.launch.py` starts a twin
+in each of `/car/axle_1_left` to `/car/axle_4_right`, with one load (`car_load`) and one recorder
+(`car_recorder`); `--show-args` lists its arguments. The twins are of tier `lumped` unless `tier:=` says
+otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a spall. Each is told its
+`box`: right ones are mirrored. Every box has a file of its own, `car_<box>.mcap`. `car_twin` has these in
+one process, too, the defects of the scene in those of `faulty`; beside it go `car_load` and `car_recorder`:
+`ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`. The first
+twin publishes `/clock`.
 
 The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
 distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
 turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
-curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same left
-and right. Defects of the wheel are on one wheel, `wheel_defects_on`. All boxes have axes of the same
-directions, so that row 0, inboard on the left, is outboard on the right. `load/truth` of each box says how
-far behind it is. No box gets load further ahead than `horizon` of the slowest: they stay together, and the
-`/clock` of one is right for all. Each box has the topics and services of a load node of its own
-(`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
+curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same
+left and right. Defects of the wheel are on one wheel, `wheel_defects_on`, or on those of the faulty boxes.
+All boxes have axes of the same directions, so that row 0, inboard on the left, is outboard on the right.
+`load/truth` of each box says how far behind it is. No box gets load further ahead than `horizon` of the
+slowest: they stay together, and the `/clock` of one is right for all. Each box has the topics and services
+of a load node of its own (`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
 
 What ends first ends the others in order:
 

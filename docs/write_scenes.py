@@ -58,6 +58,9 @@ and roller are dotted.
 Bearings of the railway scenes are as made, grade G1 of
 [manufacturing scatter](model.md#manufacturing-scatter); those under a constant load are as drawn.
 
+`bogie` has [several axleboxes at once](rail.md#several-axleboxes-at-once), one recording with a namespace
+each; its picture is of the first wheel. In ROS 2 it is for `car.launch.py`.
+
 ## Railway scenes
 """
 
@@ -102,6 +105,14 @@ def friends(scene: Scene) -> str:
     return ", ".join([*strange, *besides])
 
 
+def faults(scene: Scene) -> str:
+    """Describe the faults of a bearing, and in which axleboxes of several they are."""
+    found = "; ".join(scene.fault_sentences)
+    if scene.axleboxes is None or not found:
+        return found
+    return f"{found}, in {', '.join(scene.axleboxes.faulty)} of {len(scene.axleboxes.boxes)} axleboxes"
+
+
 def speeds(scene: Scene) -> str:
     """Speeds of the profile, [km/h]."""
     if isinstance(scene.operation, QuarterVehicleOperation):
@@ -125,8 +136,7 @@ def page() -> str:
     lines = [HEAD, "| scene | km/h | rail | fault | similar disturbances |", "|---|---|---|---|---|"]
     for scene in filter(railway, scenes):
         cells = (f"[{scene.name}](#{scene.name})", speeds(scene), irregularity(scene))
-        faults = "; ".join(scene.fault_sentences)
-        lines.append("| " + " | ".join((*cells, faults, friends(scene))) + " |")
+        lines.append("| " + " | ".join((*cells, faults(scene), friends(scene))) + " |")
     lines.append("")
     for scene in filter(railway, scenes):
         lines += [

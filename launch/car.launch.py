@@ -1,13 +1,16 @@
-"""Eight axleboxes of a car, one load, one recorder: ``ros2 launch beardyn car.launch.py scene:=smooth_run``.
+"""The axleboxes of a scene, or the eight of a car: ``ros2 launch beardyn car.launch.py scene:=bogie``.
 
-Each box is a twin in a namespace and a process of its own, ``/car/axle_1_left`` to ``/car/axle_4_right``, the
-right ones mirrored, each with another bearing of the lot; `car_twin` has them in one process. Whatever ends
-first ends the others in order: after the load the twins finish what they have, after the twins the recorder
-closes its files. A node that fails, or goes before it is done, is told, load and twins are stopped, and the
-recorder closes its files after them; the launch then ends with 1.
+A scene with ``axleboxes`` says which there are, which are faulty and how far apart: node `car_twin` has the
+twins of all in one process, and one recorder writes one file. Any other scene is that of every box of a car,
+each a twin in a process of its own, and a file each. Namespaces are ``/car/axle_1_left`` and so on; right
+boxes are mirrored, each has another bearing of the lot. Whatever ends first ends the others in order:
+after the load the twins finish what they have, after the twins the recorder closes its files. A node that
+fails, or goes before it is done, is told, load and twins are stopped, and the recorder closes its files after
+them; the launch then ends with 1.
 """
 
 import signal
+from dataclasses import replace
 
 from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
 from launch.actions import (
@@ -25,95 +28,110 @@ from launch.events.process import SignalProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+from beardyn_core.config.folders import find
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.errors import InputError
+from beardyn_core.scene.axleboxes import Box
+from beardyn_ros.car import CAR, boxes_named, place_of
 from beardyn_ros.launching import failure_of
 
-BOXES = " ".join(f"axle_{axle}_{side}" for axle in range(1, 5) for side in ("left", "right"))
-HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
 PATIENCE_S, GRACE_S = 20.0, 5.0
 
 ARGUMENTS = (
     ("namespace", "car", "namespace of the car; those of the boxes are below it"),
-    ("boxes", BOXES, "axleboxes: axle_<1 to 4>_<left or right>, axle 1 leads"),
+    ("boxes", "", "some of the axleboxes: axle_<number>_<left or right>, axle 1 leads; empty: all of them"),
     ("scene", "smooth_run", "scene of every box and of the load, by name or path"),
-    ("faulty_box", "", "box that has another scene, such as axle_2_left"),
+    ("faulty_box", "", "box that has another scene, such as axle_2_left; not with a scene with axleboxes"),
     (
         "faulty_scene",
         "cup_spall",
         "scene of the faulty box: its bearing and defects; the load stays the car's",
     ),
-    ("tier", "lumped", "tier of every twin: lumped, quasistatic, full; scene: the scene's own"),
+    (
+        "tier",
+        "",
+        "tier of every twin: lumped, quasistatic, full; scene: the scene's own; empty: lumped, of a scene "
+        "with axleboxes its own",
+    ),
     ("effects", "scene", "effects of every twin: a set or file, or auto; scene: the scene's own, or chosen"),
     ("csv", "", "CSV file of time, speed and force for the first wheel; empty: the scene's operation"),
     ("duration", "0.0", "simulated time, s; 0: the scene's own"),
     ("speed_factor", "0.0", "simulated seconds per wall second, 0 is as fast as it goes"),
-    ("axle_distance", "2.5", "between the axles of a bogie, m"),
-    ("bogie_distance", "17.5", "between the centres of the bogies, m"),
-    ("recorder", "true", "record every box, a file each"),
-    ("output", "car.mcap", "files of the recorder: car_<box>.mcap"),
+    ("axle_distance", "", "between the axles of a bogie, m; empty: 2.5; not with a scene with axleboxes"),
+    (
+        "bogie_distance",
+        "",
+        "between the centres of the bogies, m; empty: 17.5; not with a scene with axleboxes",
+    ),
+    ("recorder", "true", "record every box"),
+    (
+        "output",
+        "car.mcap",
+        "file of the recorder; of a scene without axleboxes it has one a box, car_<box>.mcap",
+    ),
 )
+SAID_BY_AXLEBOXES = ("faulty_box", "axle_distance", "bogie_distance")
 
 
-def place_of(box: str, axle_distance: float, bogie_distance: float) -> str:
-    """Place of a box in the car: below its middle, x forwards, y left, z up from the top of the rail."""
-    axle, left = int(box.split("_")[1]), box.endswith("left")
-    bogie, wheel = divmod(axle - 1, 2)
-    x = (0.5 - bogie) * bogie_distance + (0.5 - wheel) * axle_distance
-    return f"{x:g} {HALF_AXLE_M if left else -HALF_AXLE_M:g} {AXLE_HEIGHT_M:g} 0 0 0"
+def process(executable: str, name: str, namespace: str, **parameters: object) -> Node:
+    return Node(
+        package="beardyn",
+        executable=executable,
+        name=name,
+        namespace=namespace,
+        parameters=[parameters],
+        output="screen",
+    )
+
+
+def twins_of_the_scene(car: str, given: dict[str, str], **of_all: object) -> list[Node]:
+    """Make the one process that takes the axleboxes of the scene as they are."""
+    if said := [name for name in SAID_BY_AXLEBOXES if given[name]]:
+        raise InputError(
+            f"scene {given['scene']}: its axleboxes say what {', '.join(said)} would; leave that out, or "
+            "change the scene"
+        )
+    words = {name: given[name] for name in ("scene", "boxes")}
+    return [process("car_twin", "twin", car, **words, tier=given["tier"] or "scene", **of_all)]
+
+
+def twins_of_a_car(
+    car: str, given: dict[str, str], boxes: tuple[Box, ...], distances: dict[str, float], **of_all: object
+) -> list[Node]:
+    """Make a process for each box, with the place of that box; one of them perhaps has another scene."""
+    return [
+        process(
+            "twin",
+            "twin",
+            f"{car}/{box.name}",
+            scene=given["faulty_scene" if box.name == given["faulty_box"] else "scene"],
+            box=box.name,
+            tier=given["tier"] or "lumped",
+            publish_clock=box is boxes[0],
+            parent_frame=car,
+            pose_in_parent=place_of(replace(CAR, **distances), box),
+            **of_all,
+        )
+        for box in boxes
+    ]
 
 
 def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     given = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
-    car, boxes = given["namespace"].strip("/"), given["boxes"].replace(",", " ").split()
-    distances = {name: float(given[name]) for name in ("axle_distance", "bogie_distance")}
-
-    def twin(box: str) -> Node:
-        faulty = box == given["faulty_box"]
-        return Node(
-            package="beardyn",
-            executable="twin",
-            name="twin",
-            namespace=f"{car}/{box}",
-            parameters=[
-                {
-                    "scene": given["faulty_scene" if faulty else "scene"],
-                    "box": box,
-                    "tier": given["tier"],
-                    "effects": given["effects"],
-                    "speed_factor": float(given["speed_factor"]),
-                    "publish_clock": box == boxes[0],
-                    "parent_frame": car,
-                    "pose_in_parent": place_of(box, **distances),
-                }
-            ],
-            output="screen",
-        )
-
-    twins = [twin(box) for box in boxes]
-    load = Node(
-        package="beardyn",
-        executable="car_load",
-        name="load",
-        namespace=car,
-        parameters=[
-            {
-                "boxes": " ".join(boxes),
-                "wheel_defects_on": boxes[0],
-                "scene": given["scene"],
-                "csv": given["csv"],
-                "duration": float(given["duration"]),
-                **distances,
-            }
-        ],
-        output="screen",
-    )
-    recorder = Node(
-        package="beardyn",
-        executable="car_recorder",
-        name="recorder",
-        namespace=car,
-        parameters=[{"boxes": " ".join(boxes), "output": given["output"]}],
-        output="screen",
-    )
+    car = given["namespace"].strip("/")
+    of_all = {"effects": given["effects"], "speed_factor": float(given["speed_factor"])}
+    of_load: dict[str, object] = {"csv": given["csv"], "duration": float(given["duration"])}
+    # the nodes check the scene; this looks only whether axleboxes are there
+    if read_file(find("scenes", given["scene"])).get("axleboxes") is not None:
+        twins = twins_of_the_scene(car, given, **of_all)
+    else:
+        distances = {name: float(given[name]) for name in ("axle_distance", "bogie_distance") if given[name]}
+        boxes = boxes_named(given["boxes"])
+        twins = twins_of_a_car(car, given, boxes, distances, **of_all)
+        of_load |= {"wheel_defects_on": boxes[0].name, **distances}
+    words = {name: given[name] for name in ("scene", "boxes")}
+    load = process("car_load", "load", car, **words, **of_load)
+    recorder = process("car_recorder", "recorder", car, **words, output=given["output"])
     recorders = [recorder] if given["recorder"] == "true" else []
     running = [*twins, load]
     everything = [*running, *recorders]

@@ -148,9 +148,9 @@ class BlockEncoder:
         self._contacts = CloudTemplate(CONTACTS, frame)
         self._temperatures = [temperature_template(f"{frame}/{node}") for node in NODES]
 
-    def encode(self, block: Block) -> Iterator[tuple[str, int, bytes]]:
+    def encode(self, block: Block, pictures: bool = True) -> Iterator[tuple[str, int, bytes]]:
         """Encode a block as messages: topic name, stamp [ns], CDR bytes; each topic in the order of time."""
-        for batch in self.batches(block):
+        for batch in self.batches(block, pictures):
             for stamp, row in zip(batch.stamps_ns.tolist(), batch.rows, strict=True):
                 yield batch.topic, stamp, row.tobytes()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -98,8 +99,17 @@ class _Boxes(Mapping[str, Run]):
 
 
 def namespaces_in(paths: Iterable[str]) -> list[str]:
-    """List the namespaces of the axleboxes that absolute topic names tell of, in their order."""
-    return list(dict.fromkeys(space for space in map(namespace_of, paths) if space is not None))
+    """List the namespaces of the axleboxes that absolute topic names tell of, axle 2 before axle 10.
+
+    In a live recording the boxes begin in any order.
+    """
+    found = {space for space in map(namespace_of, paths) if space is not None}
+    return sorted(
+        found,
+        key=lambda space: [
+            (part.zfill(9) if part.isdecimal() else part) for part in re.split(r"(\d+)", space)
+        ],
+    )
 
 
 def namespace_in(paths: Iterable[str]) -> str:

@@ -26,9 +26,9 @@ Written by `python -m evidence.automatic.shipped`; nothing is run. Asked for: fo
 roller load and torque within 5 %, third octaves to 10 kHz within 1.5 dB. *Chosen*: tier, laminae x steps for
 each sample of 25.6 kHz, and what is off, or cheaper than in `full`. Errors are those that
 [the rules](effects_auto.md) expect against every effect, bold beyond what is asked for. Real-time factors are
-those expected on the machine of the costs ({machine}, {date}). A scene that names no
-effects has these where the tier here is `full`; another tier than that is taken with `tier: auto` only. The
-last two columns are for what its file names, or `standard`.
+those expected on the machine of the costs ({machine}, {date}), of one box where a scene
+has several. A scene that names no effects has these where the tier here is `full`; another tier than that is
+taken with `tier: auto` only. The last two columns are for what its file names, or `standard`.
 
 | scene | chosen | expected errors | times real time | named, else `standard`: errors | times real time |
 |---|---|---|--:|---|--:|

@@ -15,6 +15,8 @@ import pytest
 from beardyn_core import twin
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.main import main
+from beardyn_core.cli.warmup import _of_one_box
+from beardyn_core.config import read_scene
 from beardyn_core.jit import when_compiling
 
 
@@ -43,6 +45,14 @@ def test_warmup_tells_what_it_found(capsys: pytest.CaptureFixture[str]) -> None:
     last = capsys.readouterr().out.splitlines()[-1]
     assert last.split()[:2] == ["static_80kN", "lumped"]
     assert "in the cache" in last
+
+
+def test_warmup_takes_a_sound_and_a_faulty_box_of_a_scene_with_axleboxes() -> None:
+    found = _of_one_box(read_scene("bogie").scene)
+    assert [bool(scene.faults) for scene in found] == [False, True]
+    assert [scene.axleboxes for scene in found] == [None, None]
+    sound = read_scene("smooth_run").scene
+    assert _of_one_box(sound) == [sound]
 
 
 FIRST_BLOCK = """

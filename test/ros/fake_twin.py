@@ -1,6 +1,7 @@
 """A twin without physics that keeps the twin's contract: cheap signals that depend on the load only.
 
-Run as a module it is the twin node around it: ``python -m test.ros.fake_twin [--ros-args ...]``.
+Run as a module it is the twin node around it: ``python -m test.ros.fake_twin twin [--ros-args ...]``;
+``load`` and ``car_twin`` are nodes with a fake load and of several fake twins.
 """
 
 from __future__ import annotations
@@ -142,6 +143,11 @@ def main(words: Sequence[str]) -> int:
         from beardyn_ros.load_node import main as load_main
 
         return load_main(words[1:], fake_scenario)
+    if words[0] == "car_twin":
+        from beardyn_ros import car_twin
+
+        car_twin.box_rig = lambda train, box: lambda *_: fake_rig("fake", "")
+        return car_twin.main(words[1:])
     from beardyn_ros.twin_node import main as twin_main
 
     return twin_main(words[1:], fake_rig)

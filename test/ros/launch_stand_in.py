@@ -100,8 +100,9 @@ class Node(Record):
         full_name = f"/{self.namespace}/{self.name}"
         file = folder / f"{full_name.strip('/').replace('/', '.')}.yaml"
         values = {name: value for part in self.parameters for name, value in part.items()}
-        fake = self.executable == "twin" and fake_twin
-        values = {**values, "scene": "fake"} if fake else values
+        fake = self.executable in ("twin", "car_twin") and fake_twin
+        if fake and self.executable == "twin":
+            values = {**values, "scene": "fake"}
         file.write_text(json.dumps({full_name: {"ros__parameters": values}}))
         module = "test.ros.fake_twin" if fake else "beardyn_ros"
         words = ["--ros-args", "-r", f"__node:={self.name}", "-r", f"__ns:=/{self.namespace}"]

@@ -82,9 +82,9 @@ def test_boxes_are_named_by_axle_and_side() -> None:
     )
     car = Axleboxes(axles=5)
     assert [car.behind(box) for box in car.boxes[::2]] == [0, 2.5, 17.5, 20, 25.0]
+    assert [box.name for box in boxes_named("")] == list(EIGHT_BOXES)
     for text, sentence in (
-        ("", "is empty"),
-        ("axle_9_left", "'axle_9_left' is no"),
+        ("axle_9_left", "'axle_9_left' is none of the axleboxes; allowed are axle_1_left, axle_1_right"),
         ("axle_1_left " * 2, "twice"),
     ):
         with pytest.raises(InputError, match=sentence):
@@ -244,7 +244,7 @@ def test_load_of_a_car_refuses_what_it_cannot_do(graph: Graph) -> None:
     graph.start("back", "beardyn_ros", "car_load", scene="reversing")
     graph.start("flat", "beardyn_ros", "car_load", boxes="axle_2_left", scene="smooth_run")
     told = {
-        "names": "is no axlebox",
+        "names": "is none of the axleboxes",
         "scene": "no_such_scene",
         "back": "turns back",
         "flat": "none of",

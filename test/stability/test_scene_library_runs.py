@@ -7,6 +7,7 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
+from beardyn_core.config.boxes import scene_of_box
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.events import events_of
 from beardyn_core.run import blocks
@@ -22,6 +23,9 @@ GRAVITY = 9.80665
 @pytest.mark.parametrize("name", RAILWAY)
 def test_a_scene_stays_inside_the_validity_of_the_model(name: str) -> None:
     scene = load_scene(name)
+    if scene.axleboxes is not None:  # test/train has the whole train; here the worst of its boxes
+        faulty = next(box for box in scene.axleboxes.boxes if box.name in scene.axleboxes.faulty)
+        scene = scene_of_box(scene, faulty)
     # a scene that stands still or turns round does so later than the others
     turns = any(event["kind"] in ("standstill", "backwards") for event in events_of(scene)["events"])
     found = list(blocks(scene, scene.duration if turns else min(scene.duration, 2.0)))

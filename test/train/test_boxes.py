@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene, scene_from_mapping
+from beardyn_core.config import read_scene
 from beardyn_core.config.boxes import mirrored, mirrored_modes, scene_of_box
 from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.config.yaml_text import read_file
@@ -65,6 +66,16 @@ def test_axles_must_be_said() -> None:
         scene_from_mapping(data, "train", SCENES)
     with pytest.raises(NounError, match="given twice"):
         raise NounError("axleboxes", list(Axleboxes(axles=1, faulty=("axle_1_left",) * 2).rules()))
+
+
+def test_the_shipped_bogie_has_its_spall_in_one_box_of_four() -> None:
+    scene = read_scene("bogie").scene
+    assert scene.axleboxes is not None
+    assert (scene.tier, scene.doubts) == ("lumped", ())
+    boxes = {box.name: scene_of_box(scene, box) for box in scene.axleboxes.boxes}
+    assert [name for name, each in boxes.items() if each.defects] == ["axle_2_left"]
+    assert [each.mounting.side for each in boxes.values()] == ["left", "right", "left", "right"]
+    assert len(boxes) == 4
 
 
 def test_a_twin_is_one_bearing() -> None:

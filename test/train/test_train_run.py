@@ -14,6 +14,7 @@ from beardyn_core.config.boxes import scene_of_box
 from beardyn_core.errors import InputError
 from beardyn_core.rail.build import length_of_load
 from beardyn_core.rail.train import TrainLoads
+from beardyn_core.record.reading import namespaces_in
 from beardyn_core.record.run import Run
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
@@ -69,6 +70,16 @@ def test_a_recording_has_a_namespace_for_each_box_and_a_truth(in_memory: Run, re
         bd.read(recording, "axle_9_left")
 
 
+def test_boxes_are_listed_by_name_and_number_in_whatever_order_they_begin() -> None:
+    topics = [f"/car/{name}/force" for name in ("axle_10_left", "axle_2_right", "axle_1_left", "axle_2_left")]
+    assert namespaces_in(["/clock", *topics, "/car/axle_1_left/vibration/side"]) == [
+        "/car/axle_1_left",
+        "/car/axle_2_left",
+        "/car/axle_2_right",
+        "/car/axle_10_left",
+    ]
+
+
 def test_commands_take_a_box(
     in_memory: Run, recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -100,3 +111,21 @@ def test_loads_of_both_sides_are_mirrored_runs_over_rails_of_their_own(in_memory
     left, right = in_memory.boxes["axle_1_left"].load.wrench, in_memory.boxes["axle_1_right"].load.wrench
     assert np.mean(left[:, 2]) == pytest.approx(np.mean(right[:, 2]), rel=0.02)
     assert not np.allclose(left[:, 2], right[:, 2], rtol=1e-4)
+
+
+@pytest.mark.slow
+def test_a_monitor_finds_the_spall_of_the_shipped_bogie_in_its_box_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "bogie.mcap"
+    assert main(["warmup", "bogie"]) == 0  # two sorts of kernels: sound and faulty
+    assert main(["simulate", "bogie", "-o", str(path)]) == 0
+    capsys.readouterr()
+    assert main(["monitor", str(path)]) == 0
+    told = capsys.readouterr().out.splitlines()[-4:]
+    assert [line.split(":")[0] for line in told] == [
+        "axle_1_left healthy",
+        "axle_1_right healthy",
+        "axle_2_left cup",
+        "axle_2_right healthy",
+    ]
