@@ -35,6 +35,10 @@ _QUASISTATIC_SHARE = 0.005
 # Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
 # every effect: see evidence/automatic/torque.py.
 _POCKETS = {"quasistatic": 0.7, "lumped": 2.0}
+# What third octaves to 5 kHz of a tier are off by at most beside `full`, and those to 400 Hz of a sound
+# bearing, [dB]: see evidence/automatic/bands.py.
+_OF_RINGS = {"quasistatic": 3.5, "lumped": 7.5}
+_QUIET_BAND, _IN_QUIET_BAND = 400.0, 1.1
 
 
 def laminae(evidence: Evidence, count: int) -> Verdict:
@@ -196,7 +200,15 @@ def _without_roller_inertia(evidence: Evidence, name: str) -> tuple[dict[str, fl
     ratio = 1.0 / abs(1.0 - min((evidence.band / bounce) ** 2, 0.999))
     reason = f"its rollers do not bounce, which they do at {bounce / 1e3:.3g} kHz"
     pockets = evidence.torque_share(_POCKETS[name] * evidence.losses.pocket)
-    influence = {"vibration": decibels(ratio), "roller_load": _QUASISTATIC_SHARE, "torque": pockets}
+    sound = evidence.band <= _QUIET_BAND and not evidence.patches
+    rings = _IN_QUIET_BAND if sound else _OF_RINGS[name]
+    influence = {
+        "vibration": max(decibels(ratio), rings),
+        "roller_load": _QUASISTATIC_SHARE,
+        "torque": pockets,
+    }
+    if not sound:
+        reason += f"; third octaves of others were off by up to {rings:g} dB"
     if pockets > 0.0:
         reason += f", {percent(pockets)} of the torque may be wrong without the play in the pockets"
     if evidence.patches:

@@ -23,6 +23,9 @@ from beardyn_core.scene.scene import Scene
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
+# Below this rolling speed creep along the cup gives no more [m/s]: then it has the slope of dry friction of
+# 0.1 that is rounded over 0.02 m/s.
+_SLOWEST_ALONG = 1.0
 _LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 
 
@@ -257,7 +260,9 @@ def slide_params(scene: Scene) -> SlideParams | None:
         return None
     angle = scene.bearing.cup_angle
     radial, axial = _place_on_cup(scene.bearing)
-    return SlideParams(_LIMITING_SHEAR / _SLIDE, _SLOWEST, axial * math.sin(angle) - radial * math.cos(angle))
+    return SlideParams(
+        _LIMITING_SHEAR / _SLIDE, _SLOWEST_ALONG, axial * math.sin(angle) - radial * math.cos(angle)
+    )
 
 
 def _pocket_params(scene: Scene) -> PocketParams | None:

@@ -57,7 +57,7 @@ CASES: dict[str, tuple[Case, ...]] = {
     "static_80kN": (Case(USUAL, 0.05), Case(("force",), 0.05), Case(FORCES, 0.01)),
     "static_5kN": (Case((*MEANS, "cage_speed"), 0.05),),
     "smooth_run": (
-        *(Case(USUAL, 0.05), Case(USUAL, 0.05, 5000.0), Case(USUAL, 0.05, 1000.0)),
+        *(Case(USUAL, 0.05), Case(USUAL, 0.05, 5000.0), Case(USUAL, 0.05, 400.0)),
         *(Case(MEANS, 0.05), Case(MEANS, 0.2)),
     ),
     "cup_spall": (Case(USUAL, 0.05), Case(FORCES, 0.1)),

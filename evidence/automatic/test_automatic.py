@@ -7,13 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
 from beardyn_core.study.measures import NOMINAL_BANDS
-from evidence.automatic import page, shipped, torque
+from evidence.automatic import bands, page, shipped, torque
 from evidence.automatic.page import row
 from evidence.standard import standard_scene
 
@@ -107,3 +108,10 @@ def test_a_shipped_scene_has_a_row() -> None:
 def test_a_row_of_torques_has_what_is_off_over_the_estimate_of_the_pockets() -> None:
     line = torque.row("smooth_run", torque.Found(6.0, 0.005, 0.02, 0.36, 0.2, 6.1, 5.7))
     assert line == "| `smooth_run` | 6.00 | 0.5 | 2.0 | 6.0 | 3.3 | +1.7 (0.50) | -5.0 (1.50) |"
+
+
+def test_the_worst_band_of_each_range_stands_with_its_frequency() -> None:
+    apart = np.zeros(len(NOMINAL_BANDS))
+    for band, decibels in ((100, -0.4), (400, 0.2), (630, 1.0), (800, -2.0), (5000, 3.0), (6300, 9.0)):
+        apart[NOMINAL_BANDS.index(band)] = decibels
+    assert bands.worst(apart) == ["-0.4 at 100", "+0.2 at 400", "-2.0 at 800", "+3.0 at 5000"]

@@ -274,6 +274,8 @@ def test_frequencies_of_the_loaded_box_are_those_of_an_independent_eigenproblem(
     scene = bent_scene(tier, "modes", "static_5kN")
     # preloaded: of a roller at the edge of a load zone a nanometre decides whether it is a spring
     scene = replace(scene, end_play=-1e-4, mounting=replace(scene.mounting, cup="suspended"))
+    # creep of the raceways damps, the eigenproblem does not
+    scene = replace(scene, effects=replace(scene.effects, film=None, traction=None))
     body, h = body_of(scene), 1.0 / 25600.0
     assert body is not None
     twin = started(scene)

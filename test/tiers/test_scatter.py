@@ -107,7 +107,7 @@ def test_the_facts_of_a_run_name_every_deviation() -> None:
 # --- against the full tier
 
 BANDS = 1000.0 * 2.0 ** (np.arange(-9, 9) / 3.0)  # 125 Hz to 6.3 kHz
-AXIAL = (450.0, 900.0)  # the axlebox along the axle, which friction damps in tier full only
+AXIAL = (450.0, 900.0)  # the axlebox along the axle
 
 
 @cache
@@ -133,14 +133,17 @@ def levels(tier: str, scattered: bool) -> Float:
 def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -> None:
     """Within 3 dB: along z from 125 Hz to 6.3 kHz, along y from 160 Hz beside the axial mode.
 
-    That mode's damper is friction. Along y at 125 Hz, a few lines of the spacing, the fast tiers are 4.1 dB
+    That mode's damper is the creep of the raceways, and what drives it in `full` is skew of the rollers besides:
+    it is up to 4.7 dB too quiet, 7 too loud without the creep. Along y at 125 Hz, a few lines of the spacing, the fast tiers are 4.1 dB
     above and 3.2 dB below.
     Of identical rollers it is not: along z 10 dB and more in `lumped`, 6 and more where rollers move in their
     pockets, and along y the fast tiers have nothing at all.
     """
     apart = np.abs(levels(tier, True) - levels("full", True))
     assert apart[1].max() < 3.0
-    assert apart[0][1:][((AXIAL[0] > BANDS) | (AXIAL[1] < BANDS))[1:]].max() < 3.0
+    beside = (AXIAL[0] > BANDS) | (AXIAL[1] < BANDS)
+    assert apart[0][1:][beside[1:]].max() < 3.0
+    assert apart[0][~beside].max() < 5.0
     assert apart[0][0] < 5.0
     identical = np.abs(levels(tier, False) - levels("full", False))
     assert identical[0].min() > {"lumped": 10.0, "quasistatic": 6.0}[tier]

@@ -1,0 +1,71 @@
+"""What fast tiers miss of the third octaves: ``python -m evidence.automatic.bands``.
+
+Runs scenes with what is chosen for them in each tier, prints a table and writes it into docs/effects_auto.md.
+The rules of the automatic choice expect what is found here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from beardyn_core.arrays import Float
+from beardyn_core.choice import load_scene
+from beardyn_core.run import start
+from beardyn_core.scene.scene import Scene
+from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
+from evidence.pages import DOCS, with_section
+
+SCENES = ("smooth_run", "healthy_80", "healthy_140", "healthy_300", "freight_100", "wheel_flat", "cup_spall")
+TIERS = {"quasistatic": 5000.0, "lumped": 1000.0}  # and to which frequency vibration is asked for [Hz]
+SECONDS, SETTLING = 2.3, 0.3
+RANGES = ((31.5, 250), (315, 400), (500, 1000), (1250, 5000))  # bands from, to [Hz]
+PAGE = DOCS / "effects_auto.md"
+TITLE, NEXT = "## Third octaves of the fast tiers\n", "## How good the estimates are\n"
+HEAD = """
+Written by `python -m evidence.automatic.bands`: {seconds:g} s of shipped scenes without noise of the sensor,
+in `full` as chosen by default and in the fast tiers as chosen for 5 kHz (`quasistatic`) and 1 kHz (`lumped`);
+the third octave in each range that is farthest off that of `full`, all axes together, in dB.
+
+| scene | tier | {ranges} |
+|---|---|{rules}|
+"""
+
+
+def levels(scene: Scene) -> Float:
+    """Run a scene and measure its third octaves, [dB]."""
+    quiet = tuple(replace(sensor, noise_density=0.0, rate=25_600.0) for sensor in scene.sensors)
+    simulation = start(replace(scene, sensors=quiet), SECONDS)
+    blocks = simulation.blocks(simulation.twin.blocks_at_once)
+    heard = np.concatenate([block.acceleration[0] for block in blocks if len(block.acceleration)])
+    return third_octave_levels(heard[round(SETTLING * 25_600.0) :])
+
+
+def worst(apart: Float) -> list[str]:
+    """Write the largest deviation in each range and where it is."""
+    found = []
+    for low, high in RANGES:
+        places = [index for index, band in enumerate(NOMINAL_BANDS) if low <= band <= high]
+        place = max(places, key=lambda index: abs(float(apart[index])))
+        found.append(f"{apart[place]:+.1f} at {NOMINAL_BANDS[place]:g}")
+    return found
+
+
+def main() -> None:
+    """Run, print and write."""
+    rows = []
+    for name in SCENES:
+        reference = levels(load_scene(name, tier="full", effects="auto"))
+        for tier, to in TIERS.items():
+            apart = levels(load_scene(name, tier=tier, effects="auto", vibration_to=to)) - reference
+            rows.append(f"| `{name}` | `{tier}` | {' | '.join(worst(apart))} |")
+            print(rows[-1], flush=True)
+    ranges = " | ".join(f"{low:g} to {high:g} Hz" for low, high in RANGES)
+    head = HEAD.format(seconds=SECONDS - SETTLING, ranges=ranges, rules="|".join(["--:"] * len(RANGES)))
+    text = TITLE + head + "\n".join(rows) + "\n\n"
+    PAGE.write_text(with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
