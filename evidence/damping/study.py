@@ -12,6 +12,7 @@ from scipy import stats
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
 from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
@@ -21,8 +22,8 @@ from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.twin import Twin
-from evidence.standard import standard_scene
 
+EFFECTS = "full"  # with the energy balance, which automatic ones leave out
 TIMES_US = (2.5, 5.0, 12.0, 25.0)
 SPANS_HZ = ((10.0, 500.0), (500.0, 2000.0), (2000.0, 8000.0))
 SETTLED = 0.2  # first part of a run that is not looked at [s]
@@ -46,14 +47,14 @@ class Heard:
 def spalled(depth: float, width: float) -> Scene:
     """Load a steady bearing with a spall in the middle of its load zone, cup on its springs."""
     spall = Patch(on="cup", row=0, azimuth=0.0, width=width, depth=depth, length=0.025)
-    scene = standard_scene("cup_spall", tier="full")
+    scene = load_scene("cup_spall", effects=EFFECTS, tier="full")
     operation = ConstantOperation(force=(0.0, 0.0, 8e4), speed=122.0)
     return replace(scene, name=f"spall {1e3 * width:g} mm", operation=operation, defects=(spall,))
 
 
 def scenes() -> list[tuple[Scene, float]]:
     """List the scenes with their durations, [s]."""
-    track = standard_scene("cup_spall", tier="full")
+    track = load_scene("cup_spall", effects=EFFECTS, tier="full")
     return [(track, 1.2), (spalled(1e-4, 6e-3), 0.8), (spalled(2e-4, 1e-2), 0.8)]
 
 
@@ -113,7 +114,7 @@ def inlet(speed_rpm: float, load: float = 2e4) -> Inlet:
     0.7 v l / u, and a given approach presses the bodies deeper by that. So the damping over the stiffness is
     0.7 l / u, as long as the film fills the contact, of width 2 b, within a period.
     """
-    scene = standard_scene("static_80kN")
+    scene = load_scene("static_80kN", effects=EFFECTS)
     bearing, oil = scene.bearing, scene.lubricant
     modulus = bearing.material.contact_modulus
     cup_radius = 0.5 * bearing.pitch_diameter + 0.5 * bearing.roller_diameter

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Annotated as A
 
+from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ContactDamping, ModalStructure
@@ -12,9 +13,9 @@ from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer
-from evidence.standard import standard_scene
 
 BOX = "high_speed"
+EFFECTS = "full"
 BEARING = "HS130x230"
 WHEEL_RADIUS = 0.46  # of emu_300, [m]
 HALF = 25e-3  # length of the spall in `cup_spall`, half of the contact, [m]
@@ -44,7 +45,7 @@ class Case:
     on: A[str, "surface of the spall"] = "cup"
     length: A[float, "of the spall along the roller, [m]"] = HALF
     caged: A[bool, "with cages; without, the rollers keep their distance by themselves"] = True
-    damping: A[float | None, "time of the contact damping, that of the standard set if None, [s]"] = None
+    damping: A[float | None, "time of the contact damping, the usual one if None, [s]"] = None
     depth: A[float, "of the floor of the spall, [m]"] = DEPTH
     end_play: A[float, "below 0: preload, every roller carries, [m]"] = 1e-4
     shortest_wave: A[float | None, "where the waves of all surfaces end, [m]"] = None
@@ -53,7 +54,7 @@ class Case:
 
     def scene(self) -> Scene:
         """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
-        scene = standard_scene("cup_spall", tier="full")
+        scene = load_scene("cup_spall", effects=EFFECTS, tier="full")
         effects = replace(scene.effects, structure=ModalStructure(BOX))
         if self.damping is not None:
             effects = replace(effects, contact_damping=ContactDamping(self.damping))

@@ -32,7 +32,7 @@ speed with which the peak grows. *Kurtosis*: over that of a sound bearing at one
   {impulsive} mm on. Its depth, a tenth of the width and at most 400 um, is assumed.
 - **Over the whole contact** a roller has given up all its load {bridged:.1f} mm inside of the edge (80 kN).
   Up to twice that width it gives up ever more. Beyond, it flies, and meets the far edge where that is
-  steeper: from 1 to 6 mm rms grows {deep:.1f} times, the ring {deep_ring:.1f} times. From 2 to 4 mm rms
+  steeper: from 1 to 6 mm rms grows {deep:.1f} times, the ring {deep_ring:.1f} times. From 3 to 4 mm rms
   stands still ({still}), for which no cause was looked for. On a floor of 100 um growth ends
   ({floor} at 4, 6 and 10 mm).
 - **Of one length, 25 mm**, rms is {half} at {halves} mm: it does not grow,
@@ -81,7 +81,7 @@ def loud() -> str:
         bridged=bridged,
         deep=deep[-1].rms / deep[0].rms,
         deep_ring=deep[-1].ringing / deep[0].ringing,
-        still=listed([each.rms for each in deep[1:4]], ".0f"),
+        still=listed([each.rms for each in deep[2:4]], ".0f"),
         floor=listed([each.rms for each in floor], ".0f"),
         half=listed([each.rms for each in half], ".0f"),
         halves=listed(halves, "g"),

@@ -15,6 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.config.automatic import AUTO
 from beardyn_core.outputs import write_whole
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TRAIN, LabelledSet
@@ -61,7 +62,8 @@ def main(words: Sequence[str] | None = None) -> int:
         found["gap"] = judgements(trained, others, arguments.measured)
         found["causes"] = causes(trained)
         found["trained"] = len(trained.runs_of(TRAIN))
-        found["tier"] = trained.about["identity"]["base"]["tier"]
+        base = trained.about["identity"]["base"]
+        found["tier"], found["effects"] = base["tier"], base["effects"].get("name", AUTO)
     for name, measure in scale.PARTS.items():
         if name in parts:
             found[name] = measure(trained)
@@ -108,9 +110,9 @@ def section(found: dict[str, Any]) -> str:
         "",
         f"`beardyn baseline`: random forests of 300 trees on the features of {found['trained']} runs of "
         "the sweep "
-        f"[{TRAINED}](../config/sweeps/{TRAINED}.yaml) (tier `{found['tier']}`, effects `standard`), nothing "
-        "tuned. It names sound, cup, cone or roller; balanced accuracy counts each condition alike (in "
-        "brackets: all runs alike), "
+        f"[{TRAINED}](../config/sweeps/{TRAINED}.yaml) (tier `{found['tier']}`, effects "
+        f"`{found['effects']}`), nothing tuned. It names sound, cup, cone or roller; balanced accuracy "
+        "counts each condition alike (in brackets: all runs alike), "
         f"{100 * CHANCE:.0f} % is chance.",
         "",
         _gap_table(gap).markdown(),

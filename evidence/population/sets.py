@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import beardyn_core as bd
+from beardyn_core.config.automatic import AUTO
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.population.folder import SUMS
@@ -17,7 +18,10 @@ SPEED = "operation.speed_profile[0].speed_kmh"
 OTHERS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "other speeds": ({}, {SPEED: {"kind": "uniform", "low": 180.0, "high": 260.0}}),
     "another tier": ({"tier": "quasistatic"}, {}),
-    "a box that rings": ({"effects.structure": {"kind": "modes", "table": "high_speed"}}, {}),
+    "a box that rings": (
+        {"effects": {"preset": AUTO, "structure": {"kind": "modes", "table": "high_speed"}}},
+        {},
+    ),
 }
 _SEED = 2  # other bearings, tracks and spalls than those of the training
 

@@ -11,6 +11,7 @@ import pytest
 from scipy.io import savemat
 
 from beardyn_core.config import read_sweep
+from beardyn_core.effects import ModalStructure
 from beardyn_core.engine import Cluster, Engine
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.plan import plan_of
@@ -69,13 +70,14 @@ def found() -> dict[str, Any]:
     }
     formats = [{"format": "Zarr", "bytes_a_run": 4e5, "share": 0.6, "read_s": 0.1}]
     return {
-        "gap": gap, "trained": 1400, "tier": "lumped", "made": made, "engine": engine, "cores": cores,
-        "formats": formats, "causes": causes,
+        "gap": gap, "trained": 1400, "tier": "lumped", "effects": "auto", "made": made, "engine": engine,
+        "cores": cores, "formats": formats, "causes": causes,
     }  # fmt: skip
 
 
 def test_the_page_says_what_was_measured() -> None:
     text = section(found())
+    assert "(tier `lumped`, effects `auto`)" in text
     assert "| unseen bearings | 8 | 88 % (90 %) | 88 % (90 %) | 21 % |" in text
     assert "| measured: CWRU | 8 | 50 % (90 %) | 50 % (90 %) | - |" in text
     assert "| cup | 1 | 3 |" in text
@@ -118,7 +120,7 @@ def test_further_sets_differ_by_what_their_name_says_and_share_no_bearing(name: 
     changed = {
         "other speeds": rows[0].drawn[SPEED] >= 180.0,
         "another tier": scene.tier == "quasistatic",
-        "a box that rings": scene.effects.structure is not None,
+        "a box that rings": isinstance(scene.effects.structure, ModalStructure),
     }
     assert [each for each, so in changed.items() if so] == [name]
 

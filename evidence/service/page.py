@@ -79,6 +79,8 @@ without roughness nothing lies around their lines ([model.md](model.md#manufactu
 
 Vertical reading; rms, m/s². The monitor is the shipped one; its analyses by verdict. Effects `standard` in
 boxes that ring, with the load's background; wheelsets of freight and high speed bend in the twin too.
+The bending that `standard` leaves out is in the modes of these boxes; rolling resistance, seals, coupled
+laminae and the films of pockets are left out here ([limits](limits.md)).
 """
 
 

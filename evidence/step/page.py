@@ -33,6 +33,8 @@ auto` chooses, and others, against an **explicit reference of 0.1 us of the whol
 at {loads}.
 Effects `{effects}`, {laminae} laminae; {duration:g} s a run after {settling:g} s of settling;
 {reference_runs} runs of the reference, {runs} of each implicit step, each begun a hair apart.
+Every step solves the same equations, so one named set serves: what is judged is the step and not the
+physics, of which `standard` leaves much out ([limits](limits.md)).
 
 The criteria: mean torque of the shaft within {mean:g} % and its scatter within {scatter:.0f} % of the
 reference, and the spectrum of the housing acceleration within the run-to-run band up to 10 kHz.

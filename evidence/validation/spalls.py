@@ -58,30 +58,24 @@ FEW_PULSES = (
     "the assumed damping of the contacts, 5 us: at 2.5 us, the lower end of its quoted range, every spall "
     "has more than two"
 )
-STRUCK = (
-    "rollers strike the pockets of their cages: without cages it is 4.0, just below, as of "
-    "noise alone, and no background lies under it"
-)
-POCKETS = (
-    "rollers strike the pockets of their cages with less than 1 g, and no background covers it: without "
-    "cages it is 2.9 (docs/impact.md)"
-)
+STILL = "as of noise alone, without cages, too: no background with knocks of its own lies under it"
 PRONOSTIA = (
     "first records of six runs to failure of PRONOSTIA, vertical, 5 to 12 kHz, medians of 3.0 to 3.3 "
     "(docs/levels.md)"
 )
 UNCOVERED = (
-    "waves shorter than 1 mm are left out, and nothing covers the strikes of rollers on pockets and at the "
-    "ends of the load zone: with waves to 0.2 mm it is 3.1 (docs/impact.md)"
+    "waves shorter than 1 mm are left out, and nothing covers the strikes of rollers at the ends of the load "
+    "zone: with waves to 0.2 mm it is 3.0 (docs/impact.md)"
 )
 CWRU = (
     "CWRU, 12 kHz, outer races of 6205 and 6203 over the sound bearing at the same end, least to largest of "
     "all records of the size (docs/levels.md)"
 )
-OUR_WAVES = "the waves of our raceways, whose height is assumed: over smooth ones it is 3.7"
+OUR_WAVES = "the waves of our raceways, whose height is assumed: over smooth ones it is 3.4"
 MFPT_LOADS = "MFPT, fault of the outer and of the inner race, 0 to 300 lbf: 0.07 and 0.28 (docs/levels.md)"
 DEEP_ONES = (
-    "the depth, 400 um by assumption: with 5 um, on which rollers rest, it is 0.14; the source tells none"
+    "the depth, 400 um by assumption: on floors of 3 and 5 um, on which rollers rest, it is 0.06 and 0.29; "
+    "the source tells none"
 )
 # least and largest rms of a fault of so many thousandths of an inch, over that of a sound bearing
 FAULTS_OF_CWRU = {7: (1.3, 12.7), 14: (1.4, 12.7), 21: (1.8, 11.4)}
@@ -91,8 +85,12 @@ SATURATES = (
     "change, which an elastic half-space has, too (docs/impact.md)"
 )
 SHORTEST = (
-    "1 mm at 200 km/h alone, by 0.03 ms over 2 mm, for which no cause was looked for; from 2 mm on bursts "
-    "last longer at both speeds"
+    "2 mm at 200 km/h alone, by 0.32 ms over 3 mm, for which no cause was looked for; without it bursts last "
+    "longer from wider spalls at both speeds"
+)
+AS_SHARP = (
+    "at 90 km/h the force changes as fast at the entry, within 8 %, for which no cause was looked for; at "
+    "200 km/h twice as fast at the exit"
 )
 WIDE = 4e-3  # from here on the two events of a crossing are apart [m]
 IMPULSIVE = 3e-3  # from here on a spall must be more impulsive than a sound bearing [m]
@@ -281,7 +279,6 @@ ANCHORS = (
             DYER,
             partial(sound_kurtosis, speed),
             tolerance=0.1,
-            misses=POCKETS if speed < 100.0 else "",
             slow=True,
             measured=True,
         )
@@ -296,7 +293,7 @@ ANCHORS = (
             CREST,
             partial(sound_crest, speed),
             absolute=0.7,
-            misses=STRUCK if speed < 100.0 else "",
+            misses=STILL,
             slow=True,
             measured=True,
         )
@@ -307,7 +304,7 @@ ANCHORS = (
 TRENDS = (
     Trend(TOPIC, "the exit is louder than the entry", SINGH, exit_is_louder),
     Trend(TOPIC, "the exit is a burst of several pulses", SINGH, exit_is_a_burst, misses=FEW_PULSES),
-    Trend(TOPIC, "the entry is a soft step, the exit sharper", SAWALHI, exit_is_sharper),
+    Trend(TOPIC, "the entry is a soft step, the exit sharper", SAWALHI, exit_is_sharper, misses=AS_SHARP),
     Trend(TOPIC, "bursts last longer from wider spalls", MBA, burst_grows, misses=SHORTEST),
     Trend(
         TOPIC, "a spall from 3 mm is more impulsive than a sound bearing", DYER,
