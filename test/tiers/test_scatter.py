@@ -133,9 +133,9 @@ def levels(tier: str, scattered: bool) -> Float:
 def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -> None:
     """Within 3 dB: along z from 125 Hz to 6.3 kHz, along y from 160 Hz beside the axial mode.
 
-    That mode's damper is the creep of the raceways, and what drives it in `full` is skew of the rollers besides:
-    it is up to 4.7 dB too quiet, 7 too loud without the creep. Along y at 125 Hz, a few lines of the spacing, the fast tiers are 4.1 dB
-    above and 3.2 dB below.
+    That mode's damper is the creep of the raceways, and what drives it in `full` is skew of the rollers
+    besides: it is up to 4.7 dB too quiet, 7 too loud without the creep. Along y at 125 Hz, a few lines of the
+    spacing, the fast tiers are up to 4.1 dB off.
     Of identical rollers it is not: along z 10 dB and more in `lumped`, 6 and more where rollers move in their
     pockets, and along y the fast tiers have nothing at all.
     """
