@@ -70,9 +70,15 @@ def test_journal_sways_as_in_the_rail_model_below_20_hz() -> None:
     assert np.std((ours - theirs)[judged]) < 0.10 * np.std(theirs[judged])
 
 
-def both(sideways: bool, wheelset: str = "elastic") -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+def both(
+    sideways: bool, wheelset: str = "elastic", creep: bool = True
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Acceleration at the sensor, [m/s^2]: in the twin, in the rail model; and its rate, [Hz]."""
     scene = load_scene("smooth_run", tier="quasistatic")
+    if not creep:
+        scene = dataclasses.replace(
+            scene, effects=dataclasses.replace(scene.effects, film=None, traction=None)
+        )
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
     rough = dataclasses.replace(operation.irregularity, short_waves="iso_3095")
@@ -114,9 +120,10 @@ def test_the_box_shakes_as_on_the_bending_wheelset_of_the_rail_model(low, high, 
 def test_the_box_shakes_as_in_the_rail_model_on_a_wheelset_that_bends_in_the_twin() -> None:
     """To 200 Hz wave by wave, first bending included; above in level, for bearing and box resonate elsewhere.
 
-    Found: 0.2 % and 9 %, then 1 % and 4 % in level.
+    Found: 0.2 % and 9 %, then 1 % and 4 % in level. The rail model knows no friction in the bearing: creep of
+    the rollers takes a third off from 500 to 800 Hz, as friction of the raceways does in tier full (28 %).
     """
-    ours, theirs, rate = both(sideways=False, wheelset="coupled")
+    ours, theirs, rate = both(sideways=False, wheelset="coupled", creep=False)
     for low, high, apart in ((10.0, 50.0, 0.02), (50.0, 200.0, 0.12)):
         here, there = within(ours, theirs, (low, high), rate)
         assert np.std(here - there) < apart * np.std(there)
