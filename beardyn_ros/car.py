@@ -134,12 +134,13 @@ def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
     """
 
     def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        train = axleboxes_of(scene) or replace(CAR, faulty=(name,))
-        boxes = boxes_named(name, train, "box")
+        train = axleboxes_of(scene)
+        boxes = boxes_named(name, train or CAR, "box")
         if len(boxes) > 1:
             raise InputError(
                 f"parameter 'box': '{name}' is not one box; node car_twin has the twins of several"
             )
+        train = train or replace(CAR, faulty=(boxes[0].name,))
         return box_rig(train, boxes[0])(scene, tier, effects)
 
     return load

@@ -39,7 +39,8 @@ class SharedFiles:
     def writer(self, path: Path, namespace: str) -> BoxWriter:
         """Open the file, or join in it."""
         if path not in self._files:
-            self._files[path] = _SharedFile(path, self._namespaces, replace=self._replace)
+            first = not self._files  # after a reset some boxes may have no run any more
+            self._files[path] = _SharedFile(path, self._namespaces, replace=self._replace, whole=first)
         return BoxWriter(self._files[path], namespace)
 
     def close(self) -> None:
@@ -51,8 +52,9 @@ class SharedFiles:
 class _SharedFile:
     """A file, and how the run of each box in it has ended."""
 
-    def __init__(self, path: Path, namespaces: Sequence[str], *, replace: bool) -> None:
+    def __init__(self, path: Path, namespaces: Sequence[str], *, replace: bool, whole: bool) -> None:
         self.namespaces = namespaces
+        self._whole = whole
         self.mcap = McapWriter(path, namespaces[0], replace=replace, background=True)
         self._ended: dict[str, str] = {}
 
@@ -65,6 +67,8 @@ class _SharedFile:
     def close(self) -> None:
         """Finish the file; a second call does nothing."""
         ends = [f"{space.strip('/')}: {status}" for space, status in self._ended.items() if status]
+        if self._whole:
+            ends += [f"{space.strip('/')}: no run" for space in self.namespaces if space not in self._ended]
         self.mcap.close("; ".join(ends))
 
 

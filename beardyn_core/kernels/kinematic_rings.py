@@ -105,8 +105,8 @@ def hold_sliding(sums, direction, speeds, work, p, slide):
     slip over the rolling speed, their creep. Written: the damping against velocity and tilt rate of the
     cone, world axes, at ``SLIDING`` of the ``work``. Where a step could not bear it, it is less.
 
-    Neglected: the limit of traction, slip on the cone, and that a roller which is about to slide
-    circumferentially resists less.
+    Neglected: the limit of traction, which 1 % of slip along the axle would reach, slip on the cone, and that
+    a roller which is about to slide circumferentially resists less.
 
     References
     ----------

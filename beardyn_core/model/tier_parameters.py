@@ -23,8 +23,8 @@ from beardyn_core.scene.scene import Scene
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
-# Below this rolling speed creep along the cup gives no more [m/s]: then it has the slope of dry friction of
-# 0.1 that is rounded over 0.02 m/s.
+# Below this rolling speed creep along the cup gives no more [m/s]: it has about the slope of the boundary
+# friction of the effect `traction` there, 0.1 that is rounded over 0.02 m/s.
 _SLOWEST_ALONG = 1.0
 _LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 
@@ -136,7 +136,7 @@ class LumpedParameters(NamedTuple):
     faults: FaultParams | None
     waves: RollingWaveParams | None
     bending: BendingParams | None
-    slide: SlideParams | None  # ``None``: without film and friction of the raceways
+    slide: SlideParams | None  # ``None``: without a film
 
 
 class QuasistaticParameters(NamedTuple):
@@ -153,7 +153,7 @@ class QuasistaticParameters(NamedTuple):
     highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
     bending: BendingParams | None
     loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
-    slide: SlideParams | None  # ``None``: without film and friction of the raceways
+    slide: SlideParams | None  # ``None``: without a film
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:
@@ -255,8 +255,8 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
 
 
 def slide_params(scene: Scene) -> SlideParams | None:
-    """Work out the creep along the cup; none in a bearing without film and friction of its raceways."""
-    if scene.effects.film is None and scene.effects.traction is None:
+    """Work out the creep along the cup of films that shear; none in a bearing without them."""
+    if scene.effects.film is None:
         return None
     angle = scene.bearing.cup_angle
     radial, axial = _place_on_cup(scene.bearing)

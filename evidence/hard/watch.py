@@ -136,8 +136,7 @@ class Watch:
         self.finite &= all(bool(np.isfinite(getattr(block, name)).all()) for name in _CHANNELS)
         size = np.linalg.norm(block.force_waveform[:, :3], axis=1)
         loads = np.linalg.norm(block.contacts[:, :, :, 0, 3:6], axis=-1).max(axis=(1, 2))
-        steps = len(twin.step_signals) // twin.blocks_at_once
-        steps *= round((block.end_ns - block.start_ns) / twin.block_ns)
+        steps = round((block.end_ns - block.start_ns) * 1e-9 / twin.truth()["step_s"])
         signals = twin.step_signals[:steps]
         torque, bodies = signals[:, SIGNAL_TORQUE], after.state.bodies
         self.rows.append(

@@ -58,7 +58,7 @@ FEW_PULSES = (
     "the assumed damping of the contacts, 5 us: at 2.5 us, the lower end of its quoted range, every spall "
     "has more than two"
 )
-STILL = "as of noise alone, without cages, too: no background with knocks of its own lies under it"
+STILL = "as of noise alone: no background with knocks of its own lies under it"
 PRONOSTIA = (
     "first records of six runs to failure of PRONOSTIA, vertical, 5 to 12 kHz, medians of 3.0 to 3.3 "
     "(docs/levels.md)"

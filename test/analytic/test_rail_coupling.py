@@ -76,9 +76,7 @@ def both(
     """Acceleration at the sensor, [m/s^2]: in the twin, in the rail model; and its rate, [Hz]."""
     scene = load_scene("smooth_run", tier="quasistatic")
     if not creep:
-        scene = dataclasses.replace(
-            scene, effects=dataclasses.replace(scene.effects, film=None, traction=None)
-        )
+        scene = dataclasses.replace(scene, effects=dataclasses.replace(scene.effects, film=None))
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
     rough = dataclasses.replace(operation.irregularity, short_waves="iso_3095")

@@ -342,3 +342,13 @@ def test_a_light_axlebox_gets_the_step_of_its_mode(tier: str) -> None:
     assert variant(tier=tier, mounting=light).numerics.steps_per_sample == 2
     assert variant(tier=tier, mounting=light, effects="standard").numerics.steps_per_sample == 2
     assert variant(tier=tier).numerics.steps_per_sample == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "to", "full"),
+    [("smooth_run", 400.0, False), ("smooth_run", 1000.0, True), ("cup_spall", 400.0, True)],
+)
+def test_third_octaves_that_fast_tiers_miss_need_the_full_one(name: str, to: float, full: bool) -> None:
+    """Within 1.5 dB a fast tier has those of a sound bearing to 400 Hz."""
+    scene = load_scene(name, tier="auto", effects="auto", vibration_to=to)
+    assert (scene.tier == "full") == full

@@ -178,6 +178,13 @@ def test_a_shared_file_has_what_each_box_said_once_and_ends_with_the_last(tmp_pa
     assert scan.metadata[END_RECORD]["status"] == "complete"
 
 
+def test_a_shared_file_says_which_box_had_no_run(tmp_path: Path) -> None:
+    shared = SharedFiles(("/car/a", "/car/b"))
+    shared.writer(shared.path_of(1, lambda: tmp_path / "run.mcap"), "/car/a").close("")
+    shared.close()
+    assert scan_recording(tmp_path / "run.mcap").metadata[END_RECORD]["status"] == "car/b: no run"
+
+
 class Scene(Car):
     """The launch file with a scene that has axleboxes."""
 

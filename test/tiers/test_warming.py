@@ -1,4 +1,4 @@
-"""Fast tiers warm as the full one does: every source by its torque, without an energy audit."""
+"""Fast tiers warm by the torque of every source that they have, without an energy audit."""
 
 from __future__ import annotations
 
