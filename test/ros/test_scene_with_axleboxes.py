@@ -179,6 +179,8 @@ def test_a_shared_file_has_what_each_box_said_once_and_ends_with_the_last(tmp_pa
 
 
 def test_a_shared_file_says_which_box_had_no_run(tmp_path: Path) -> None:
+    from beardyn_ros.shared_file import SharedFiles
+
     shared = SharedFiles(("/car/a", "/car/b"))
     shared.writer(shared.path_of(1, lambda: tmp_path / "run.mcap"), "/car/a").close("")
     shared.close()
