@@ -182,9 +182,13 @@ def test_a_shared_file_says_which_box_had_no_run(tmp_path: Path) -> None:
     from beardyn_ros.shared_file import SharedFiles
 
     shared = SharedFiles(("/car/a", "/car/b"))
-    shared.writer(shared.path_of(1, lambda: tmp_path / "run.mcap"), "/car/a").close("")
+    box = shared.writer(shared.path_of(1, lambda: tmp_path / "run.mcap"), "/car/a")
+    box.add("/diagnostics", 0, encode_diagnostics(0, "f", [Diagnostic("car/a/twin", 0, "runs")]))
+    box.close("")
     shared.close()
-    assert scan_recording(tmp_path / "run.mcap").metadata[END_RECORD]["status"] == "car/b: no run"
+    scan = scan_recording(tmp_path / "run.mcap")
+    assert len(list(scan.messages())) == 1
+    assert scan.metadata[END_RECORD]["status"] == "car/b: no run"
 
 
 class Scene(Car):
