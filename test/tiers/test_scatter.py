@@ -131,16 +131,16 @@ def levels(tier: str, scattered: bool) -> Float:
 @pytest.mark.slow
 @pytest.mark.parametrize("tier", FAST)
 def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -> None:
-    """Within 3 dB: along z from 125 Hz to 6.3 kHz, along y from 160 Hz beside the axial mode.
+    """Within 3 dB, 4 in `lumped`: along z from 125 Hz to 6.3 kHz, along y from 160 Hz beside the axial mode.
 
-    That mode's damper is the creep of the raceways, and what drives it in `full` is skew of the rollers
-    besides: it is up to 4.7 dB too quiet, 7 too loud without the creep. Along y at 125 Hz, a few lines of the
-    spacing, the fast tiers are up to 4.1 dB off.
+    What drives that mode in `full` is skew of the rollers besides: with the creep along the cup, which keeps
+    it down at lower speed, it is 4.7 dB too quiet here (1.3 too loud without). Along y at 125 Hz, a few lines
+    of the spacing, the fast tiers are up to 4.1 dB off.
     Of identical rollers it is not: along z 10 dB and more in `lumped`, 6 and more where rollers move in their
     pockets, and along y the fast tiers have nothing at all.
     """
     apart = np.abs(levels(tier, True) - levels("full", True))
-    assert apart[1].max() < 3.0
+    assert apart[1].max() < {"lumped": 4.0, "quasistatic": 3.0}[tier]
     beside = (AXIAL[0] > BANDS) | (AXIAL[1] < BANDS)
     assert apart[0][1:][beside[1:]].max() < 3.0
     assert apart[0][~beside].max() < 5.0
