@@ -10,6 +10,7 @@
 | `sink_throughput` | recording |
 | `held_friction` | what holding the friction of the raceways costs in accuracy |
 | `two_trees` | this tree against an older one, in turns |
+| `two_cores` | what a second core could give a step of the full tier at most |
 | `naive_model` | the yardstick: the same model written plainly, in scipy's `solve_ivp` |
 | `effect_costs` | cost of every effect, a run of its own: `make costs` |
 """
