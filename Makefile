@@ -107,9 +107,10 @@ docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/html
 links: $(VENV)/.ready-docs ## set up, then try the links of the pages to the world outside
 	@$(BIN)/sphinx-build -b linkcheck --quiet -d $(VENV)/doctrees docs docs/site/links $(ARGS)
 
-dist: $(VENV)/.ready-release ## set up, then lint the Dockerfile, and wheel and sdist in dist/, tried in new environments of every Python 3.11 to 3.13 here
+dist: $(VENV)/.ready-release ## set up, then lint the Dockerfile, and wheel and sdist in dist/, tried in new environments of every Python 3.11 to 3.13 here; are the pictures of the present code?
 	@$(BIN)/hadolint Dockerfile
 	@$(BIN)/python release/try_release.py $(ARGS)
+	@$(BIN)/python -m evidence.stamps --check
 
 sbom: $(VENV)/.ready-release ## set up, then what an installation consists of: sbom.json (CycloneDX)
 	@$(BIN)/cyclonedx-py environment --output-file sbom.json $(VENV)

@@ -41,8 +41,8 @@ Written by `python docs/write_scenes.py` from the files in `config/scenes`.
 
 A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `beardyn simulate cup_spall`
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
-bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, so each is
-computed with those that an accuracy of 5 % [needs](effects_auto.md); [the choices](choices.md).
+bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
+only the box that rings, so each is computed with those that an accuracy of 5 % [needs](effects_auto.md); [the choices](choices.md).
 
 Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
@@ -50,8 +50,8 @@ excitation of a run is part of its truth (topic `truth`, key `excitation`): the 
 strikes of a flat, joints passed, each with time and distance.
 
 The pictures show the vertical load on the journal (line: mean, band: least and greatest) and the speed;
-red triangles are strikes, yellow stretches where a scene has something else to meet. A second picture is of
-a run in tier `quasistatic` (`python docs/write_signals.py`): vertical vibration
+red triangles are strikes, yellow stretches where a scene has something else to meet. Eight have a second
+picture, of a run in tier `quasistatic` (`python docs/write_signals.py`): vertical vibration
 of the axlebox, its spectrum, and that of its envelope between 2 and 8 kHz; the orders of faults of cup, cone
 and roller are dotted.
 

@@ -15,6 +15,8 @@ from beardyn_ros.launching import failure_of
 ARGUMENTS = (
     ("namespace", "axlebox", "namespace of the axlebox; several twins live side by side"),
     ("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
+    ("tier", "scene", "lumped, quasistatic or full; scene: the scene's own"),
+    ("effects", "scene", "set or file of effects, or auto; scene: the scene's own, or chosen"),
     ("mode", "lockstep", "lockstep or live: how twin and load talk to each other"),
     ("csv", "", "CSV file of time, speed and force for the load node; empty: the scene's operation"),
     ("speed_factor", "1.0", "simulated seconds per wall second, 0 is as fast as it goes (live: 1)"),
@@ -48,6 +50,8 @@ def generate_launch_description() -> LaunchDescription:
     pace = ParameterValue(LaunchConfiguration("speed_factor"), value_type=float)
     twin = {
         "scene": text("scene"),
+        "tier": text("tier"),
+        "effects": text("effects"),
         "mode": text("mode"),
         "speed_factor": pace,
         "publish_clock": ParameterValue(LaunchConfiguration("publish_clock"), value_type=bool),

@@ -102,8 +102,8 @@ LIMITS = """
   are slots, whole contacts, round and irregular, `cage` worn pockets, which no verdict names. A monitor that
   fails costs its run and no other: the sentence with file and line stands in the result.
 - **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
-  as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. A larger one of
-  another shape may be quieter.
+  as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. Of other shapes
+  most are not found: of round and irregular ones up to 8 mm one of 108, of slots half, by `shapes` above.
 - **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
   pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
   sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
@@ -196,7 +196,7 @@ def page(found: dict[str, Any]) -> str:
     lines = [
         "# The monitor on trial",
         "",
-        f"Written by `python -m evidence.trial.page` from `beardyn trial {found['trial']}`: "
+        f"Written by `python -m evidence.trial.page FOLDER` from `beardyn trial {found['trial']} -o FOLDER`: "
         f"{found['run_count']} runs of {found['revolutions']:g} shaft revolutions in the tier "
         f"`{found['tier']}`, seed {found['seed']}. Brackets are exact 95 % intervals (Clopper and Pearson).",
         "",
@@ -252,7 +252,7 @@ def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> list[str
         "",
         f"The runs of `{one}` with the effects that `auto` takes, and with `--effects standard` (`beardyn "
         f"trial {one} -o A`, the same with `--effects standard -o B`, `python -m evidence.trial.page DEFAULT "
-        "A --standard B`), which leave out rolling resistance, seals and coupled laminae. The box that "
+        "A --standard B`), which leave out rolling resistance and seals (coupled laminae no fast tier has). The box that "
         "rings, background, sensors and the bearings of the lot are those of the scene and stay: what the "
         "monitor finds is decided by them.",
         "",

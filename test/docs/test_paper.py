@@ -6,6 +6,8 @@ import importlib.util
 import re
 from pathlib import Path
 
+from beardyn_core.config import shipped_names
+
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "docs" / "paper"
 TEXT = (FOLDER / "paper.md").read_text(encoding="utf-8")
@@ -23,6 +25,9 @@ def test_every_claim_has_a_command_of_the_repository_and_a_page() -> None:
         words = command.strip("`").split()
         if words[0] == "make":
             assert words[1] in targets, claim
+        elif words[0] == "beardyn":
+            assert words[1] == "trial", claim
+            assert words[2] in shipped_names("trials"), claim
         elif words[0] == "python":
             assert importlib.util.find_spec(words[2]) is not None, claim
         else:
