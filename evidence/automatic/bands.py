@@ -27,8 +27,8 @@ TITLE, NEXT = "## Third octaves of the fast tiers\n", "## How good the estimates
 HEAD = """
 Written by `python -m evidence.automatic.bands`: {seconds:g} s of shipped scenes without noise of the sensor,
 in `full` as chosen by default and in the fast tiers as chosen for 5 kHz (`quasistatic`) and 1 kHz (`lumped`),
-last column: for 10 kHz; the third octave in each range that is farthest off that of `full`, all axes together,
-in dB.
+last column: for 10 kHz; the third octave in each range that is farthest off that of `full`, all axes
+together, in dB.
 
 | scene | tier | {ranges} |
 |---|---|{rules}|

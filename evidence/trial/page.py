@@ -252,9 +252,9 @@ def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> list[str
         "",
         f"The runs of `{one}` with the effects that `auto` takes, and with `--effects standard` (`beardyn "
         f"trial {one} -o A`, the same with `--effects standard -o B`, `python -m evidence.trial.page DEFAULT "
-        "A --standard B`), which leave out rolling resistance and seals (coupled laminae no fast tier has). The box that "
-        "rings, background, sensors and the bearings of the lot are those of the scene and stay: what the "
-        "monitor finds is decided by them.",
+        "A --standard B`), which leave out rolling resistance and seals (coupled laminae no fast tier has). "
+        "The box that rings, background, sensors and the bearings of the lot are those of the scene and "
+        "stay: what the monitor finds is decided by them.",
         "",
         "| | found, `auto` | found, `standard` | false alarms, `auto` | false alarms, `standard` |",
         "|---|--:|--:|--:|--:|",
