@@ -10,12 +10,12 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
 from beardyn_core.observe.monitoring import Monitor, MonitorInput
 from beardyn_core.run import blocks
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.scene import Scene
-from evidence.standard import standard_scene
 
 SPANS_HZ = ((20.0, 500.0), (500.0, 1000.0), (1000.0, 2000.0), (2000.0, 5000.0), (5000.0, 10_000.0))
 TIERS = ("full", "quasistatic")
@@ -76,7 +76,7 @@ def levels(signal: Float, rate: float) -> tuple[float, ...]:
 
 def services(tier: str) -> list[Scene]:
     """Load the service scenes for a tier."""
-    return [standard_scene(name, tier=tier) for name in service_names()]
+    return [load_scene(name, tier=tier) for name in service_names()]
 
 
 def with_parts(scene: Scene, *parts: str) -> Scene:
