@@ -222,7 +222,7 @@ TWO_STATES = (
 )
 CHURNED = (
     "churning of fresh grease brakes more than light loads drive; settled, which takes that away, it is 35 "
-    "to 48 % where the cages slip, and 7 % in the other state, near rolling"
+    "to 54 % where the cages slip, and 7 % in the other state, near rolling"
 )
 WARM = (
     "both greases do the reverse, and no cause was found: as oil thins it brakes less and drives less, and "
