@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.choice import load_scene, numerics
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
@@ -115,3 +116,16 @@ def test_the_worst_band_of_each_range_stands_with_its_frequency() -> None:
     for band, decibels in ((100, -0.4), (400, 0.2), (630, 1.0), (800, -2.0), (5000, 3.0), (6300, 9.0)):
         apart[NOMINAL_BANDS.index(band)] = decibels
     assert bands.worst(apart) == ["-0.4 at 100", "+0.2 at 400", "-2.0 at 800", "+3.0 at 5000"]
+
+
+def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
+    text = bands.PAGE.read_text(encoding="utf-8")
+    section = text[text.index(bands.TITLE) : text.index(bands.NEXT)]
+    rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
+    assert len(rows) == len(bands.SCENES) * len(bands.TIERS)
+    for name, tier, *cells in rows:
+        low, quiet, middle, high, beyond = (abs(float(cell.split()[0])) for cell in cells)
+        assert max(low, quiet, middle, high) <= numerics.IN_MIDDLE_BAND[tier.strip("`")], name
+        assert beyond <= numerics.BEYOND[tier.strip("`")], name
+        if not load_scene(name.strip("`"), effects="standard").faults:
+            assert max(low, quiet) <= numerics.IN_QUIET_BAND, name
