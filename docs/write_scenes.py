@@ -43,7 +43,8 @@ A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
 bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
 only the box that rings, so each is computed with those that an accuracy of 5 % [needs](effects_auto.md);
-[the choices](choices.md).
+[the choices](choices.md). `bogie` names the tier `lumped`, so that its four boxes keep up: it misses 5 %,
+and says by how much.
 
 Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The

@@ -47,10 +47,12 @@ def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tm
     code = tmp_path / "beardyn_core"
     (code / "rail").mkdir(parents=True)
     (code / "record").mkdir()
-    for place in ("run.py", "rail/load.py", "record/reading.py"):
+    (code / "cli").mkdir()
+    for place in ("run.py", "rail/load.py", "record/reading.py", "cli/report.py"):
         (code / place).write_text("x = 1\n")
     stamp(picture, "python docs/some.py", rooms_of(tmp_path))
     assert stamp_of(picture).command == "python docs/some.py"
+    (code / "cli/report.py").write_text("x = 2\n")
     assert changed_rooms(picture, rooms_of(tmp_path)) == []
     (code / "rail/load.py").write_text("x = 2\n")
     assert changed_rooms(picture, rooms_of(tmp_path)) == ["rail"]

@@ -23,8 +23,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "estimate",
         help="estimate load, end play and spall of a recording, each with an interval",
         description="Estimate from vibration and shaft of a recording what no sensor measures: load, end "
-        "play, temperature, which part is spalled and how wide, with intervals of 50 and 90 %; what is not "
-        "identifiable is told. Measured files become a recording with `beardyn import`.",
+        "play, which part is spalled and how wide, with intervals of 50 and 90 %; what is not identifiable "
+        "is told (with the shipped estimators vertical load and temperature). Measured files become a "
+        "recording with `beardyn import`.",
     )
     parser.add_argument("recording", metavar="run.mcap", help="recording to estimate from")
     add_hearing(parser)

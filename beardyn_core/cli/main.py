@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 DONE, BAD_INPUT, INVALID, INTERRUPTED = 0, 2, 3, 130
+_ANNOUNCER = "beardyn command"
 COMMANDS = {
     "start here": ("demo", "scenes", "new"),
     "simulate": ("simulate", "explain", "ladder", "warmup"),
@@ -123,8 +124,13 @@ def _announce_on_stderr() -> None:
     import logging
 
     logger = logging.getLogger("beardyn")
+    for handler in logger.handlers:
+        if handler.name == _ANNOUNCER and isinstance(handler, logging.StreamHandler):
+            # of now, where a program calls twice; `setStream` would flush the old one, which may be closed
+            handler.stream = sys.stderr
     if not logger.handlers:
         handler = logging.StreamHandler()
+        handler.name = _ANNOUNCER
         handler.setFormatter(logging.Formatter("beardyn: %(message)s"))
         logger.addHandler(handler)
         logger.setLevel(logging.INFO)

@@ -12,6 +12,7 @@ KINDS = (
     "vehicle",
     "effects",
     "trial",
+    "sweep",
     "structure",
     "modes",
     "sensor",

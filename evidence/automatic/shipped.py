@@ -27,8 +27,10 @@ roller load and torque within 5 %, third octaves to 10 kHz within 1.5 dB. *Chose
 each sample of 25.6 kHz, and what is off, or cheaper than in `full`. Errors are those that
 [the rules](effects_auto.md) expect against every effect, bold beyond what is asked for. Real-time factors are
 those expected on the machine of the costs ({machine}, {date}), of one box where a scene
-has several. A scene that names no effects has these where the tier here is `full`; another tier than that is
-taken with `tier: auto` only. The last two columns are for what its file names, or `standard`.
+has several. A scene that names no effects runs as its row says where the tier in it is `full` or
+the one that its file names (`bogie`: `lumped`, hence errors beyond what is asked for); another tier is
+taken with `tier: auto` only. The last two columns are of the same scene with the effects that its file names,
+else with `standard`.
 
 | scene | chosen | expected errors | times real time | named, else `standard`: errors | times real time |
 |---|---|---|--:|---|--:|

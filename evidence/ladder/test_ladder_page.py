@@ -8,6 +8,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.study.ladder import plan_of
 from evidence.ladder import front
 from evidence.ladder.page import section, summary
+from evidence.ladder.turns import in_turns
 from evidence.pages import DOCS
 from test.study.test_ladder import FakeRuns, climbed
 
@@ -28,3 +29,17 @@ def test_the_front_on_the_first_page_is_that_of_the_ladder() -> None:
     ladder = (DOCS / "ladder.md").read_text(encoding="utf-8")
     assert readme == front.renewed(readme, ladder)
     assert "| auto 5 % |" in front.front(ladder)
+
+
+def test_levels_that_take_turns_have_costs_of_their_own_and_the_same_errors() -> None:
+    """A level that failed keeps what the climb had found."""
+    scene = load_scene("static_80kN", effects="standard")
+    ladder = climbed(plan_of(scene, 0.5, 0.1), FakeRuns(invalid=7))
+    found = in_turns(ladder, scene, turns=3)
+    assert [row.errors for row in found.rows] == [row.errors for row in ladder.rows]
+    costs = {row.level.steps_per_sample: row.cost for row in found.rows}
+    assert all(cost.lower <= cost.median <= cost.upper for cost in costs.values())
+    assert costs[1].median < costs[4].median < costs[8].median
+    for before, after in zip(ladder.rows, found.rows, strict=True):
+        assert (before.cost == after.cost) == (not before.errors)
+    assert found.reference.cost != ladder.reference.cost

@@ -170,7 +170,7 @@ tier `full` in the box `high_speed`, 80 kN.
 
 Rms from 0.1 to 5.6 kHz; kurtosis of everything, then from 5 to 16 kHz or to 0.47 of the rate. *To 0.2 mm*:
 the waves of the raceways go on to that length (`scatter: {{shortest_wave_mm: 0.2}}`), as far as contacts
-pass them on; as shipped they end at 1 mm.
+pass them on; in shipped scenes but `service_*` they end at 1 mm.
 
 | bearing | shaft Hz | rms | kurtosis | 5-16 kHz: rms | kurtosis |
 |---|--:|--:|--:|--:|--:|

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import io
 import json
+import logging
 import os
 import subprocess
 import sys
@@ -11,9 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.cli import bearing
+from beardyn_core.cli import bearing, schema
 from beardyn_core.cli import main as command
 from beardyn_core.config import shipped_names
+from beardyn_core.config.schema import SCHEMA_KINDS
 from beardyn_core.integrate import static
 
 
@@ -65,6 +68,10 @@ def test_schema_is_one_json_object() -> None:
     done = beardyn("schema")
     assert done.returncode == 0
     assert json.loads(done.stdout)["title"] == "beardyn scene"
+
+
+def test_there_is_a_schema_of_every_kind_of_file() -> None:
+    assert set(schema.KINDS) == set(SCHEMA_KINDS)
 
 
 @pytest.mark.parametrize(
@@ -177,3 +184,15 @@ def test_help_of_a_command_is_printed(name: str, capsys: pytest.CaptureFixture[s
         command.main([name, "--help"])
     assert ended.value.code == 0
     assert f"usage: beardyn {name}" in capsys.readouterr().out
+
+
+def test_a_program_that_calls_twice_is_told_on_the_stderr_of_each_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for _ in range(2):
+        stream = io.StringIO()
+        monkeypatch.setattr(sys, "stderr", stream)
+        command.main(["schema", "lubricant"])
+        logging.getLogger("beardyn").info("kernels ready")
+        assert stream.getvalue() == "beardyn: kernels ready\n"
+        stream.close()
