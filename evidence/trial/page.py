@@ -103,7 +103,7 @@ LIMITS = """
   fails costs its run and no other: the sentence with file and line stands in the result.
 - **The spalls are round numbers**: a rectangular pit with sharp edges, twice as long as wide, a tenth as deep
   as wide, at most 100 µm; on the cup within 30 degrees of the middle of the load zone. Of other shapes
-  most are not found: of round and irregular ones up to 8 mm one of 108, of slots half, by `shapes` above.
+  most are not found: of round and irregular ones up to 8 mm three of 108, of slots half, by `shapes` above.
 - **The background is that of `driven_emu`** on an even track: roughness, drive, other bearing, knocks and
   pickup, most of their levels assumed ([sensors.md](sensors.md) has what each adds), behind a sensor by data
   sheet. The modes of the box are those of a class of box, damped by 2 % by assumption.
