@@ -39,7 +39,7 @@ def test_levels_that_take_turns_have_costs_of_their_own_and_the_same_errors() ->
     assert [row.errors for row in found.rows] == [row.errors for row in ladder.rows]
     costs = {row.level.steps_per_sample: row.cost for row in found.rows}
     assert all(cost.lower <= cost.median <= cost.upper for cost in costs.values())
-    assert costs[1].median < costs[4].median < costs[8].median
+    assert costs[1].median < costs[8].median  # a spring a roller, and every roller in 8 steps: 50 times
     for before, after in zip(ladder.rows, found.rows, strict=True):
         assert (before.cost == after.cost) == (not before.errors)
     assert found.reference.cost != ladder.reference.cost
