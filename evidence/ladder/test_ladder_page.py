@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from beardyn_core.choice import load_scene
+from beardyn_core.errors import ValidityError
 from beardyn_core.study.ladder import plan_of
+from beardyn_core.twin import Twin
 from evidence.ladder import front
 from evidence.ladder.page import section, summary
 from evidence.ladder.turns import in_turns
@@ -43,3 +47,22 @@ def test_levels_that_take_turns_have_costs_of_their_own_and_the_same_errors() ->
     for before, after in zip(ladder.rows, found.rows, strict=True):
         assert (before.cost == after.cost) == (not before.errors)
     assert found.reference.cost != ladder.reference.cost
+
+
+def test_a_level_that_breaks_down_in_a_turn_keeps_the_cost_of_its_climb(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It must not end the page, and the others go on with their turns."""
+    scene = load_scene("static_80kN", effects="standard")
+    ladder = climbed(plan_of(scene, 0.5, 0.1), FakeRuns())
+
+    def advance(twin: Twin, count: int = 1) -> None:
+        if twin.scene.tier == "lumped":
+            raise ValidityError("a roller is pressed too far")
+
+    monkeypatch.setattr(Twin, "advance", advance)
+    found = in_turns(ladder, scene, turns=3)
+    kept = [before.cost == after.cost for before, after in zip(ladder.rows, found.rows, strict=True)]
+    assert kept == [row.level.tier == "lumped" for row in ladder.rows]
+    assert any(kept)
+    assert not all(kept)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from beardyn_core.errors import ValidityError
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.ladder_levels import Level
@@ -20,7 +21,9 @@ _LONGEST_S = 0.5  # simulated in a turn
 
 
 def in_turns(ladder: Ladder, scene: Scene, turns: int = TURNS) -> Ladder:
-    """Replace the costs of a ladder's levels by those of turns in one process; levels that fail keep theirs.
+    """Replace the costs of a ladder's levels by those of turns in one process.
+
+    A level that failed in the climb, or fails in a turn, which go on for longer, keeps what the climb found.
 
     Parameters
     ----------
@@ -36,17 +39,22 @@ def in_turns(ladder: Ladder, scene: Scene, turns: int = TURNS) -> Ladder:
         _started(row.level, scene, count * (turns + SETTLING))
         for row, count in zip(timed, blocks, strict=True)
     ]
-    taken = np.empty((turns + SETTLING, len(timed)))
+    taken = np.zeros((turns + SETTLING, len(timed)))
+    going = list(range(len(timed)))
     for turn in range(turns + SETTLING):
-        for place in range(len(timed))[:: 1 if turn % 2 else -1]:
+        for place in going[:: 1 if turn % 2 else -1]:
             began = time.perf_counter()
-            _advance(twins[place], blocks[place])
+            try:
+                _advance(twins[place], blocks[place])
+            except ValidityError:
+                going.remove(place)
+                continue
             simulated = blocks[place] * 1e-9 * Twin.block_ns
             taken[turn, place] = (time.perf_counter() - began) / simulated
     lower, median, upper = np.quantile(taken[SETTLING:], (0.25, 0.5, 0.75), axis=0)
     costs = {
-        row.level.name: Cost(float(median[place]), float(lower[place]), float(upper[place]))
-        for place, row in enumerate(timed)
+        timed[place].level.name: Cost(float(median[place]), float(lower[place]), float(upper[place]))
+        for place in going
     }
 
     def costing(row: LevelResult) -> LevelResult:
