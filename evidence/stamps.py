@@ -2,9 +2,9 @@
 
 A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator,
 and of its configuration, as they were when that command began. The command lists the pictures, and which
-rooms have changed since but that of the commands' words, which draws and computes nothing; ``--check`` ends
-with 1 when one has. That is a question for a release: a change in one room need not reach a picture, so no
-test asks it of every commit.
+rooms have changed since but that of the commands' words, which draws and computes nothing, and the shipped
+estimators, which only pictures of a follower ask; ``--check`` ends with 1 when one has. That is a question for
+a release: a change in one room need not reach a picture, so no test asks it of every commit.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
 SIMULATOR, CONFIGURATION = "beardyn_core", "config/"
 WORDS = "cli"  # the room that reads words and prints sentences
+ESTIMATORS, FOLLOWER = "config/estimators", "python -m evidence.follow"
 BY, OF = "Made by", "Made of"
 LISTED = 8  # rooms; more are counted
 _LENGTH = 8
@@ -89,9 +90,11 @@ def stamp_of(path: Path) -> Stamp:
 
 def changed_rooms(path: Path, now: dict[str, str]) -> list[str]:
     """Name the rooms that are others than when a picture was made; older stamps know nothing of `config`."""
-    then = stamp_of(path).rooms
+    command, then = stamp_of(path)
     configured = any(room.startswith(CONFIGURATION) for room in then)
     asked = {room for room in {*then, *now} if configured or not room.startswith(CONFIGURATION)} - {WORDS}
+    if not command.startswith(FOLLOWER):
+        asked -= {ESTIMATORS}
     return sorted(room for room in asked if then.get(room) != now.get(room))
 
 

@@ -69,6 +69,15 @@ def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tm
     assert changed_rooms(picture, rooms_of(tmp_path)) == [".", "record"]
 
 
+def test_another_estimator_is_in_the_pictures_of_a_follower_alone(picture: Path) -> None:
+    before = {"rail": "one", "config/estimators": "one"}
+    after = {**before, "config/estimators": "two"}
+    stamp(picture, "python -m evidence.follow.page", before)
+    assert changed_rooms(picture, after) == ["config/estimators"]
+    stamp(picture, "python -m evidence.heat.page", before)
+    assert changed_rooms(picture, after) == []
+
+
 @pytest.mark.parametrize(
     ("spec", "file", "command"),
     [
