@@ -3,8 +3,8 @@
 A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator,
 and of its configuration, as they were when that command began. The command lists the pictures, and which
 rooms have changed since but that of the commands' words, which draws and computes nothing, and the shipped
-estimators, which only pictures of a follower ask; ``--check`` ends with 1 when one has. That is a question for
-a release: a change in one room need not reach a picture, so no test asks it of every commit.
+estimators, which pictures of a follower alone ask; ``--check`` ends with 1 when one has. That is a question
+for a release: a change in one room need not reach a picture, so no test asks it of every commit.
 """
 
 from __future__ import annotations
