@@ -2,9 +2,10 @@
 
 A picture carries, as text in its PNG, the command that made it and a digest of every room of the simulator,
 and of its configuration, as they were when that command began. The command lists the pictures, and which
-rooms have changed since but that of the commands' words, which draws and computes nothing, and the shipped
-estimators, which pictures of a follower alone ask; ``--check`` ends with 1 when one has. That is a question
-for a release: a change in one room need not reach a picture, so no test asks it of every commit.
+rooms have changed since; ``--check`` ends with 1 when one has. The room of the commands' words, which draws
+and computes nothing, does not count; a room that few commands go through counts for their pictures alone.
+That is a question for a release: a change in a room need not reach a picture, so no test asks it of every
+commit.
 """
 
 from __future__ import annotations
@@ -24,7 +25,10 @@ ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
 SIMULATOR, CONFIGURATION = "beardyn_core", "config/"
 WORDS = "cli"  # the room that reads words and prints sentences
-ESTIMATORS, FOLLOWER = "config/estimators", "python -m evidence.follow"
+SOME_GO_THROUGH = {  # rooms, and how the commands begin whose pictures they may change
+    "config/estimators": "python -m evidence.follow",
+    "measured": "python -m evidence.population",  # reads files of other tools
+}
 BY, OF = "Made by", "Made of"
 LISTED = 8  # rooms; more are counted
 _LENGTH = 8
@@ -93,8 +97,7 @@ def changed_rooms(path: Path, now: dict[str, str]) -> list[str]:
     command, then = stamp_of(path)
     configured = any(room.startswith(CONFIGURATION) for room in then)
     asked = {room for room in {*then, *now} if configured or not room.startswith(CONFIGURATION)} - {WORDS}
-    if not command.startswith(FOLLOWER):
-        asked -= {ESTIMATORS}
+    asked -= {room for room, begin in SOME_GO_THROUGH.items() if not command.startswith(begin)}
     return sorted(room for room in asked if then.get(room) != now.get(room))
 
 

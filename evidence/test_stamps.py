@@ -15,6 +15,7 @@ from evidence.pages import save_small
 from evidence.stamps import (
     PICTURES,
     ROOT,
+    SOME_GO_THROUGH,
     changed_rooms,
     command_of_this_process,
     main,
@@ -69,13 +70,31 @@ def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tm
     assert changed_rooms(picture, rooms_of(tmp_path)) == [".", "record"]
 
 
-def test_another_estimator_is_in_the_pictures_of_a_follower_alone(picture: Path) -> None:
-    before = {"rail": "one", "config/estimators": "one"}
-    after = {**before, "config/estimators": "two"}
-    stamp(picture, "python -m evidence.follow.page", before)
-    assert changed_rooms(picture, after) == ["config/estimators"]
+@pytest.mark.parametrize(("room", "command"), SOME_GO_THROUGH.items())
+def test_a_room_that_few_commands_go_through_changes_their_pictures_alone(
+    room: str, command: str, picture: Path
+) -> None:
+    before = {"rail": "one", room: "one"}
+    after = {**before, room: "two"}
+    stamp(picture, f"{command}.page", before)
+    assert changed_rooms(picture, after) == [room]
     stamp(picture, "python -m evidence.heat.page", before)
     assert changed_rooms(picture, after) == []
+
+
+def test_no_other_command_that_draws_reads_measured_files() -> None:
+    """It holds while only the rooms of these commands name `beardyn_core.measured` or its reader."""
+    commands = {stamp_of(path).command for path in EVERY} - {""}
+    for command in commands:
+        words = command.split()
+        place = Path(*words[2].split(".")[:2]) if words[1] == "-m" else Path(words[1])
+        files = sorted((ROOT / place).rglob("*.py")) if (ROOT / place).is_dir() else [ROOT / place]
+        reads = any(
+            name in file.read_text(encoding="utf-8")
+            for file in files
+            for name in ("beardyn_core.measured", "read_measured", "import_measured")
+        )
+        assert not reads or command.startswith(SOME_GO_THROUGH["measured"]), command
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,7 @@ _AXIS_NAME = re.compile(
     r"(?:^|[^a-z])(?:a|acc|accel|acceleration|vib|vibration)?[_ .\-]?([xyz])(?:$|[^a-z0-9])", re.I
 )
 _SHOWN = 12
+_SAME_SPEED = 0.01  # within which a number in the file and what was said are one
 
 
 @dataclass(frozen=True)
@@ -184,7 +185,7 @@ def _seconds(work: _Choosing, channels: Sequence[Channel]) -> float:
     channel, said = channels[0], work.reading.time_unit
     if channel.is_time:
         return 1.0
-    known = usual(channel.unit) if usual(channel.unit) in TIME else unit_in(channel.name, TIME)
+    known = time_unit_in(channel)
     if said and known and said != known:
         work.warnings.append(
             f"{work.path}: the unit of {channel.name} is {known} in the file; taken is {said}, as asked"
@@ -196,21 +197,34 @@ def _seconds(work: _Choosing, channels: Sequence[Channel]) -> float:
     return TIME[said or known or "s"]
 
 
+def time_unit_in(channel: Channel) -> str:
+    """Find the unit of time stamps in their name or beside it; '' where the file says none that is known."""
+    return usual(channel.unit) if usual(channel.unit) in TIME else unit_in(channel.name, TIME)
+
+
+def speeds_in(source: Source) -> dict[str, float | None]:
+    """Find what seems to be a speed of the shaft by its unit: columns, None, and single numbers."""
+    columns = [each.name for each in source.channels if usual(each.unit) == "rpm" or _in_rpm(each.name)]
+    return {**dict.fromkeys(columns), **{n: v for n, v in source.numbers.items() if _in_rpm(n)}}
+
+
+def _in_rpm(name: str) -> bool:
+    return bool(unit_in(name, {"rpm": 1.0})) or name.lower() == "rpm"
+
+
 def _speed(work: _Choosing) -> Speed:
     reading = work.reading
     if reading.speed is not None:
-        return Speed("constant", reading.speed)
+        return _constant(work, reading.speed)
     if reading.vehicle_speed is not None and reading.wheel_diameter is not None:
-        return Speed("constant", 2.0 * reading.vehicle_speed / reading.wheel_diameter)
+        return _constant(work, 2.0 * reading.vehicle_speed / reading.wheel_diameter)
     if reading.tacho_channel:
         channel = _found(work, "tacho_channel", reading.tacho_channel)
         return Speed() if channel is None else Speed("tacho", channel=channel)
     if not reading.speed_channel:
-        for name, value in work.source.numbers.items():
-            if unit_in(name, {"rpm": 1.0}) or name.lower() == "rpm":
-                work.told.append(
-                    f"the file has {name} = {value:g}; --speed-channel {name} takes it as the speed"
-                )
+        for name, value in speeds_in(work.source).items():
+            what = name if value is None else f"{name} = {value:g}"
+            work.told.append(f"the file has {what}; --speed-channel {name} takes it as the speed")
         return Speed()
     numbers = {n: v for n, v in work.source.numbers.items() if fnmatchcase(n, reading.speed_channel)}
     channel = None
@@ -229,6 +243,18 @@ def _speed(work: _Choosing) -> Speed:
         work.told.append(f"the speed is {name} = {numbers[name]:g}")
         return Speed("constant", value)
     return Speed("channel", channel=channel, factor=factor)
+
+
+def _constant(work: _Choosing, speed: float) -> Speed:
+    """Take what was said, and warn of what the file has beside it."""
+    for name, value in speeds_in(work.source).items():
+        if value is not None and abs(value * ROTATION["rpm"] - speed) <= _SAME_SPEED * speed:
+            continue
+        what = f"the column {name}" if value is None else f"{name} = {value:g}"
+        work.warnings.append(
+            f"{work.path}: has {what}; taken is the speed {speed / ROTATION['rpm']:.6g} rpm, as asked"
+        )
+    return Speed("constant", speed)
 
 
 def _speed_factor(work: _Choosing, name: str, unit: str) -> float:

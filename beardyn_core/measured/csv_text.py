@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from beardyn_core.measured.text_table import TextTable, moments_to_seconds, unde
 _CHARACTERS = 1 << 22  # in memory at a time
 _SHOWN = 3
 _LONGEST_LINE = 1 << 20
+# what spreadsheets write for a value that there is not: #N/A, #NV, #DIV/0!, #WERT!; no comment
+_NO_VALUE = re.compile(r"""\s*"?#(?:(?:N/[A-Z]|NV|NA)\b|[^\s,;|"a-z]+[!?])""")
 
 
 class _Table(Held):
@@ -30,8 +33,13 @@ class _Table(Held):
         first: dict[int, list[np.datetime64]] = {k: [] for k in table.moments}
         self.problems.clear()
         bad: list[tuple[int, str]] = []
+        empty: list[int] = []  # lines, behind which no number came yet
         for line, text in self._texts():
             rows = text.splitlines()
+            if len(table.names) == 1:
+                _look_for_empty(rows, line, empty, bad)
+            if all(not row.strip() or _is_comment(row) for row in rows):
+                continue
             quick = None if table.moments & set(wanted) else _quick(text, rows, table, wanted)
             yield _slow(rows, line, table, wanted, first, bad) if quick is None else quick
         if bad:
@@ -58,11 +66,27 @@ class _Table(Held):
             yield line, rest
 
 
+def _look_for_empty(rows: list[str], line: int, empty: list[int], bad: list[tuple[int, str]]) -> None:
+    """Note lines without the only value that they could have, unless nothing but such lines is left."""
+    if not empty and all(map(str.strip, rows)):
+        return
+    for number, row in enumerate(rows, start=line):
+        if not row.strip():
+            empty.append(number)
+        elif empty and not _is_comment(row):
+            bad += [(each, "is empty, where a number belongs") for each in empty]
+            empty.clear()
+
+
+def _is_comment(row: str) -> bool:
+    return row.lstrip()[0] in "#%" and not _NO_VALUE.match(row)
+
+
 def _quick(text: str, rows: list[str], table: TextTable, wanted: list[int]) -> Float | None:
     """Read rows that all are as they should be; None when one is not."""
     marks = tuple(mark for mark in "#%" if mark in text)
     quoted = '"' in text
-    if marks and quoted:  # NumPy knows the one or the other
+    if marks and (quoted or any(map(_NO_VALUE.match, rows))):  # NumPy knows comments or quotes
         return None
     if table.decimal == ",":
         rows = text.replace(",", ".").splitlines()
@@ -96,7 +120,7 @@ def _slow(
     width, out = len(table.names), []
     moments: dict[int, list[str]] = {k: [] for k in wanted if k in table.moments}
     for number, row in enumerate(rows):
-        if not row.strip() or row.lstrip()[0] in "#%":
+        if not row.strip() or _is_comment(row):
             continue
         cells, values = table.cells(row), []
         if len(cells) != width:

@@ -12,15 +12,17 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
-from beardyn_core.measured.choice import Chosen, choose
+from beardyn_core.measured.choice import Chosen, choose, speeds_in, time_unit_in
 from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
 from beardyn_core.measured.telling import gathered, told
+from beardyn_core.measured.units import TIME
 from beardyn_core.observe.speed import SpeedTrack
 
 _SAME_RATE = 1e-3  # within which two rates are one
 _CONTRADICTS = 1e-2  # beyond which a file that says two rates is refused
+_SLOWEST = 200.0  # [Hz], below which stamps without a unit are no seconds: 100 kHz in ms would be 100 Hz
 LEAST_SAMPLES = 16
 LARGEST = 1e6  # [m/s^2]; beyond it the unit or the scale is wrong
 
@@ -171,9 +173,11 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
         and files
         and all(each.chosen.speed.kind == "none" for each in files)
     ):
+        has = ", ".join(speeds_in(files[0].chosen.source))
         found.problems.append(
             f"{files[0].chosen.path}: the speed of the shaft is not known, and a monitor needs it; give "
-            "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel, --tacho-channel, or "
+            "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel"
+            f"{f' (the file has {has})' if has else ''}, --tacho-channel, or "
             "--speed-range-rpm to find it in the vibration"
         )
     if found.problems:
@@ -274,9 +278,18 @@ def _rate(
             f"{chosen.path}: the time stamps {time.name} are so coarse that the rate, {rate:.6g} Hz, may be "
             f"wrong by {100.0 * clock.uncertainty:.2g} %; give --rate-hz if it is known"
         )
+    if time is not None and len(claims) == 1 and rate < _SLOWEST and not _says_unit(time, reading):
+        found.problems.append(
+            f"{chosen.path}: the time stamps {time.name} say {rate:.6g} Hz if they are in s, too slow for a "
+            f"vibration; give --time-unit, one of {', '.join(TIME)}, or --rate-hz"
+        )
     best = clock.rate if time is not None and isfinite(clock.rate) and not others else rate
     nearest = round(best)
     return float(nearest) if nearest and abs(best - nearest) < 1e-6 * best else best
+
+
+def _says_unit(time: Channel, reading: Reading) -> bool:
+    return bool(time.is_time or reading.time_unit or time_unit_in(time))
 
 
 def _compare(files: Sequence[Surveyed], found: _Found) -> None:

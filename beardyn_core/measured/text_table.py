@@ -23,6 +23,7 @@ _COMMENT = "#%"
 _OPTIONAL_COLUMNS = ("\t", ";")  # separators of programs that name columns which no row has
 _SHOWN = 60  # characters of a line
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|[-+]?(?:nan|inf|infinity)", re.IGNORECASE)
+_SPACED_UNIT = re.compile(r"\s+([\[(][^\])]*[\])])")
 _MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d+)?)?Z?")
 
 
@@ -217,13 +218,22 @@ def _headings(above: list[tuple[int, str]], fit: _Fit) -> list[tuple[int, list[s
     width = len(fit.sample)
     found: list[tuple[int, list[str]]] = []
     for n, line in reversed(above):
-        cells = _split(line, fit.separator)
+        cells = _heading_cells(line, fit.separator, width)
         if fit.separator in _OPTIONAL_COLUMNS and not found:
             cells = cells[:width]  # such as one for comments, which no row has
         if len(cells) != width or not any(c and not _kind(c, fit.decimal) for c in cells):
             break
         found.append((n, cells))
     return found[::-1]
+
+
+def _heading_cells(line: str, separator: str | None, width: int) -> list[str]:
+    """Split a heading; white space before a unit in brackets does not: ``time [s] acc [g]``."""
+    if separator is None:
+        line = _SPACED_UNIT.sub(r"\1", line)
+        if width == 1 and line.endswith(("]", ")")):
+            return [line.strip('"')]
+    return _split(line, separator)
 
 
 def _are_units(cells: list[str]) -> bool:

@@ -160,6 +160,30 @@ def test_a_file_that_says_two_rates_is_refused_until_an_option_decides(tmp_path:
         assert bd.read_measured(path, rate_Hz=RATE).vibration.rate == RATE
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("us", 1e6), ("ms", 1e3), ("ns", 1e9)])
+def test_stamps_without_a_unit_that_cannot_be_seconds_are_asked_about(
+    unit: str, factor: float, tmp_path: Path
+) -> None:
+    """Taken for seconds, a file of a megabyte would become a recording of days."""
+    path = table(tmp_path / "a.csv", {"t": TIME * factor, "az_g": noise()[:, 0]})
+    (found,) = problems(path)
+    assert "if they are in s, too slow for a vibration; give --time-unit, one of s, ms, us, ns" in found
+    assert len(bd.read_measured(path, time_unit=unit).vibration) == COUNT
+    assert len(bd.read_measured(path, rate_Hz=RATE, time_channel="none").vibration) == COUNT
+
+
+def test_a_speed_that_the_file_has_beside_what_was_asked_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, made = csv(tmp_path, speed_rpm=np.full(COUNT, 1800.0)), str(tmp_path / "run.mcap")
+    assert main(["import", str(path), "--speed-rpm", "1000", "-o", made]) == DONE
+    assert "has the column speed_rpm; taken is the speed 1000 rpm, as asked" in capsys.readouterr().err
+    assert main(["import", str(path), "-o", made, "--force"]) == DONE
+    assert "the file has speed_rpm; --speed-channel speed_rpm takes it" in capsys.readouterr().out
+    assert main(["monitor", str(path), "--bearing", "6205"]) == BAD_INPUT
+    assert "--speed-channel (the file has speed_rpm), --tacho-channel" in capsys.readouterr().err
+
+
 def test_two_rates_in_one_file_and_in_two_files_are_refused(tmp_path: Path) -> None:
     half = COUNT // 2
     faster = np.concatenate((TIME[:half], TIME[half - 1] + np.arange(1, half + 1) / 48_000))

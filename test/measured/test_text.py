@@ -218,3 +218,61 @@ def test_a_row_with_too_many_cells_is_found_although_its_first_ones_are_numbers(
     path.write_text("time_s,az_g\n" + "".join(rows))
     with pytest.raises(bd.InputError, match="line 22: has 4 values where 2 belong"):
         bd.read_measured(path)
+
+
+@pytest.mark.parametrize("value", ["#N/A", "#NV", "#DIV/0!", "#WERT!", '"#N/A"', "#NAME?", "#¡VALOR!"])
+@pytest.mark.parametrize("row", ["{}", "{};0.5"])
+def test_a_value_that_a_spreadsheet_has_not_is_no_comment(value: str, row: str, tmp_path: Path) -> None:
+    """Left out, the samples behind it would come too early."""
+    path = tmp_path / "a.csv"
+    rows = [row.format(f"{0.25 + number % 7}") for number in range(5000)]
+    rows[3000:3002] = [row.format(value)] * 2
+    rows[10] = "# a note in between"
+    path.write_text("\n".join(rows) + "\n# the end\n", encoding="utf-8")
+    with pytest.raises(bd.InputError) as caught:
+        bd.read_measured(path, rate_Hz=1000.0, unit="g", channels="z=1")
+    (found,) = caught.value.problems
+    word = value.strip('"')
+    assert f"line 3001: 1 is {word!r}, which is no number; line 3002: 1 is {word!r}" in found
+
+
+def test_an_empty_line_of_the_only_column_is_a_value_that_is_missing(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"{0.25 + number % 7}" for number in range(5000)]
+    path.write_text("\n".join(rows) + "\n\n  \n# the end\n\n")
+    assert len(bd.read_measured(path, rate_Hz=1000.0, unit="g").vibration) == 5000
+    rows[7] = rows[4999] = ""
+    path.write_text("\n".join([*rows, "0.5"]) + "\n")
+    with pytest.raises(bd.InputError, match="line 8: is empty, where a number belongs; line 5000: is empty"):
+        bd.read_measured(path, rate_Hz=1000.0, unit="g")
+
+
+def test_an_empty_line_between_two_blocks_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("beardyn_core.measured.csv_text._CHARACTERS", 100)
+    path = tmp_path / "a.csv"
+    path.write_text("0.50\n0.75\n" * 10 + "\n" * 300 + "0.25\n" * 50)
+    with pytest.raises(bd.InputError, match=r"line 21: is empty, .* and 297 lines more"):
+        bd.read_measured(path, rate_Hz=1000.0, unit="g")
+
+
+@pytest.mark.parametrize(
+    ("heading", "row", "name"),
+    [
+        ("acc_z [g]", "{}", "acc_z"),
+        ("Acceleration vertical (g)", "{}", "Acceleration vertical"),
+        ('"acc_z [g]"', "{}", "acc_z"),
+        ("n [-] acc_z [g]", "1.5 {}", "acc_z"),
+    ],
+)
+def test_a_unit_behind_a_space_is_read(heading: str, row: str, name: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([heading, *(row.format(0.25 + number % 7) for number in range(100))]))
+    run = bd.read_measured(path, rate_Hz=1000.0, channels=f"z={name}")
+    assert np.ptp(run.vibration.values[:, 2]) == pytest.approx(6.0 * 9.80665)
+
+
+def test_a_sentence_above_the_only_column_is_no_heading(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["run 7 of Tuesday", *(f"{0.25 + number % 7}" for number in range(100))]))
+    with pytest.raises(bd.InputError, match="does not say the unit of 1"):
+        bd.read_measured(path, rate_Hz=1000.0)
