@@ -26,6 +26,7 @@ follow           the same over successive stretches and recordings, health, resi
 calibrate        the scene of one measured axlebox, fitted to its healthy recordings
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing
+bearing_options  load, end play and speed that they are for
 structure        modes of an axlebox
 trend            levels of many records: `beardyn monitor --trend`
 trial            a monitor over a matrix of scenes

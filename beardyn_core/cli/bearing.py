@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
+from beardyn_core.cli.bearing_options import operation_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
-from beardyn_core.cli.quantities import NEGATIVE_QUANTITY, read_quantity
+from beardyn_core.cli.quantities import NEGATIVE_QUANTITY
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,8 +23,7 @@ if TYPE_CHECKING:
     from beardyn_core.integrate.static import StaticSolution
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
-_DEFAULT_LOAD = ("0", "0", "80")  # [kN]
-_MOST_END_PLAY = 5.0e-3  # that of integrate.static
+_TEMPERATURE = 70.0  # of the lubricant, [degrees Celsius]
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
 _ZERO_CELSIUS = 273.15
@@ -70,9 +70,8 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--temperature",
         type=float,
-        default=70.0,
         metavar="CELSIUS",
-        help="temperature of the lubricant, degrees Celsius; default 70",
+        help=f"temperature of the lubricant, degrees Celsius; default {_TEMPERATURE:g}",
     )
     parser.add_argument(
         "--contamination",
@@ -108,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.integrate.rating_life import life_lines, life_object
     from beardyn_core.integrate.static import solve
 
-    load, end_play, speed = _operation(args)
+    load, end_play, speed = operation_of(args)
     bearing = load_bearing(args.bearing)
     problem, doubt = load_doubts(bearing, load)
     if problem:
@@ -136,40 +135,6 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _operation(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
-    """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
-    from beardyn_core.scene.operation import MOST_RPM
-    from beardyn_core.units import UNITS
-
-    problems: list[str] = []
-
-    def read(option: str, text: str, dimension: str) -> float:
-        try:
-            return read_quantity(option, text, dimension)
-        except InputError as error:
-            problems.extend(error.problems)
-            return math.nan
-
-    fx, fy, fz = (read("--load", text, "force") for text in args.load or _DEFAULT_LOAD)
-    end_play = None if args.end_play is None else read("--end-play", args.end_play, "length")
-    speed = read("--speed", args.speed, "rotation")
-    if end_play is not None and abs(end_play) > _MOST_END_PLAY:
-        problems.append(f"--end-play is {end_play * 1e3:g} mm; it must lie within ±{_MOST_END_PLAY * 1e3:g}")
-    if abs(speed) > UNITS["rpm"].to_si(MOST_RPM):
-        problems.append(f"--speed is {args.speed}; it must be at most {MOST_RPM:g} rpm either way")
-    if args.laminae < 1:
-        problems.append(f"--laminae is {args.laminae}; it must be at least 1")
-    if not -60.0 <= args.temperature <= 200.0:
-        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 degrees Celsius")
-    if args.contamination is not None and not 0.0 <= args.contamination <= 1.0:
-        problems.append(f"--contamination is {args.contamination:g}; it must be from 0 to 1")
-    if args.lubricant is not None and speed == 0.0:
-        problems.append("--lubricant is given, but --speed is 0; life needs a shaft that turns")
-    if problems:
-        raise InputError(problems)
-    return (fx, fy, fz), end_play, speed
-
-
 def _life(case: _Case) -> RatingLife | None:
     """Rate the life under the load of the command line; ``None`` without a lubricant."""
     args = case.args
@@ -182,7 +147,7 @@ def _life(case: _Case) -> RatingLife | None:
         case.bearing,
         (LoadClass(1.0, case.load, (0.0, 0.0, 0.0), abs(case.speed)),),
         load_lubricant(args.lubricant),
-        args.temperature + _ZERO_CELSIUS,
+        (_TEMPERATURE if args.temperature is None else args.temperature) + _ZERO_CELSIUS,
         end_play=case.end_play,
         tilt=args.tilt,
         contamination=USUAL_CONTAMINATION if args.contamination is None else args.contamination,

@@ -91,6 +91,22 @@ def test_bad_input_is_answered_with_sentences(bearing_command):
     assert "HS130x230" in err
 
 
+def test_an_end_play_has_the_limits_of_a_bearing_file(bearing_command):
+    for end_play in ("-0.501", "2001um", "-5"):
+        status, out, err = bearing_command("HS130x230", "--end-play", end_play)
+        assert (status, out) == (2, "")
+        assert err.startswith("beardyn: --end-play is ")
+        assert "mm; it must be from -0.5 to 2, as in a bearing file" in err
+    assert bearing_command("HS130x230", "--end-play", "2")[0] == 0
+
+
+def test_options_of_a_lubricant_without_one_are_refused(bearing_command):
+    status, out, err = bearing_command("HS130x230", "--contamination", "0.1", "--temperature", "20")
+    assert (status, out) == (2, "")
+    assert "--contamination is given, but no --lubricant" in err
+    assert "--temperature is given, but no --lubricant" in err
+
+
 def test_negative_numbers_may_have_an_exponent(bearing_command):
     status, out, _ = bearing_command(
         "HS130x230", "--json", "--load", "0", "-1.5e1", "-80000N", "--end-play", "-1e-2"

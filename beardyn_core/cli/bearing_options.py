@@ -1,0 +1,60 @@
+"""What `beardyn bearing` solves a bearing for: load, end play and speed of its options, or their mistakes."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from beardyn_core.cli.quantities import read_quantity
+from beardyn_core.errors import InputError
+
+_DEFAULT_LOAD = ("0", "0", "80")  # [kN]
+
+
+def operation_of(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
+    """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
+    from beardyn_core.scene.operation import MOST_RPM
+    from beardyn_core.units import UNITS
+
+    problems: list[str] = []
+
+    def read(option: str, text: str, dimension: str) -> float:
+        try:
+            return read_quantity(option, text, dimension)
+        except InputError as error:
+            problems.extend(error.problems)
+            return math.nan
+
+    fx, fy, fz = (read("--load", text, "force") for text in args.load or _DEFAULT_LOAD)
+    end_play = None if args.end_play is None else read("--end-play", args.end_play, "length")
+    speed = read("--speed", args.speed, "rotation")
+    if end_play is not None:
+        problems += _end_play_problems(end_play)
+    if abs(speed) > UNITS["rpm"].to_si(MOST_RPM):
+        problems.append(f"--speed is {args.speed}; it must be at most {MOST_RPM:g} rpm either way")
+    if args.laminae < 1:
+        problems.append(f"--laminae is {args.laminae}; it must be at least 1")
+    if args.temperature is not None and not -60.0 <= args.temperature <= 200.0:
+        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 degrees Celsius")
+    if args.contamination is not None and not 0.0 <= args.contamination <= 1.0:
+        problems.append(f"--contamination is {args.contamination:g}; it must be from 0 to 1")
+    for option, given in (("--temperature", args.temperature), ("--contamination", args.contamination)):
+        if args.lubricant is None and given is not None:
+            problems.append(f"{option} is given, but no --lubricant; it is about the lubricant: give both")
+    if args.lubricant is not None and speed == 0.0:
+        problems.append("--lubricant is given, but --speed is 0; life needs a shaft that turns")
+    if problems:
+        raise InputError(problems)
+    return (fx, fy, fz), end_play, speed
+
+
+def _end_play_problems(end_play: float) -> list[str]:
+    """Say why a bearing cannot have an end play, [m]: the limits are those of bearing files."""
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.edge import places
+
+    at = next(place.at for place in places(Bearing) if place.field == "end_play")
+    written, least, most = at.scale.to_edge(end_play), at.limits["ge"], at.limits["le"]
+    if math.isnan(written) or least <= written <= most:  # what is no number has been told
+        return []
+    return [f"--end-play is {written:g} mm; it must be from {least:g} to {most:g}, as in a bearing file"]
