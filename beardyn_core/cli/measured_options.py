@@ -80,11 +80,20 @@ def reading_of(args: argparse.Namespace) -> Reading:
     return _in_words_of_options(lambda: Reading.of(**given), [place.key for place in places(Reading)])
 
 
-def says_how_to_read(args: argparse.Namespace) -> bool:
-    """Tell whether an option of measured files was given."""
+def reading_options(args: argparse.Namespace) -> list[str]:
+    """List the options of measured files that were given."""
     from beardyn_core.measured.options import Reading
 
-    return any(getattr(args, f"measured_{place.key}") is not None for place in places(Reading))
+    return [flag(place.key) for place in places(Reading) if _is_given(args, place.key)]
+
+
+def plate_options(args: argparse.Namespace) -> list[str]:
+    """List the numbers of a name plate that were given."""
+    return [flag(key) for key in _PLATE if _is_given(args, key)]
+
+
+def _is_given(args: argparse.Namespace, key: str) -> bool:
+    return getattr(args, f"measured_{key}") is not None
 
 
 def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:

@@ -17,7 +17,7 @@ from beardyn_core.cli.measured_options import (
     add_reading,
     mounted_of,
     reading_of,
-    says_how_to_read,
+    reading_options,
 )
 from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
 from beardyn_core.cli.trend import add_trend, run_trend
@@ -75,16 +75,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.observe.chain import algorithm_named
-    from beardyn_core.record.other_messages import is_recording
 
     if args.trend:
         return run_trend(args)
     if args.memory:
         raise InputError("--memory is that of --trend; give both")
     algorithm = algorithm_named(args.monitor)
-    if problems := _picture_problems(args):
+    recorded = _is_recorded(args)
+    problems = _picture_problems(args)
+    options = [each for each in reading_options(args) if each != "--channels"]
+    if recorded and options:
+        verb = "is" if len(options) == 1 else "are"
+        problems.append(
+            f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording of a run and "
+            "has its own"
+        )
+    if problems:
         raise InputError(problems)
-    recorded = len(args.files) == 1 and not says_how_to_read(args) and is_recording(args.files[0])
     results = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
@@ -123,6 +130,20 @@ class _Results:
         from beardyn_core.study.monitored_recording import conclude
 
         return self.latest.get(conclude(self.findings).verdict)
+
+
+def _is_recorded(args: argparse.Namespace) -> bool:
+    """Tell whether the one file is a recording of an axlebox, of which no part is to be taken by channels."""
+    from beardyn_core.record.other_messages import is_recording
+
+    path, options = Path(args.files[0]), reading_options(args)
+    if len(args.files) > 1 or "--channels" in options:
+        return False
+    if not options:
+        return is_recording(path)
+    # a folder, or a file that there is not, may be of another tool
+    files = path.glob("*.mcap") if path.is_dir() else (path,)
+    return any(each.is_file() and is_recording(each) for each in files)
 
 
 def _picture_problems(args: argparse.Namespace) -> list[str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.cli.json_output import json_text, renamed
-from beardyn_core.cli.measured_options import reading_of
+from beardyn_core.cli.measured_options import plate_options, reading_of
 from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
@@ -42,8 +42,8 @@ def run_trend(args: argparse.Namespace) -> int:
     from beardyn_core.measured.trending import remember, remembered, trend_of
     from beardyn_core.observe.trend import Trend
 
-    if args.bearing:
-        raise InputError("--bearing: --trend watches levels and needs no bearing; leave one of both out")
+    if problems := option_problems(args):
+        raise InputError(problems)
     measured = survey(args.files, reading_of(args))
     trend = (remembered(args.memory) if args.memory else None) or Trend(
         tuple(sorted(measured.files[0].chosen.sensors[0].axes))
@@ -64,6 +64,21 @@ def run_trend(args: argparse.Namespace) -> int:
         earlier = each.state
     print(_ending(points, trend.records, trend.settings.baseline))
     return 0
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """List the options of a monitor that a trend would leave aside."""
+    bearing = "watches levels and needs no bearing"
+    given = {
+        "--bearing": (args.bearing, bearing),
+        **dict.fromkeys(plate_options(args), (True, bearing)),
+        "--box": (args.box, "reads measured files, which have no axleboxes"),
+        "--monitor": (args.monitor, "watches levels itself, without a monitor"),
+        "--picture": (args.picture, "analyses nothing that could be drawn"),
+    }
+    return [
+        f"{option}: --trend {why}; leave one of both out" for option, (value, why) in given.items() if value
+    ]
 
 
 def _sentence(point: TrendPoint) -> str:

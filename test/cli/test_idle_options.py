@@ -1,0 +1,55 @@
+"""Options that would do nothing, or come to nothing after a long time: refused, and at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from beardyn_core.cli import main as command
+from test.record.conftest import write_recording
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_recording(tmp_path_factory.mktemp("recorded") / "run.mcap", 5)
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: object) -> str:
+    """What a command says that refuses its options."""
+    assert command.main([str(word) for word in words]) == command.BAD_INPUT
+    told = capsys.readouterr()
+    assert told.out == ""
+    return told.err
+
+
+def too_late(*_: object, **__: object) -> None:
+    raise AssertionError("the options were looked at too late")
+
+
+# --- of a monitor --------------------------------------------------------------------------------------
+
+
+def test_a_trend_refuses_every_option_that_it_would_leave_aside(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--bearing", "HS130x230", "--roller-count", 17, "--box", "left", "--monitor", "mine:listen"]
+    told = refused(capsys, "monitor", recording, "--trend", *words, "--picture", tmp_path / "trend.png")
+    for option in ("--bearing", "--roller-count", "--box", "--monitor", "--picture"):
+        assert f"beardyn: {option}: --trend " in told
+    assert len(told.splitlines()) == 5
+
+
+def test_options_of_measured_files_are_refused_with_a_recording_of_a_run(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = refused(capsys, "monitor", recording, "--speed-rpm", 1800)
+    wanted = f"--speed-rpm is for measured files; {recording} is a recording of a run and has its own"
+    assert told == f"beardyn: {wanted}\n"
+    words = ("--speed-rpm", 1800, "--unit", "g", "--picture", tmp_path / "found.txt")
+    told = refused(capsys, "monitor", recording.parent, *words)
+    assert f"--unit, --speed-rpm are for measured files; {recording.parent} is a recording" in told
+    assert "let its name end in .png" in told
+    told = refused(capsys, "monitor", tmp_path / "none.mcap", "--speed-rpm", 1800)
+    assert "No such file" in told
+    assert "is a recording" not in told
