@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from typing import Any
+
+_LAST_PORT = 65_535
 
 
 def add_choice(parser: ArgumentParser) -> None:
@@ -70,6 +72,13 @@ def add_monitor(parser: ArgumentParser) -> None:
 def add_force(parser: ArgumentParser, what: str = "replace files that exist; default refuse") -> None:
     """Add the permission to replace files."""
     parser.add_argument("--force", action="store_true", help=what)
+
+
+def port(text: str) -> int:
+    """Read the number of a port, as the ``type`` of an option."""
+    if not text.strip().isdecimal() or not 1 <= int(text) <= _LAST_PORT:
+        raise ArgumentTypeError(f"is {text!r}; it must be a whole number from 1 to {_LAST_PORT}")
+    return int(text)
 
 
 def add_json(parser: ArgumentParser) -> None:

@@ -9,7 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from beardyn_core.cli.options import add_box, add_force
+from beardyn_core.cli.options import add_box, add_force, port
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
 from beardyn_core.outputs import file_problems
@@ -38,7 +38,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_force(parser, "replace the file of --save or --screenshot")
     parser.add_argument(
-        "--port", type=int, metavar="N", help="port of the page with --web; default a free one"
+        "--port",
+        type=port,
+        metavar="N",
+        help="port of the page with --web, 1 to 65535; default a free one",
     )
     parser.set_defaults(run=run)
 
@@ -49,15 +52,10 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.reading import read_run
     from beardyn_core.record.rerun_view import save
 
+    if problems := option_problems(args):
+        raise InputError(problems)
     if not (args.web or args.save or args.screenshot):
         viewer.require_display()
-    problems = [
-        problem
-        for option, file in (("--save", args.save), ("--screenshot", args.screenshot))
-        for problem in file_problems(option, file, inputs=[Path(args.recording)], force=args.force)
-    ]
-    if problems:
-        raise InputError(problems)
     recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
@@ -75,6 +73,18 @@ def run(args: argparse.Namespace) -> int:
         else:
             return 0 if viewer.open_window(target) == 0 else 2
     return 0
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """List what is wrong with the options; nothing is created."""
+    problems = []
+    if args.port is not None and not args.web:
+        problems.append("--port: is that of --web; give both")
+    for option, file, ending in (("--save", args.save, ".rrd"), ("--screenshot", args.screenshot, ".png")):
+        problems += file_problems(
+            option, file, inputs=[Path(args.recording)], force=args.force, ending=ending
+        )
+    return problems
 
 
 def _serve(target: Path, port: int | None) -> None:

@@ -53,3 +53,18 @@ def test_options_of_measured_files_are_refused_with_a_recording_of_a_run(
     told = refused(capsys, "monitor", tmp_path / "none.mcap", "--speed-rpm", 1800)
     assert "No such file" in told
     assert "is a recording" not in told
+
+
+# --- of a viewer and of an export ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("port", ["0", "65536", "99999", "-1", "many"])
+def test_a_port_that_there_is_not_is_refused(port: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        command.main(["view", "run.mcap", "--web", f"--port={port}"])
+    assert ended.value.code == command.BAD_INPUT
+    assert f"--port: is {port!r}; it must be a whole number from 1 to 65535" in capsys.readouterr().err
+
+
+def test_a_port_without_a_page_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "--port: is that of --web" in refused(capsys, "view", "run.mcap", "--port", 8080)

@@ -79,11 +79,12 @@ def test_existing_files_are_replaced_only_with_force(
     notes, folder = tmp_path / "notes.txt", tmp_path / "results"
     notes.write_text("of last week")
     folder.mkdir()
-    for name in ("ladder.json", "contacts_nine.png", "summary.png"):
+    view = folder / "run.rrd"
+    for name in ("ladder.json", "contacts_nine.png", "summary.png", view.name):
         (folder / name).write_text("of last week")
     for words, named in (
         (["simulate", "static_5kN", "-o", str(notes)], f"--output {notes}"),
-        (["view", str(recording), "--save", str(notes)], f"--save {notes}"),
+        (["view", str(recording), "--save", str(view)], f"--save {view}"),
         (["view", str(recording), "--screenshot", str(notes)], f"--screenshot {notes}"),
         (["contacts", "--rrd", str(notes)], f"--rrd {notes}"),
         (["contacts", "-o", str(folder)], f"--output {folder / 'contacts_nine.png'}"),
@@ -93,8 +94,8 @@ def test_existing_files_are_replaced_only_with_force(
         assert command.main(words) == command.BAD_INPUT
         assert f"{named}: the file exists; --force replaces it" in capsys.readouterr().err
     assert {path.read_text() for path in [notes, *folder.iterdir()]} == {"of last week"}
-    assert command.main(["view", str(recording), "--save", str(notes), "--force"]) == command.DONE
-    assert notes.stat().st_size > 10_000
+    assert command.main(["view", str(recording), "--save", str(view), "--force"]) == command.DONE
+    assert view.stat().st_size > 10_000
 
 
 @pytest.mark.parametrize("ending", ["csv", "db3", "PARQUET", "rrd"])
@@ -295,13 +296,15 @@ def test_what_another_process_has_written_meanwhile_stays(tmp_path: Path) -> Non
     assert [each.read_text() for each in sorted(tmp_path.iterdir())] == ["mine", "new"]
 
 
-def test_two_outputs_of_a_command_cannot_be_one_file(
+def test_an_output_has_the_ending_of_its_format_and_two_are_never_one_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for words, ending in (
         (["structure", "metro", "-o", str(tmp_path / "modes.rrd")], ".csv"),
         (["structure", "metro", "--save", str(tmp_path / "modes.csv")], ".rrd"),
         (["contacts", "-o", str(tmp_path / "found"), "--rrd", str(tmp_path / "contacts.json")], ".rrd"),
+        (["view", "run.mcap", "--save", str(tmp_path / "run.txt")], ".rrd"),
+        (["view", "run.mcap", "--screenshot", str(tmp_path / "run.txt")], ".png"),
     ):
         assert command.main(words) == command.BAD_INPUT
         assert f"let its name end in {ending}" in capsys.readouterr().err
