@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_box, add_force, add_json
+from beardyn_core.cli.options import add_box, add_force, add_json, names
+from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
+
+if TYPE_CHECKING:
+    from beardyn_core.record.run import Run
+
+_VIBRATION_ALONE = (".parquet", ".csv", ".wav")  # what these hold without being asked
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -30,7 +38,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--signals",
         metavar="NAMES",
-        default="",
         help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
         "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
     )
@@ -43,10 +50,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command and return the exit code."""
     import sys
-    from pathlib import Path
 
+    signals = _signals_of(args)
     if Path(args.recording).is_dir() and (Path(args.recording) / "set.json").is_file():
-        return _export_set(args)
+        return _export_set(args, signals)
     from beardyn_core.record.exporting import export
     from beardyn_core.record.reading import read_run
 
@@ -54,9 +61,10 @@ def run(args: argparse.Namespace) -> int:
         recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; writing what is there", file=sys.stderr)
-    names = _names(args)
+    if problem := _lacking(recording, signals, args.output):
+        raise InputError(problem)
     with last_words(lambda: "files that are written are whole, the others are as they were"):
-        written = export(recording, args.output, signals=names, force=args.force)
+        written = export(recording, args.output, signals=signals, force=args.force)
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0
@@ -65,17 +73,50 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _names(args: argparse.Namespace) -> list[str]:
-    return [name.strip() for name in args.signals.split(",") if name.strip()]
+def _signals_of(args: argparse.Namespace) -> list[str]:
+    """Split the names of the signals; none without the option."""
+    given = names(args.signals) or []
+    if not all(given):
+        raise InputError(
+            f"--signals {args.signals!r}: a name is empty; give names with commas between, or leave it out"
+        )
+    return given
 
 
-def _export_set(args: argparse.Namespace) -> int:
+def _lacking(recording: Run, signals: list[str], output: str) -> str:
+    """Say which of the signals a recording has no samples of; empty when it has all."""
+    from beardyn_core.record import tables
+    from beardyn_core.record.exporting import KINDS
+
+    ending = Path(output).suffix.lower()
+    if ending not in (*(f".{kind}" for kind in KINDS), ".hdf5"):
+        return ""  # it is told with every name that is not known
+    known = tables.signal_names(recording)
+
+    def is_there(name: str) -> bool:
+        return name in known and len(tables.signal_of(recording, name)) > 0
+
+    if signals:
+        lacking = [name for name in dict.fromkeys(signals) if not is_there(name)]
+        told = f"--signals: {recording.label} has no {', no '.join(lacking)}"
+    else:
+        heard = ending not in _VIBRATION_ALONE or any(
+            is_there(name) for name in known if name.startswith(tables.VIBRATION)
+        )
+        lacking = [] if heard else [tables.VIBRATION]
+        told = f"{recording.label}: has no vibration; give --signals"
+    if not lacking:
+        return ""
+    return f"{told}; it has {', '.join(filter(is_there, known)) or 'nothing'}"
+
+
+def _export_set(args: argparse.Namespace, signals: list[str]) -> int:
     """Write a set of runs to one file."""
     from beardyn_core.population.exporting import export_set
     from beardyn_core.population.labelled_set import LabelledSet
 
     with last_words(lambda: "nothing has been written"):
-        written = export_set(LabelledSet(args.recording), args.output, _names(args), args.force)
+        written = export_set(LabelledSet(args.recording), args.output, signals, args.force)
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0

@@ -68,3 +68,18 @@ def test_a_port_that_there_is_not_is_refused(port: str, capsys: pytest.CaptureFi
 
 def test_a_port_without_a_page_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert "--port: is that of --web" in refused(capsys, "view", "run.mcap", "--port", 8080)
+
+
+def test_signals_that_a_recording_has_not_are_named_with_those_it_has(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ("export", recording, "-o", tmp_path / "run.csv", "--signals")
+    told = refused(capsys, *words, "temperature")
+    assert f"--signals: {recording} has no temperature; it has vibration, " in told
+    assert told.count("temperature") == 1
+    told = refused(capsys, *words, "vibration,temperature,sound")
+    assert "has no temperature, no sound; it has vibration, " in told
+    for empty in ("", " , ", "vibration,"):
+        assert f"--signals {empty!r}: a name is empty" in refused(capsys, *words, empty)
+    assert list(tmp_path.iterdir()) == []
+    assert command.main(["export", str(recording), "-o", str(tmp_path / "run.csv")]) == command.DONE
