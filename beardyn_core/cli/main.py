@@ -81,6 +81,7 @@ def build_parser() -> argparse.ArgumentParser:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command line, that of the process when left out, and return the exit code."""
+    _make_streams_printable()
     try:
         with interrupts.watching():
             args = build_parser().parse_args(argv)
@@ -103,10 +104,43 @@ def main(argv: Sequence[str] | None = None) -> int:
         _give_up_stdout()
         return DONE
     except OSError as error:
-        _give_up_stdout()
-        where = error.filename or "the output"
-        _complain([f"{where}: {error.strerror or error}; free space, or choose another place"])
+        _let_go_of_stdout()
+        _complain([_told(error)])
         return BAD_INPUT
+
+
+def _make_streams_printable() -> None:
+    """Let output go on where it is closed, or cannot show a letter: a run is worth more than its lines."""
+    import io
+
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the caller; else the next file that is opened would take its place
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115  as long as Python
+        elif isinstance(stream, io.TextIOWrapper) and stream.errors in ("strict", "surrogateescape"):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _told(error: OSError) -> str:
+    """Say what the system refuses, with advice where it is about writing."""
+    import errno
+
+    what = error.strerror or str(error)
+    advice = {
+        **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), "free space, or choose another place"),
+        **dict.fromkeys((errno.EROFS, errno.EFBIG), "choose another place"),
+    }.get(error.errno or 0)
+    if advice is None:
+        return f"{error.filename}: {what}" if error.filename else what
+    return f"{error.filename or 'the output'}: {what}; {advice}"
+
+
+def _let_go_of_stdout() -> None:
+    """Print what is left, or keep the interpreter from complaining of it at exit."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        _give_up_stdout()
 
 
 def _give_up_stdout() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import io
 import json
 import logging
@@ -161,6 +162,59 @@ def test_a_full_disk_is_exit_code_2_with_a_sentence(capsys: pytest.CaptureFixtur
     assert told.out == ""
     assert "cannot write on /dev/full: No space left on device" in told.err
     assert "Traceback" not in told.err
+
+
+@pytest.mark.parametrize(
+    ("error", "sentence"),
+    [
+        (
+            OSError(errno.ENOSPC, "No space left on device", "run.mcap"),
+            "run.mcap: No space left on device; free",
+        ),
+        (OSError(errno.ENOSPC, "No space left on device"), "the output: No space left on device; free space"),
+        (OSError(errno.EROFS, "Read-only", "a"), "a: Read-only; choose another place"),
+        (OSError(errno.ENAMETOOLONG, "File name too long", "aaa"), "aaa: File name too long\n"),
+        (OSError(errno.EIO, "Input/output error"), "beardyn: Input/output error\n"),
+    ],
+)
+def test_advice_about_space_is_given_only_where_space_is_the_matter(
+    error: OSError, sentence: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refused(_: argparse.Namespace) -> int:
+        raise error
+
+    monkeypatch.setattr(schema, "run", refused)
+    assert command.main(["schema"]) == command.BAD_INPUT
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_letter_that_the_terminal_has_not_is_written_as_its_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    def warm(_: argparse.Namespace) -> int:
+        print("5 °C")
+        return 0
+
+    monkeypatch.setattr(schema, "run", warm)
+    for errors in ("strict", "surrogateescape"):  # the second is that of the locale C
+        shown = io.BytesIO()
+        monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(shown, "ascii", errors=errors))
+        assert command.main(["schema"]) == command.DONE
+        assert shown.getvalue() == b"5 \\xb0C\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell closes the streams")
+def test_a_command_runs_with_closed_streams() -> None:
+    root = str(Path(__file__).resolve().parents[2])
+    words = [sys.executable, "-m", "beardyn_core.cli.main", "schema", "bearing"]
+    for closed in (">&-", "2>&-", ">&- 2>&-"):
+        done = subprocess.run(
+            ["sh", "-c", f'"$@" {closed}', "sh", *words],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env={**os.environ, "PYTHONPATH": root},
+            check=False,
+        )
+        assert (done.returncode, done.stderr) == (command.DONE, "")
 
 
 def options() -> list[tuple[str, argparse.Action]]:
