@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_force, add_json, names
+from beardyn_core.errors import InputError
+from beardyn_core.outputs import file_problems, files_read
 
 if TYPE_CHECKING:
     from beardyn_core.api.calibrating import Calibration
@@ -67,6 +69,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    if problems := option_problems(args):
+        raise InputError(problems)
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.record.reading import read_run
 
@@ -88,6 +92,27 @@ def run(args: argparse.Namespace) -> int:
     else:
         print("\n".join([*found.sentences, *([f"{args.output} written"] if args.output else [])]))
     return _INTERRUPTED if found.found.interrupted else 0
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """List what is wrong with scene and output, before recordings are read and effects are chosen."""
+    from beardyn_core.config.load import read_scene
+
+    problems: list[str] = []
+    with files_read() as inputs:
+        try:
+            scene = read_scene(args.scene, {("tier",): args.tier}).scene
+            if scene.faults:
+                problems.append(
+                    f"--scene {args.scene}: has a fault ({scene.fault_sentences[0]}); calibrate with the "
+                    "sound scene"
+                )
+            if scene.axleboxes is not None:
+                problems.append(f"--scene {args.scene}: has several axleboxes; give the scene of one")
+        except InputError as error:
+            problems += error.problems
+    inputs += map(Path, args.recordings)
+    return problems + file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".yaml")
 
 
 def json_object(found: Calibration) -> dict[str, Any]:

@@ -50,12 +50,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.choice import load_scene
+    from beardyn_core.choice.load import closed
+    from beardyn_core.config.load import read_scene
 
     with checked(lambda inputs: recording_problems("--output", args.output, inputs=inputs, force=args.force)):
-        scene = load_scene(
-            args.scene, duration=args.duration, laminae=args.laminae, seed=args.seed, **chosen(args)
-        )
+        found = read_scene(args.scene, changes_of(args))
+    with checked():  # apart, for to choose effects takes long
+        scene = closed(found)
 
     if scene.axleboxes is not None:
         from beardyn_core.cli import simulate_train
@@ -89,6 +90,17 @@ def run(args: argparse.Namespace) -> int:
     if not summary.complete:
         print(f"beardyn: {summary.status}", file=sys.stderr)
     return DONE if summary.complete else INVALID
+
+
+def changes_of(args: argparse.Namespace) -> dict[tuple[str | int, ...], Any]:
+    """Gather the options that stand in place of keys of the scene, by the place of the key."""
+    places: dict[str, tuple[str | int, ...]] = {
+        "duration": ("duration_s",),
+        "laminae": ("numerics", "laminae"),
+        "vibration_to": ("vibration_to_Hz",),
+    }
+    given = {"duration": args.duration, "laminae": args.laminae, "seed": args.seed, **chosen(args)}
+    return {places.get(name, (name,)): value for name, value in given.items() if value is not None}
 
 
 class _Progress:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import foreign_folder_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
@@ -86,8 +85,10 @@ def run(args: argparse.Namespace) -> int:
     cluster = cluster_of(
         args.workers, args.scheduler, {k: v for k, v in tls.items() if v is not None}, args.memory
     )
-    with checked(lambda inputs: option_problems(args, cluster, inputs)):
-        plan = asked(args.sweep, _say, runs=args.runs, seed=args.seed, hours=args.hours)
+    changes = {"runs": args.runs, "seed": args.seed, "hours": args.hours}
+    if problems := option_problems(args, cluster):  # told before effects are chosen, which takes long
+        raise InputError([*_mistakes_of(args.sweep, changes), *problems])
+    plan = asked(args.sweep, _say, **changes)
     bar = _Bar(plan.sweep.run_count) if sys.stderr.isatty() else Lines()
     try:
         with last_words(
@@ -102,9 +103,24 @@ def run(args: argparse.Namespace) -> int:
     return DONE
 
 
-def option_problems(args: argparse.Namespace, cluster: Cluster, inputs: Sequence[Path] = ()) -> list[str]:
+def option_problems(args: argparse.Namespace, cluster: Cluster) -> list[str]:
     """List what is wrong with the options; nothing is created."""
-    return cluster.problems() + folder_problems("--output", args.output, inputs=inputs)
+    from beardyn_core.population.folder import ABOUT
+
+    problems = folder_problems("--output", args.output)
+    problems = problems or foreign_folder_problems(args.output, (ABOUT,), "set of runs")
+    return cluster.problems() + problems
+
+
+def _mistakes_of(sweep: str, changes: dict[str, Any]) -> list[str]:
+    """List the mistakes in a sweep file and in the scenes of its runs, without choosing effects."""
+    from beardyn_core.config import read_sweep
+    from beardyn_core.population.plan import mistakes_of
+
+    try:
+        return mistakes_of(*read_sweep(sweep, **changes))
+    except InputError as error:
+        return error.problems
 
 
 def json_object(swept: Swept) -> dict[str, object]:

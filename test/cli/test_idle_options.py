@@ -83,3 +83,40 @@ def test_signals_that_a_recording_has_not_are_named_with_those_it_has(
         assert f"--signals {empty!r}: a name is empty" in refused(capsys, *words, empty)
     assert list(tmp_path.iterdir()) == []
     assert command.main(["export", str(recording), "-o", str(tmp_path / "run.csv")]) == command.DONE
+
+
+# --- told before effects are chosen --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("output", ["", "missing/run.mcap"])
+def test_an_output_of_a_simulation_is_refused_before_effects_are_chosen(
+    output: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("beardyn_core.choice.load.choice_for", too_late)
+    words = ("simulate", "smooth_run", "--effects", "auto", "-o", tmp_path / output)
+    assert f"--output {tmp_path / output}: " in refused(capsys, *words)
+    told = refused(capsys, *words, "--duration", -1, "--vibration-to", 0, "--laminae", 0)
+    for mistake in ("--duration -1", "--vibration-to 0", "--laminae 0", f"--output {tmp_path}"):
+        assert mistake in told
+
+
+def test_a_sweep_tells_of_its_options_and_of_its_file_at_once_and_early(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("beardyn_core.population.asked.asked", too_late)
+    told = refused(capsys, "sweep", "fifty", "--runs", -3, "--workers", 0, "-o", tmp_path / "missing" / "set")
+    for mistake in ("runs is -3", "--workers 0: allowed is 1 to", "does not exist; create it first"):
+        assert mistake in told
+    assert "--workers 0" in refused(capsys, "sweep", "fifty", "--workers", 0, "-o", tmp_path / "set")
+
+
+def test_a_calibration_refuses_a_scene_with_a_fault_before_its_recordings_are_read(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("beardyn_core.api.calibrating.calibrate", too_late)
+    told = refused(
+        capsys, "calibrate", recording, "--scene", "cup_spall", "-o", tmp_path / "missing" / "mine.yaml"
+    )
+    assert "--scene cup_spall: has a fault (spall on the cup" in told
+    assert "calibrate with the sound scene" in told
+    assert "does not exist; create it" in told

@@ -346,6 +346,29 @@ def test_a_trial_replaces_nothing_that_is_not_its_own(
     assert len(list(folder.iterdir())) == 1
 
 
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize(
+    ("words", "what"), [(["trial", "quick"], "runs of a trial"), (["sweep", "fifty"], "set of runs")]
+)
+def test_nothing_goes_into_a_folder_of_something_else(
+    words: list[str],
+    what: str,
+    force: tuple[str, ...],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def too_late(*_: object, **__: object) -> None:
+        raise AssertionError("the folder was looked at too late")
+
+    monkeypatch.setattr("beardyn_core.population.asked.asked", too_late)
+    monkeypatch.setattr("beardyn_core.study.trial.plan_of", too_late)
+    (tmp_path / "notes.txt").write_text("mine")
+    assert command.main([*words, "-o", str(tmp_path), *force]) == command.BAD_INPUT
+    assert f"--output {tmp_path}: holds files and no {what}; give a new folder" in capsys.readouterr().err
+    assert [each.name for each in tmp_path.iterdir()] == ["notes.txt"]
+
+
 def test_the_matrix_in_its_own_folder_stays(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     matrix = tmp_path / "trial.json"
     matrix.write_text(TRIAL)

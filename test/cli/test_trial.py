@@ -55,6 +55,7 @@ def test_a_trial_is_stopped_taken_up_and_written(
     assert "interrupted; 7 of 51 runs are done; the same command goes on" in told.err
     assert json.loads((tmp_path / "trial.json").read_text())["complete"] is False
     assert not (tmp_path / "trial.png").exists()
+    (tmp_path / "notes.txt").write_text("mine")  # the folder is the trial's all the same
     assert command.main(words) == command.DONE
     told = capsys.readouterr()
     assert "7 of 51 runs were done before" in told.err
