@@ -87,8 +87,8 @@ def run(args: argparse.Namespace) -> int:
     if recorded and options:
         verb = "is" if len(options) == 1 else "are"
         problems.append(
-            f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording of a run and "
-            "has its own"
+            f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording, which is taken "
+            "as it is"
         )
     if problems:
         raise InputError(problems)
@@ -219,8 +219,15 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
         if doubt := other_bearing(each.plate, recorded):
             print(f"beardyn: warning: --bearing {each.plate.name}: {doubt}", file=sys.stderr)
     bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
-    if not bearings:
-        raise InputError(f"{path}: does not say which bearing it is of; give --bearing")
+    problems = [] if bearings else [f"{path}: does not say which bearing it is of; give --bearing"]
+    if recording.measured and len(recording.vibration) and not len(recording.shaft):
+        problems.append(
+            f"{path}: was imported without the speed of the shaft, and a monitor needs it; import the file "
+            "that it is of again with one of --speed-rpm, --speed-kmh, --speed-channel, --tacho-channel, "
+            "--speed-range-rpm"
+        )
+    if problems:
+        raise InputError(problems)
     heard = {each: _Results() for each in bearings}
     for each, results in heard.items():
         for result in results_of(recording, each.plate, algorithm, sensor=each.sensor):

@@ -44,7 +44,7 @@ def test_options_of_measured_files_are_refused_with_a_recording_of_a_run(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     told = refused(capsys, "monitor", recording, "--speed-rpm", 1800)
-    wanted = f"--speed-rpm is for measured files; {recording} is a recording of a run and has its own"
+    wanted = f"--speed-rpm is for measured files; {recording} is a recording, which is taken as it is"
     assert told == f"beardyn: {wanted}\n"
     words = ("--speed-rpm", 1800, "--unit", "g", "--picture", tmp_path / "found.txt")
     told = refused(capsys, "monitor", recording.parent, *words)

@@ -184,6 +184,20 @@ def test_a_speed_that_the_file_has_beside_what_was_asked_is_told(
     assert "--speed-channel (the file has speed_rpm), --tacho-channel" in capsys.readouterr().err
 
 
+def test_a_recording_without_speed_is_told_to_be_imported_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its bearing is asked for in the same go."""
+    made = str(bd.import_measured(csv(tmp_path), tmp_path / "run.mcap"))
+    assert main(["monitor", made]) == BAD_INPUT
+    said = capsys.readouterr().err
+    assert "does not say which bearing it is of; give --bearing" in said
+    assert "was imported without the speed of the shaft" in said
+    assert "import the file that it is of again with one of --speed-rpm" in said
+    assert main(["monitor", made, "--speed-rpm", "1800", "--bearing", "6205"]) == BAD_INPUT
+    assert "--speed-rpm is for measured files; " in capsys.readouterr().err
+
+
 def test_two_rates_in_one_file_and_in_two_files_are_refused(tmp_path: Path) -> None:
     half = COUNT // 2
     faster = np.concatenate((TIME[:half], TIME[half - 1] + np.arange(1, half + 1) / 48_000))
