@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,21 +39,6 @@ def tell_doubts(scene: Scene) -> None:
     """Warn, on standard error, of what is possible in a scene but unusual."""
     for doubt in scene.doubts:
         print(f"beardyn: warning: {doubt}", file=sys.stderr)
-
-
-def foreign_folder_problems(
-    folder: Path | None, own: Sequence[str], what: str, inputs: Iterable[Path] = ()
-) -> list[str]:
-    """Say why ``--output`` is a folder of something else: it holds files, and none of ``own``.
-
-    Files that the command reads may lie there.
-    """
-    if folder is None or not folder.is_dir() or any((folder / name).exists() for name in own):
-        return []
-    read = {path.resolve() for path in inputs}
-    if all(path.resolve() in read for path in folder.iterdir()):
-        return []
-    return [f"--output {folder}: holds files and no {what}; give a new folder, for nothing there is replaced"]
 
 
 @contextmanager

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import foreign_folder_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
@@ -107,9 +106,14 @@ def option_problems(args: argparse.Namespace, cluster: Cluster) -> list[str]:
     """List what is wrong with the options; nothing is created."""
     from beardyn_core.population.folder import ABOUT
 
-    problems = folder_problems("--output", args.output)
-    problems = problems or foreign_folder_problems(args.output, (ABOUT,), "set of runs")
-    return cluster.problems() + problems
+    folder = args.output
+    problems = cluster.problems() + folder_problems("--output", folder)
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / ABOUT).is_file():
+        problems.append(
+            f"--output {folder}: holds files and no set of runs; give a new folder, for nothing there is "
+            "replaced"
+        )
+    return problems
 
 
 def _mistakes_of(sweep: str, changes: dict[str, Any]) -> list[str]:

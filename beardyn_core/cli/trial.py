@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from beardyn_core.cli.files import checked, foreign_folder_problems, made_folder
+from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, add_monitor
 from beardyn_core.interrupts import last_words
@@ -35,7 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "an hour, and a minute more for every set of effects that is not compiled yet; choosing effects "
         "where neither trial nor scene names any takes half a minute to two, once. "
         "With -o a run that is done is kept, and an interrupted trial goes on where it was; a folder of "
-        "another trial or monitor, or of other files, is refused.",
+        "another trial or monitor is refused.",
     )
     parser.add_argument(
         "matrix",
@@ -141,8 +141,9 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
     runs = None if args.output is None else args.output / RUNS_FILE
     goes_on = runs is not None and runs.is_file() and runs.stat().st_size > 0
-    problems += folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force or goes_on)
-    return problems or foreign_folder_problems(args.output, (RUNS_FILE, *FILES), "runs of a trial", inputs)
+    return problems + folder_problems(
+        "--output", args.output, FILES, inputs=inputs, force=args.force or goes_on
+    )
 
 
 def _write(result: TrialResult, found: dict[str, object], folder: Path, *, drawn: bool) -> None:

@@ -199,7 +199,10 @@ def _seconds(work: _Choosing, channels: Sequence[Channel]) -> float:
 
 def time_unit_in(channel: Channel) -> str:
     """Find the unit of time stamps in their name or beside it; '' where the file says none that is known."""
-    return usual(channel.unit) if usual(channel.unit) in TIME else unit_in(channel.name, TIME)
+    if usual(channel.unit) in TIME:
+        return usual(channel.unit)
+    whole = usual(channel.name) if len(channel.name) > 2 else ""  # ``seconds``
+    return whole if whole in TIME else unit_in(channel.name, TIME)
 
 
 def speeds_in(source: Source) -> dict[str, float | None]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,13 +12,17 @@ from beardyn_core.errors import InputError
 from beardyn_core.measured.arrays_inside import claimed_rate
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
-from beardyn_core.measured.text_table import TextTable, moments_to_seconds, understood
+from beardyn_core.measured.text_table import (
+    TextTable,
+    has_no_value,
+    is_comment,
+    moments_to_seconds,
+    understood,
+)
 
 _CHARACTERS = 1 << 22  # in memory at a time
 _SHOWN = 3
 _LONGEST_LINE = 1 << 20
-# what spreadsheets write for a value that there is not: #N/A, #NV, #DIV/0!, #WERT!; no comment
-_NO_VALUE = re.compile(r"""\s*"?#(?:(?:N/[A-Z]|NV|NA)\b|[^\s,;|"a-z]+[!?])""")
 
 
 class _Table(Held):
@@ -33,15 +36,16 @@ class _Table(Held):
         first: dict[int, list[np.datetime64]] = {k: [] for k in table.moments}
         self.problems.clear()
         bad: list[tuple[int, str]] = []
-        empty: list[int] = []  # lines, behind which no number came yet
+        empty = _EmptyLines()
         for line, text in self._texts():
             rows = text.splitlines()
             if len(table.names) == 1:
-                _look_for_empty(rows, line, empty, bad)
-            if all(not row.strip() or _is_comment(row) for row in rows):
+                empty.take(rows, line)
+            if all(not row.strip() or is_comment(row) for row in rows):
                 continue
             quick = None if table.moments & set(wanted) else _quick(text, rows, table, wanted)
             yield _slow(rows, line, table, wanted, first, bad) if quick is None else quick
+        bad += [(line, "is empty, where a number belongs") for line in empty.lost]
         if bad:
             shown = "; ".join(f"line {line + 1}: {what}" for line, what in bad[:_SHOWN])
             more = f"; and {len(bad) - _SHOWN} lines more" if len(bad) > _SHOWN else ""
@@ -66,27 +70,43 @@ class _Table(Held):
             yield line, rest
 
 
-def _look_for_empty(rows: list[str], line: int, empty: list[int], bad: list[tuple[int, str]]) -> None:
-    """Note lines without the only value that they could have, unless nothing but such lines is left."""
-    if not empty and all(map(str.strip, rows)):
-        return
-    for number, row in enumerate(rows, start=line):
-        if not row.strip():
-            empty.append(number)
-        elif empty and not _is_comment(row):
-            bad += [(each, "is empty, where a number belongs") for each in empty]
-            empty.clear()
+class _EmptyLines:
+    """Lines of an only column without its value, from the first number to the last.
 
+    One behind every number is an end of line that was written twice, and no value.
+    """
 
-def _is_comment(row: str) -> bool:
-    return row.lstrip()[0] in "#%" and not _NO_VALUE.match(row)
+    def __init__(self) -> None:
+        self._waiting: list[int] = []  # for a number behind them
+        self._lost: list[int] = []
+        self._begun, self._one_behind_each = False, True
+
+    def take(self, rows: list[str], line: int) -> None:
+        """Look at the next rows; the first is that of a line from 0."""
+        if not self._waiting and all(map(str.strip, rows)):  # the usual case
+            self._one_behind_each &= not self._begun and len(rows) == 1
+            self._begun = True
+            return
+        for number, row in enumerate(rows, start=line):
+            if not row.strip():
+                self._waiting.append(number)
+            elif not is_comment(row):
+                self._one_behind_each &= not self._begun or len(self._waiting) == 1
+                self._lost += self._waiting if self._begun else []
+                self._waiting.clear()
+                self._begun = True
+
+    @property
+    def lost(self) -> list[int]:
+        """Lines in which a number is missing, from 0."""
+        return [] if self._one_behind_each else self._lost
 
 
 def _quick(text: str, rows: list[str], table: TextTable, wanted: list[int]) -> Float | None:
     """Read rows that all are as they should be; None when one is not."""
     marks = tuple(mark for mark in "#%" if mark in text)
     quoted = '"' in text
-    if marks and (quoted or any(map(_NO_VALUE.match, rows))):  # NumPy knows comments or quotes
+    if marks and (quoted or any(map(has_no_value, rows))):  # NumPy knows comments or quotes
         return None
     if table.decimal == ",":
         rows = text.replace(",", ".").splitlines()
@@ -120,7 +140,7 @@ def _slow(
     width, out = len(table.names), []
     moments: dict[int, list[str]] = {k: [] for k in wanted if k in table.moments}
     for number, row in enumerate(rows):
-        if not row.strip() or _is_comment(row):
+        if not row.strip() or is_comment(row):
             continue
         cells, values = table.cells(row), []
         if len(cells) != width:

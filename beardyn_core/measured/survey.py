@@ -278,7 +278,8 @@ def _rate(
             f"{chosen.path}: the time stamps {time.name} are so coarse that the rate, {rate:.6g} Hz, may be "
             f"wrong by {100.0 * clock.uncertainty:.2g} %; give --rate-hz if it is known"
         )
-    if time is not None and len(claims) == 1 and rate < _SLOWEST and not _says_unit(time, reading):
+    slow = channels[0].table in own and len(claims) == 1 and rate < _SLOWEST
+    if slow and time is not None and not _says_unit(time, reading):
         found.problems.append(
             f"{chosen.path}: the time stamps {time.name} say {rate:.6g} Hz if they are in s, too slow for a "
             f"vibration; give --time-unit, one of {', '.join(TIME)}, or --rate-hz"

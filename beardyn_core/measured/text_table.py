@@ -16,14 +16,19 @@ import numpy as np
 
 from beardyn_core.errors import InputError
 from beardyn_core.measured.options import DECIMALS, SEPARATORS, Reading
-from beardyn_core.measured.units import split_unit, usual
+from beardyn_core.measured.units import ACCELERATION, split_unit, usual
 
 HEAD_BYTES = 1 << 16
 _COMMENT = "#%"
 _OPTIONAL_COLUMNS = ("\t", ";")  # separators of programs that name columns which no row has
 _SHOWN = 60  # characters of a line
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|[-+]?(?:nan|inf|infinity)", re.IGNORECASE)
-_SPACED_UNIT = re.compile(r"\s+([\[(][^\])]*[\])])")
+_SPACED_UNIT = re.compile(r"(?<=[^\s\])])\s+([\[(][^\])]*[\])])")
+# what spreadsheets write for a value that there is not, in the languages of their users; no comment
+_NO_VALUE = re.compile(
+    r"""\s*"?\#(?:N/[A-Z]|NV|NA|(?:DIV/0|VALUE|WERT|VALEUR|¡?VALOR|VALORE|REF|BEZUG|¡?REF|NUM|ZAHL|NOMBRE|¡?NUM"""
+    r"""|NULL|¡?NULO|NUL|SPILL|CALC)!|(?:NAME|NOM|¿?NOMBRE|NOME)\?)(?![^\s,;|"])"""
+)
 _MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d+)?)?Z?")
 
 
@@ -57,6 +62,16 @@ class TextTable:
         """Split a line; a separator behind its last cell begins no other."""
         cells = _cells(line, self.separator)
         return cells[:-1] if len(cells) == len(self.names) + 1 and not cells[-1] else cells
+
+
+def is_comment(line: str) -> bool:
+    """Tell whether a line that is not empty is no row."""
+    return line.lstrip()[0] in _COMMENT and not has_no_value(line)
+
+
+def has_no_value(text: str) -> bool:
+    """Tell whether a line or cell begins with a value that a spreadsheet has not: ``#N/A``, ``#DIV/0!``."""
+    return _NO_VALUE.match(text) is not None
 
 
 def encoding_of(head: bytes) -> str:
@@ -150,7 +165,7 @@ def _fit(lines: list[str], separator: str | None, decimal: str) -> _Fit | None:
     """Fit a separator and a decimal sign to the lines; None when too few are rows of numbers."""
     rows = []
     for number, line in enumerate(lines):
-        if not line.strip() or line.lstrip()[0] in _COMMENT:
+        if not line.strip() or is_comment(line):
             continue
         cells = _split(line, separator)
         kinds = [_kind(cell, decimal) for cell in cells]
@@ -161,13 +176,19 @@ def _fit(lines: list[str], separator: str | None, decimal: str) -> _Fit | None:
     width = Counter(len(cells) for _, cells, _ in rows).most_common(1)[0][0]
     first, cells, kinds = next(row for row in rows if len(row[1]) == width)
     # behind the first row of numbers all are rows of numbers, but for a few that are damaged
-    after = [line for line in lines[first:] if line.strip() and line.lstrip()[0] not in _COMMENT]
+    after = [line for line in lines[first:] if line.strip() and not is_comment(line)]
     fitting = sum(len(each) == width for _, each, _ in rows)
     if fitting < 0.5 * len(after):
         return None
+    while first > 0 and _lacks_a_value(_split(lines[first - 1], separator), width):
+        first -= 1  # a row, not a heading
     whole = all("." not in c and "," not in c for _, each, _ in rows for c in each)
     moments = frozenset(k for k, kind in enumerate(kinds) if kind == "moment")
     return _Fit(separator, decimal, first, cells, moments, fitting, whole)
+
+
+def _lacks_a_value(cells: list[str], width: int) -> bool:
+    return len(cells) == width and any(map(has_no_value, cells))
 
 
 def _best(found: list[_Fit]) -> _Fit | None:
@@ -229,11 +250,14 @@ def _headings(above: list[tuple[int, str]], fit: _Fit) -> list[tuple[int, list[s
 
 def _heading_cells(line: str, separator: str | None, width: int) -> list[str]:
     """Split a heading; white space before a unit in brackets does not: ``time [s] acc [g]``."""
-    if separator is None:
-        line = _SPACED_UNIT.sub(r"\1", line)
-        if width == 1 and line.endswith(("]", ")")):
-            return [line.strip('"')]
-    return _split(line, separator)
+    cells = _split(line, separator)
+    if separator is not None or len(cells) == width:
+        return cells
+    if width == 1:  # then it may have several words, if it has a unit
+        whole = line.strip('"')
+        known = usual(split_unit(whole)[1]) in ACCELERATION and not set(":=") & set(whole)
+        return [whole] if known else cells
+    return _split(_SPACED_UNIT.sub(r"\1", line), separator)
 
 
 def _are_units(cells: list[str]) -> bool:

@@ -347,25 +347,22 @@ def test_a_trial_replaces_nothing_that_is_not_its_own(
 
 
 @pytest.mark.parametrize("force", [(), ("--force",)])
-@pytest.mark.parametrize(
-    ("words", "what"), [(["trial", "quick"], "runs of a trial"), (["sweep", "fifty"], "set of runs")]
-)
-def test_nothing_goes_into_a_folder_of_something_else(
-    words: list[str],
-    what: str,
+def test_no_set_goes_into_a_folder_of_something_else(
     force: tuple[str, ...],
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    """It is told before effects are chosen."""
+
     def too_late(*_: object, **__: object) -> None:
         raise AssertionError("the folder was looked at too late")
 
     monkeypatch.setattr("beardyn_core.population.asked.asked", too_late)
-    monkeypatch.setattr("beardyn_core.study.trial.plan_of", too_late)
     (tmp_path / "notes.txt").write_text("mine")
-    assert command.main([*words, "-o", str(tmp_path), *force]) == command.BAD_INPUT
-    assert f"--output {tmp_path}: holds files and no {what}; give a new folder" in capsys.readouterr().err
+    assert command.main(["sweep", "fifty", "-o", str(tmp_path), *force]) == command.BAD_INPUT
+    said = capsys.readouterr().err
+    assert f"--output {tmp_path}: holds files and no set of runs; give a new folder" in said
     assert [each.name for each in tmp_path.iterdir()] == ["notes.txt"]
 
 

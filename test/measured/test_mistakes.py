@@ -172,6 +172,22 @@ def test_stamps_without_a_unit_that_cannot_be_seconds_are_asked_about(
     assert len(bd.read_measured(path, rate_Hz=RATE, time_channel="none").vibration) == COUNT
 
 
+@pytest.mark.parametrize("name", ["time_s", "Seconds", "sec", "Time (s)"])
+def test_slow_stamps_that_say_their_unit_are_taken(name: str, tmp_path: Path) -> None:
+    path = table(tmp_path / "a.csv", {name: np.arange(COUNT) / 100.0, "az_g": noise()[:, 0]})
+    assert bd.read_measured(path).vibration.rate == 100.0
+
+
+def test_a_slow_speed_beside_a_fast_vibration_is_taken(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["vib/time"], file["vib/az_g"] = TIME, noise()[:, 0]
+        slow = np.arange(0.0, TIME[-1] + 0.1, 0.02)
+        file["slow/time"], file["slow/speed_rpm"] = slow, np.full(len(slow), 1800.0)
+    run = bd.read_measured(tmp_path / "a.h5", speed_channel="*speed_rpm")
+    assert run.vibration.rate == RATE
+
+
 def test_a_speed_that_the_file_has_beside_what_was_asked_is_told(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

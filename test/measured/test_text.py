@@ -271,8 +271,56 @@ def test_a_unit_behind_a_space_is_read(heading: str, row: str, name: str, tmp_pa
     assert np.ptp(run.vibration.values[:, 2]) == pytest.approx(6.0 * 9.80665)
 
 
-def test_a_sentence_above_the_only_column_is_no_heading(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "line", ["run 7 of Tuesday", "Full scale: 50 (g)", "Measured at Derby (UK)", "Fs = 1000 [Hz]"]
+)
+def test_a_sentence_above_the_only_column_is_no_heading(line: str, tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
-    path.write_text("\n".join(["run 7 of Tuesday", *(f"{0.25 + number % 7}" for number in range(100))]))
+    path.write_text("\n".join([line, *(f"{0.25 + number % 7}" for number in range(100))]))
     with pytest.raises(bd.InputError, match="does not say the unit of 1"):
         bd.read_measured(path, rate_Hz=1000.0)
+
+
+def test_a_rate_above_the_only_column_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    lines = ["# Sampling rate: 1000 (Hz)", "# sensor by the wheel (left)", "az [g]"]
+    path.write_text("\n".join([*lines, *(f"{0.25 + number % 7}" for number in range(100))]))
+    assert bd.read_measured(path).vibration.rate == 1000.0
+
+
+@pytest.mark.parametrize("units", ["[s] [g]", "(s) (g)", "  [s]   [m/s^2]", "s (g)"])
+def test_a_row_of_units_with_white_space_between_is_read(units: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"{number / 1000:.3f} {0.25 + number % 7}" for number in range(100)]
+    path.write_text("\n".join(["time az", units, *rows]))
+    run = bd.read_measured(path)
+    assert run.vibration.rate == 1000.0
+    unit = usual(units.split()[1].strip("[]()"))
+    assert np.ptp(run.vibration.values[:, 2]) == pytest.approx(6.0 * ACCELERATION[unit])
+
+
+@pytest.mark.parametrize("word", ["#OVERLOAD!", "#END!", "#NO", "#NAVY", "#note"])
+def test_a_word_behind_a_hash_is_a_comment(word: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"{0.25 + number % 7}" for number in range(100)]
+    path.write_text("\n".join([*rows, word, *rows]))
+    assert len(bd.read_measured(path, rate_Hz=1000.0, unit="g").vibration) == 200
+
+
+@pytest.mark.parametrize("heading", ["", "az_g\n"])
+def test_a_value_that_is_missing_at_the_beginning_is_no_heading(heading: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = ["#N/A", "#N/A", *(f"{0.25 + number % 7}" for number in range(100))]
+    path.write_text(heading + "\n".join(rows))
+    with pytest.raises(bd.InputError, match=r"line \d: (1|az_g) is '#N/A', which is no number; line \d: "):
+        bd.read_measured(path, rate_Hz=1000.0, unit="g")
+
+
+@pytest.mark.parametrize("block", [7, 8, 1000])
+def test_an_end_of_line_that_was_written_twice_is_no_missing_value(
+    block: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("beardyn_core.measured.csv_text._CHARACTERS", block)
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"az_g\r\r\n" + b"".join(b"%.2f\r\r\n" % (0.25 + n % 7) for n in range(100)))
+    assert len(bd.read_measured(path, rate_Hz=1000.0).vibration) == 100
