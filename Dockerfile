@@ -1,5 +1,5 @@
 # Desk commands and ROS 2 nodes (from wheels), without a screen:
-#   docker build -t beardyn . && docker run --rm -v "$PWD:/work" beardyn beardyn simulate cup_spall -o run.mcap
+#   docker build -t beardyn . && docker run --rm -v "$PWD:/runs" beardyn beardyn simulate cup_spall -o run.mcap
 FROM python:3.11-slim-bookworm
 
 # Libraries that gmsh loads, and what draws the 3-D view without a screen; Debian keeps no old versions to pin.
@@ -12,7 +12,7 @@ RUN apt-get update \
 COPY . /source
 RUN pip install --no-cache-dir "/source[ros,data,sweep,structure,measured]" && rm -rf /source
 
-RUN useradd --uid 1000 --create-home beardyn && mkdir /work && chown 1000 /work
+RUN useradd --uid 1000 --create-home beardyn && mkdir /runs && chown 1000 /runs
 USER 1000
-WORKDIR /work
+WORKDIR /runs
 CMD ["beardyn", "--help"]

@@ -26,8 +26,8 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|[-+]?(?:nan|i
 _SPACED_UNIT = re.compile(r"(?<=[^\s\])])\s+([\[(][^\])]*[\])])")
 # what spreadsheets write for a value that there is not, in the languages of their users; no comment
 _NO_VALUE = re.compile(
-    r"""\s*"?\#(?:N/[A-Z]|NV|NA|(?:DIV/0|VALUE|WERT|VALEUR|¡?VALOR|VALORE|REF|BEZUG|¡?REF|NUM|ZAHL|NOMBRE|¡?NUM"""
-    r"""|NULL|¡?NULO|NUL|SPILL|CALC)!|(?:NAME|NOM|¿?NOMBRE|NOME)\?)(?![^\s,;|"])"""
+    r"""\s*"?\#(?:N/[A-Z]|NV|NA|¡?(?:DIV/0|VALUE|WERT|VALEUR|VALORE?|REF|BEZUG|NUM|ZAHL|NOMBRE|NULL?|NULO|SPILL"""
+    r"""|CALC)!|¿?(?:NAME|NOM|NOMBRE|NOME)\?)(?![^\s,;|"])"""
 )
 _MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d+)?)?Z?")
 
