@@ -52,7 +52,8 @@ class Progress:
         self._monitor = {
             "waiting": "listening",
             "healthy": "no fault",
-            "not_diagnosable": "hears nothing",
+            "not_diagnosable": "cannot tell",
+            "unexplained": "strikes that fit no part",
         }.get(verdict, f"{verdict} fault")
 
     def show(self, simulated: float, real_time_factor: float) -> None:
