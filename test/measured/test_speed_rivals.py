@@ -76,7 +76,9 @@ def test_lines_of_the_shaft_beside_the_strikes_leave_one_speed(speed, orders, se
     assert found.reach < 0.035
 
 
-@pytest.mark.parametrize(("part", "speed"), [("bpfo", 26.0), pytest.param("bpfi", 26.0, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    ("part", "speed"), [("bpfo", 26.0), pytest.param("bpfi", 26.0, marks=pytest.mark.slow)]
+)
 def test_a_speed_from_strikes_alone_is_refused_with_both_speeds(part, speed):
     strikes = getattr(PLATE.frequencies, part) * speed
     track = speed_from_vibration(
