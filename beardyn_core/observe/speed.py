@@ -32,7 +32,7 @@ from beardyn_core.observe.speed_rivals import Alternatives, Rival, Shaft, find_a
 _TURN = 2.0 * np.pi
 _LEAST_SAMPLES = 64
 # of a speed, relative: lines of a bearing and of its shaft can be taken for each other
-_CONFUSION = 0.011
+_CONFUSION = 0.012
 _NEAR = 0.025  # of a speed, within which the second pass sharpens it
 _NEIGHBOURS = 5
 _WIDEST = 2.0  # highest over lowest frequency of the range
@@ -117,7 +117,7 @@ def speed_from_vibration(
 
     The first pass takes windows, each warped by a constant acceleration of the shaft, and chains them by a
     random walk of the speed, forwards and backwards. The second weighs more orders, over the angle that the
-    first one gives. Its deviation is that of the probability, and 1.1 % beside: an order of the bearing
+    first one gives. Its deviation is that of the probability, and 1.2 % beside: an order of the bearing
     that is nearly a whole one, 3.05 or 4.95, is taken for it and pulls the speed along.
 
     Last, every other speed of the range is weighed over that angle, without counting the lines that would be
@@ -344,5 +344,5 @@ def _order_odds(
     per_turn = (len(time) - 1) / (turned[-1] - turned[0])
     highest = min(float(settings.fine_orders), 0.45 * per_turn / OVERSAMPLING * 2.0)
     combs = combs_of(orders, highest, int(highest), settings)
-    spectrum = line_spectrum(values, per_turn, {comb.probable for comb in combs})
+    spectrum = line_spectrum(values, per_turn, {comb.probable for comb in combs}, flanks=False)
     return weigh(spectrum, combs, scale, settings)

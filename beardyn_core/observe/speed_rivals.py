@@ -101,7 +101,7 @@ def find_alternatives(
     rows = list(_rows_of(spectra, known, settings))
     all_lines = odds(spectra)
     found = all_lines[near].max() - all_lines
-    close = ratios[near & (found < settings.least_lead)]
+    close = near & (found < settings.least_lead)
     others = far & (found < settings.least_lead)
     rivals = []
     if far.any():
@@ -112,23 +112,22 @@ def find_alternatives(
             ratio, lead = _closest(ratios, left[near].max() - left, far)
             rivals.append(Rival(ratio, lead, f"lines of the mains at {frequency:g} Hz belong to no speed"))
     for row in rows:
-        meanings = [(each, far & _fits(ratios, row, each)) for each in known]
-        if not any(fit.any() for _, fit in meanings):
+        meanings = [(each, _fits(ratios, row, each)) for each in known if each.name != row.name]
+        if not any((fit & (near | far)).any() for _, fit in meanings):
             continue
         left = odds([_without(each, row.order) for each in spectra])
+        lead = left[near].max() - left
         for meaning, fit in meanings:
-            if fit.any():
-                ratio, lead = _closest(ratios, left[near].max() - left, fit)
-                rivals.append(Rival(ratio, lead, _both(row, meaning, ratio, shaft)))
+            close |= near & fit & (lead < settings.least_lead)
+            if (fit & far).any():
+                ratio, least = _closest(ratios, lead, fit & far)
+                rivals.append(Rival(ratio, least, _both(row, meaning, ratio, shaft)))
     rivals = [each for each in rivals if each.lead < settings.least_lead]
     # one that names the lines of both says more
     rivals.sort(key=lambda each: ("lines at" not in each.why, each.lead))
-    spread = [abs(each.ratio - 1.0) for each in rivals]
-    return Alternatives(
-        rivals[0] if rivals else None,
-        float(np.abs(close - 1.0).max()),
-        float(max([*spread, *np.abs(ratios[others] - 1.0), *np.abs(close - 1.0)])),
-    )
+    reach = float(np.abs(ratios[close] - 1.0).max())
+    spread = max([reach, *np.abs(ratios[others] - 1.0), *(abs(each.ratio - 1.0) for each in rivals)])
+    return Alternatives(rivals[0] if rivals else None, reach, float(spread))
 
 
 def _closest(ratios: Float, lead: Float, among: np.ndarray) -> tuple[float, float]:
