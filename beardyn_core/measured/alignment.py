@@ -49,7 +49,8 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
     if log_delays and max(log_delays) - min(log_delays) > longest_delay:
         out.warnings.append(
             f"the stamps of {_listed(tables)} are of different clocks, "
-            f"{(max(log_delays) - min(log_delays)) * 1e-9:.6g} s apart; they are aligned by the time of the log"
+            f"{(max(log_delays) - min(log_delays)) * 1e-9:.6g} s apart; they are aligned by the time of the "
+            "log"
         )
         starts = [
             Start(start.ns + delay, True) if start is not None else None
@@ -65,8 +66,8 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
     if any(start.dated != first.dated for start in known):
         zero = first.ns
         out.warnings.append(
-            f"the times of {_listed(tables)} are of different clocks, a date and seconds; they are taken as begun "
-            "together, which nothing in the file confirms"
+            f"the times of {_listed(tables)} are of different clocks, a date and seconds; they are taken "
+            "as begun together, which nothing in the file confirms"
         )
         starts = [start if start is not None and start.dated == first.dated else None for start in starts]
     elif len(known) < len(starts) and any(start.dated or start.ns for start in known):
@@ -81,10 +82,11 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
         at + each.seconds * 1e9 for at, each in zip(out.begin_ns, tables, strict=True) if each.is_vibration
     )
     for at, each in zip(out.begin_ns, tables, strict=True):
-        if not each.is_vibration and each.seconds and end and (at >= end or at + each.seconds * 1e9 <= 0):
+        last = at + each.seconds * 1e9
+        if not each.is_vibration and each.seconds and end and (at >= end or last <= 0):
             out.problems.append(
-                f"{each.what} is from {at * 1e-9:.6g} s to {at * 1e-9 + each.seconds:.6g} s after the beginning of "
-                f"the vibration, which lasts {end * 1e-9:.6g} s: they have no time together; give a channel of "
+                f"{each.what} is from {at * 1e-9:.6g} s to {last * 1e-9:.6g} s after the beginning of the "
+                f"vibration, which lasts {end * 1e-9:.6g} s: they have no time together; give a channel of "
                 "the same time, or --time-channel none if its time is wrong"
             )
     return out
@@ -122,15 +124,15 @@ def align_files(
         how = f"{apart:.6g} s after" if apart >= 0.0 else f"{-apart:.6g} s before"
         return begins, [
             f"{path}: begins by its own time {how} the beginning of {before}, which lasts "
-            f"{files[late - 1][1].seconds:.6g} s; the files are joined in the order given: give them in the order "
-            "of their times"
+            f"{files[late - 1][1].seconds:.6g} s; the files are joined in the order given: give them "
+            "in the order of their times"
         ]
     if interval is not None:
         off = max(abs(at - begin) for at, begin in zip(by_stamps, begins, strict=True)) * 1e-9
         if off > tolerance + _DRIFT * begins[-1] * 1e-9:
             return begins, [
-                f"{files[0][0]}: the own times of the files differ from --file-interval-s {interval:g} by up to "
-                f"{off:.6g} s; taken is the interval, as asked"
+                f"{files[0][0]}: the own times of the files differ from --file-interval-s {interval:g} by up "
+                f"to {off:.6g} s; taken is the interval, as asked"
             ]
         return begins, []
     placed, gaps = [0], []
@@ -144,8 +146,8 @@ def align_files(
     if not gaps:
         return placed, []
     return placed, [
-        f"{files[0][0]}: by their own times there are {len(gaps)} gaps between the files, up to {max(gaps):.6g} s "
-        f"and {sum(gaps):.6g} s in all; they are kept"
+        f"{files[0][0]}: by their times there are {len(gaps)} gaps between the files, up to {max(gaps):.6g} "
+        f"s and {sum(gaps):.6g} s in all; they are kept"
     ]
 
 

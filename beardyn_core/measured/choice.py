@@ -132,8 +132,13 @@ def choose(path: Path, reading: Reading) -> Chosen:
     return Chosen(path, kind, source, sensors, speed, times, seconds, problems, told, tuple(work.warnings))
 
 
-def _ramps(work: _Choosing, candidates: Sequence[Channel], times: Mapping[str, Channel]) -> dict[str, bool]:
-    """Find channels that rise or fall evenly as time and counters do; whether each may be the time."""
+def _ramps(
+    work: _Choosing, candidates: Sequence[Channel], times: Mapping[str, Channel]
+) -> tuple[dict[str, bool], set[str]]:
+    """Find channels that rise or fall evenly as time and counters do, and those that have no number at all.
+
+    Of the first, whether each may be the time.
+    """
     tables: dict[str, list[Channel]] = {}
     for each in candidates:
         if each.table not in times or not times[each.table].is_time or each.count is not None:

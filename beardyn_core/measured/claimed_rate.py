@@ -1,8 +1,8 @@
 """Sampling rates that files claim, and the one function that decides which is true.
 
 A claim is a value with its unit at a place in the file. It may have several readings (``512.000 Hz``). The
-nearest place counts: the channel itself, its struct or group, the file. What is no sampling rate of a vibration
-is not believed, and two claims that differ are refused.
+nearest place counts: the channel itself, its struct or group, the file. What is no sampling rate of a
+vibration is not believed, and two claims that differ are refused.
 """
 
 from __future__ import annotations
@@ -176,7 +176,8 @@ def decide_rate(
         out.rate = stamps.rate
         if is_vibration and stamps.rate < SLOWEST:
             out.warnings.append(
-                f"{stamps.what} {stamps.rate:.6g} Hz, slow for a vibration; give --time-unit if theirs is wrong"
+                f"{stamps.what} {stamps.rate:.6g} Hz, slow for a vibration; give --time-unit if theirs is "
+                "wrong"
             )
         if stamps.uncertainty > SAME:
             out.warnings.append(
@@ -209,7 +210,7 @@ def is_plausible(rate: float, is_vibration: bool = True) -> bool:
 
 
 def _nearest(claims: Sequence[Claim], is_vibration: bool) -> tuple[list[Claim], list[Claim]]:
-    """Give the plausible claims of the nearest place that has some, and what was nearer and is not believed."""
+    """Give the plausible claims of the nearest place that has some, and the nearer ones not believed."""
     near: list[Claim] = []
     doubtful: list[Claim] = []
     for claim in sorted(dict.fromkeys(claims), key=lambda each: each.distance):
@@ -282,8 +283,8 @@ def _ask(doubtful: list[Claim], stamps: Stamps | None, is_vibration: bool, out: 
         return
     if stamps.has_unit:
         out.problems.append(
-            f"{stamps.what} {stamps.rate:.6g} Hz; the sampling rate of {what} is {allowed}: give --time-unit or "
-            "--rate-hz"
+            f"{stamps.what} {stamps.rate:.6g} Hz; the sampling rate of {what} is {allowed}: give --time-unit "
+            "or --rate-hz"
         )
         return
     fitting = [unit for unit, factor in TIME.items() if is_plausible(stamps.rate / factor, is_vibration)]
@@ -353,8 +354,7 @@ def _readings(kind: str, unit: str, value: Any) -> list[float]:
             own = ""
         if own and unit:  # two units
             return []
-        grouped = usual(own or unit) in ("", "Hz", "ns") or sampling_factor(own or unit) == 1.0
-        found.append(_in_hertz(kind, own or unit, _numbers(match[1].strip(), grouped)))
+        found.append(_in_hertz(kind, own or unit, _numbers(match[1].strip())))
     if not found or any(set(each) != set(found[0]) for each in found):  # none, or a list of several
         return []
     return found[0]
@@ -374,7 +374,7 @@ def _in_hertz(kind: str, unit: str, values: Iterable[float]) -> list[float]:
     return [] if isnan(step) else [float(f"{1.0 / (value * step):.12g}") for value in values]
 
 
-def _numbers(text: str, may_be_grouped: bool) -> list[float]:
+def _numbers(text: str) -> list[float]:
     """Give the numbers that a text may mean: ``25,600`` is 25.6 and 25600, ``25.600,0`` only 25600."""
     text = text.strip(" ,.")
     mantissa, sign, exponent = re.fullmatch(r"(.*?)(?:([eE])(.*))?", text).groups()  # type: ignore[union-attr]
@@ -400,8 +400,7 @@ def _numbers(text: str, may_be_grouped: bool) -> list[float]:
         return []
     else:
         texts.append(plain.replace(",", "."))
-        may_be_grouped = may_be_grouped and not spaced and not power
-        if points + commas and may_be_grouped and re.fullmatch(r"[1-9]\d{0,2}[.,]\d{3}", plain):
+        if points + commas and not spaced and not power and re.fullmatch(r"[1-9]\d{0,2}[.,]\d{3}", plain):
             texts.append(plain.replace(",", "").replace(".", ""))
     try:
         return [float(f"{each}{power}") for each in texts]

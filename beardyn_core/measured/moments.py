@@ -1,4 +1,4 @@
-"""Dates with times as measuring programs write them: ``2026-01-31 12:00:00.5+01:00``, ``31.01.2026 12:00:00,5``."""
+"""Dates with times of measuring programs: ``2026-01-31 12:00:00.5+01:00``, ``31.01.2026 12:00:00,5``."""
 
 from __future__ import annotations
 

@@ -52,7 +52,8 @@ def open_file(path: Path, reading: Reading) -> Held:
         origins[f"{topic}.{TIME}"] = found.first_ns
         delays[topic] = found.log_delay_ns
         notes += [
-            f"each message of {topic} has {count} numbers in {member}, and no layout: they are taken as samples"
+            f"each message of {topic} has {count} numbers in {member}, and no layout: they are taken as "
+            "samples"
             for member, count in found.lists.items()
         ]
     spans = [found.span_ns for found in topics.found.values() if found.has_blocks]

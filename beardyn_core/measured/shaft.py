@@ -183,7 +183,9 @@ class Pulses:
         earlier = np.concatenate(([self._interval or intervals[0]], intervals[:-1]))
         usual = self._usual_before(intervals)
         lost = intervals > _LOST * usual
-        uneven = (np.abs(intervals / earlier - 1.0) > _IRREGULAR) & ~lost & ~np.concatenate(([False], lost[:-1]))
+        uneven = (
+            (np.abs(intervals / earlier - 1.0) > _IRREGULAR) & ~lost & ~np.concatenate(([False], lost[:-1]))
+        )
         self.irregular += int(np.count_nonzero(uneven))
         self._interval = float(usual[-1] if lost[-1] else intervals[-1])
         self._latest = np.where(lost, usual, intervals)[-_LATEST:]

@@ -48,11 +48,11 @@ class Source(Protocol):
     problems: list[str]
     """Mistakes found in the samples so far."""
     origins: dict[str, int]
-    """Zero of time stamps that are given from their first one on, by channel, [ns]; known with the samples."""
+    """Zero of time stamps that are given from their first one on, by channel, [ns]; known after reading."""
     flagged: dict[str, int]
     """Samples that the file itself marks as invalid, by channel; they are given as NaN."""
     log_delays: Mapping[str, int]
-    """Of a log whose messages have stamps of their own, by table: from the stamp of the first to the log, [ns]."""
+    """Of messages that have stamps of their own, by table: from the stamp of the first to the log, [ns]."""
     longest_delay: int
     """By which these may differ where all stamps are of one clock, [ns]."""
 

@@ -376,8 +376,8 @@ def _judge_numbers(
         turning = speed.kind == "channel" and speed.channel is not None and name == speed.channel.name
         if each.lost and each.lost == chosen.source.flagged.get(name, 0) and each.lost < each.count:
             found.warnings.append(
-                f"{where}: the file marks {each.lost} of {each.count} samples as invalid, the first is sample "
-                f"{each.first_lost}; they are left out as gaps"
+                f"{where}: the file marks {each.lost} of {each.count} samples as invalid, the first is "
+                f"sample {each.first_lost}; they are left out as gaps"
             )
         elif each.lost:
             found.problems.append(

@@ -75,7 +75,7 @@ class Tacho:
         if lacking > max(0.01 * (end_ns - begin_ns), 2.5 * usual_ns) or found.holes:
             spans = [(begin_ns, found.first_ns), *found.holes, (found.last_ns, end_ns)]
             long = [span for span in spans if span[1] - span[0] > 2.5 * usual_ns]
-            shown = ", ".join(f"{a * 1e-9:.6g} to {b * 1e-9:.6g} s" for a, b in long[:_HOLES_SHOWN])
+            shown = ", ".join(f"{a * 1e-9:.4g} to {b * 1e-9:.4g} s" for a, b in long[:_HOLES_SHOWN])
             more = f" and {len(long) - _HOLES_SHOWN} times more" if len(long) > _HOLES_SHOWN else ""
             out.append(
                 f"the tachometer {name} gives a speed for {found.known_ns * 1e-9:.6g} of "

@@ -10,8 +10,8 @@ from beardyn_core.arrays import Float
 from beardyn_core.measured.units import TIME, split_unit, unit_in
 
 _NAME = re.compile(
-    r"(?:.*[./])?(?:time|t|x_value|timestamp|timestamps|time_?stamp|zeit|temps|tiempo|elapsed(?:[ _]time)?|seconds"
-    r"|sec|milliseconds)",
+    r"(?:.*[./])?(?:time|t|x_value|timestamps|time_?stamp|zeit|temps|tiempo|elapsed(?:[ _]time)?|seconds"
+    r"|sec)",
     re.I,
 )
 _LOOKED_AT = 4096  # samples
@@ -33,7 +33,7 @@ def is_time_name(name: str) -> bool:
 
 
 def is_ramp(values: Float) -> bool:
-    """Tell whether numbers are a time or a counter: they never turn round, or nearly all steps are the same."""
+    """Tell whether numbers are a time or a counter: they never turn round, or nearly all steps are alike."""
     step = np.diff(values[:_LOOKED_AT])
     step = step[np.isfinite(step)]
     if np.count_nonzero(step) < _LEAST:

@@ -154,9 +154,10 @@ def unit_in(name: str, known: Mapping[str, float]) -> str:
             stem = name[: place - 1].strip()
             if usual(rest) in known and not (before == "/" and _is_a_unit_itself(stem)):
                 return usual(rest)
-        elif len(rest) > 2 and rest.isalpha() and usual(rest) in known:
-            if before.isdigit() or (before.islower() and rest[0].isupper()):
-                return usual(rest)
+        elif len(rest) > 2 and rest.isalpha() and usual(rest) in known and (
+            before.isdigit() or (before.islower() and rest[0].isupper())
+        ):  # fmt: skip
+            return usual(rest)
     return ""
 
 

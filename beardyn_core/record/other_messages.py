@@ -241,7 +241,7 @@ def _flat(message: Any, above: str = "") -> dict[str, Any]:
     shape = _layout(members)
     for name, value in members.items():
         path = f"{above}{name}"
-        if name.startswith("__"):
+        if name.startswith("__") or (shape is not None and name in ("layout", "shape")):
             continue
         if name == "stamp" and above == "header.":
             part = vars(value) if is_dataclass(value) else value
