@@ -66,7 +66,8 @@ class Reading:
     tacho_level: A[
         float | None,
         At(ge=-1e12, le=1e12),
-        "a pulse begins where its channel rises through this; default the middle between the levels of its pulses",
+        "a pulse begins where its channel rises through this; default the middle between the "
+        "levels of its pulses",
     ] = None
     time_channel: A[
         str, At(), "channel with the time stamps; default one called time; none: there is none"
