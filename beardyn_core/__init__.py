@@ -16,6 +16,7 @@ units       units of numbers in files, and the way to SI
 edge        unit, limits and words of a number, on the field that holds it
 inputs      files that are read: no pipe, no device
 outputs     files that a command writes: nothing is replaced unasked
+announcements  lines on standard error about what takes long
 interrupts  Ctrl-C, also while something is compiled
 versions    versions of what computed a run
 arrays      names of array types in signatures
