@@ -32,6 +32,7 @@ tacho         level of a tachometer's pulses, and what they give
 survey        the first pass: rate, range and mistakes of every channel
 telling       how files were understood, in sentences; what is true of many files once
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
+stated_speed  how far the speed may be from the truth, by the way it is known
 about         what a recording says of where it comes from
 heard_speed   speed from the vibration itself, where no file says it
 stream        vibration and shaft of all files as parts in the order of time

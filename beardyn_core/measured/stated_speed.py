@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from beardyn_core.measured.survey import Survey
+if TYPE_CHECKING:
+    from beardyn_core.measured.survey import Survey
 
 UNCERTAINTY = 0.03  # of a speed that no tachometer counts: worn wheels, slipping motors, rounded figures, [-]
 _COUNTED = "tacho"  # revolutions are counted

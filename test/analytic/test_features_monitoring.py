@@ -124,11 +124,12 @@ def test_no_false_alarm_on_much_noise(situation):
     assert_no_false_alarm(situation, range(1000, 1060))
 
 
-def test_impulses_that_match_no_fault_frequency_raise_no_alarm():
+def test_impulses_that_match_no_fault_frequency_are_unexplained():
     _, angle, acceleration = _signal("cup", 7, slip=0.12)
     result = REFERENCE(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
     assert result.strongest_level > 20.0
-    assert result.verdict == "healthy"
+    assert result.verdict == "unexplained"
+    assert result.comb_order == pytest.approx(1.12 * ORDERS.bpfo, rel=2e-3)
 
 
 def _feed(monitor, signal, block=512, skip=()):

@@ -107,7 +107,10 @@ def shaft_of(order: float, spectrum: OrderSpectrum, power: Float, doubt: float, 
     found, most = np.nan, chance
     for part in range(max(2, ceil(order / (1.0 + doubt))), floor(order / (1.0 - doubt)) + 1):
         turns = order / part
-        lines = np.array([h for h in range(1, _SHAFT_LINES + 1) if h % part])
+        # next to multiples of a comb lie its sidebands of the shaft, which are no shaft alone
+        apart = 0 if part < 4 else 1 if part < 6 else 2
+        own = range(1, _SHAFT_LINES + 1)
+        lines = np.array([h for h in own if h < part - apart or apart < h % part < part - apart])
         index = np.rint(lines * turns / spectrum.order[1]).astype(np.int64)
         line = power[np.minimum(index, len(power) - 1)]
         between = evidence(float(line.sum() - line.max()), len(lines), 1.0)

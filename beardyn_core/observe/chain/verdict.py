@@ -51,7 +51,7 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     if passed and not contradiction:
         verdict = Verdict(best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency, settings), best)
     elif passed and stranger is None and contradiction != NEIGHBOUR:
-        verdict = _verdict_on(best, found, best, stretch, settings)
+        verdict = _verdict_on(best, found, best, stretch, settings, contradiction)
     elif stranger is not None:
         verdict = _verdict_on(stranger, found, best, stretch, settings)
     else:
@@ -126,9 +126,14 @@ def _same(other: Candidate, best: Candidate) -> bool:
 
 
 def _verdict_on(
-    stranger: Candidate, found: FaultLines, best: Candidate, stretch: Stretch, settings: MonitorSettings
+    stranger: Candidate,
+    found: FaultLines,
+    best: Candidate,
+    stretch: Stretch,
+    settings: MonitorSettings,
+    contradiction: str = "",
 ) -> Verdict:
-    """Report a comb that fits no part at the stated speed.
+    """Report a comb that fits no part at the stated speed, or a part that something contradicts.
 
     What is weak and has the order of another bearing at this very speed, or of nothing known, may come from
     a bearing or a gear next to this one: then it cannot be told whether this bearing is healthy.
@@ -141,10 +146,14 @@ def _verdict_on(
     sure = not stranger.strikes < settings.foreign_strikes or (own and not other)
     would = " or ".join(each.sentence(speed) for each in fits) or "no part of this or a shipped bearing"
     share = max(stranger.strikes, stranger.sharpest)
-    reason = (
-        f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.0%} of the power and "
-        f"fits no part of this bearing at the stated {_RPM * speed:.5g} rpm; it would fit {would}; "
-    )
+    strike = f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.0%} of the power"
+    if contradiction:
+        reason = f"{strike} near {stranger.pattern.symbol}, but {contradiction}; "
+    else:
+        reason = (
+            f"{strike} and fits no part of this bearing at the stated {_RPM * speed:.5g} rpm; "
+            f"it would fit {would}; "
+        )
     if sure:
         return Verdict(
             UNEXPLAINED, f"{reason}check speed, wheel and bearing data", best, comb=stranger, fits=fits
