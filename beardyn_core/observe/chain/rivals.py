@@ -15,7 +15,8 @@ from beardyn_core.observe.features import OrderSpectrum
 LOWEST_COMB = 1.2  # fundamental of a rival: below are the cage's own orders and the wheel's, [-]
 _ALIKE = 0.006  # orders that differ by less are one, [-]
 _FINE = 201  # trials about a shaft order, which all its lines then sharpen
-_SHAFT_LINES = 12  # multiples of the shaft among which those are that show it
+_TAKEN_OUT = 1e-9  # power over noise of lines that were taken out
+_SHAFT_LINES, _FEWEST = 24, 3  # multiples of the shaft among which those are that show it
 _STEP = 0.3  # of the last harmonic between trials, in resolutions
 
 
@@ -112,8 +113,11 @@ def shaft_of(order: float, spectrum: OrderSpectrum, power: Float, doubt: float, 
         own = range(1, _SHAFT_LINES + 1)
         lines = np.array([h for h in own if h < part - apart or apart < h % part < part - apart])
         index = np.rint(lines * turns / spectrum.order[1]).astype(np.int64)
-        line = power[np.minimum(index, len(power) - 1)]
-        between = evidence(float(line.sum() - line.max()), len(lines), 1.0)
+        line = power[index[index < len(power)]]
+        line = line[line > _TAKEN_OUT]  # what lies on whole orders was taken out
+        if len(line) < _FEWEST:
+            continue
+        between = evidence(float(line.sum() - line.max()), len(line), 1.0)
         if between > (0.0 if part == 2 else most):
             found, most = turns, between
     if np.isnan(found):
