@@ -98,7 +98,8 @@ def answer(
         len(listening.acceleration),
         round(min(REVOLUTIONS / listening.shaft_frequency, LONGEST_S) * listening.rate),
     )
-    turned = 2.0 * np.pi * listening.shaft_frequency * (1.0 + error) * np.arange(samples) / listening.rate
+    turns_a_sample = listening.shaft_frequency * (1.0 + error) / listening.rate
+    turned = np.asarray(2.0 * np.pi * turns_a_sample * np.arange(samples), np.float64)
     stretch = Stretch(listening.rate, listening.acceleration[:samples], turned, np.nan, 0)
     return REFERENCE(stretch, orders, count, settings).verdict
 
