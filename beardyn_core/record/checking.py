@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_at
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
@@ -28,7 +28,7 @@ _COLUMNS = {
     "force_waveform": WRENCH_AXES,
     "vibration": ("ax", "ay", "az"),
     "bodies": ("body", *POSE_AXES, *TWIST_AXES),
-    "contacts": ("row", "roller", "kind", *CONTACT_FIELDS),
+    "contacts": ("row", "roller", "kind", *CONTACT_FIELDS[:LARGEST]),  # earlier versions have not the largest
     "load/blocks": (*WRENCH_AXES, "shaft_speed"),
 }
 _WHOLE = ("sample", "t", "body", "row", "roller", "kind")
