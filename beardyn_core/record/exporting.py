@@ -187,7 +187,7 @@ def _write_wav(run: Run, path: Path, name: str) -> None:
         )
     wavfile.write(path, round(signal.rate), measured_axes(signal.values).astype(np.float32))
     units = tables.units_of(run, name)
-    columns = [f"{key} [{units[key]}]" for key in _measured_columns(run, name) if key.startswith("a")]
+    columns = [f"{key} [{units[key]}]" for key in _measured_columns(run, name) if key != "time"]
     _add_comment(path, json.dumps({"columns": columns, "rate_Hz": signal.rate}))
 
 
