@@ -19,7 +19,8 @@ ROOT = Path(__file__).parents[1]
 PAGES = ROOT / "docs" / "tutorial"
 BLOCK = re.compile(r"```(bash|python|yaml)\n(.*?)```\n(\n```text\n.*?```\n)?", re.DOTALL)
 FILE = re.compile(r"# (\w+\.(?:py|yaml))\b")
-COMMAND = f'beardyn() {{ "{sys.executable}" -m beardyn_core.cli.main "$@"; }}\nset -e\n'
+# 10 and more are answers of a monitor, such as a faulty bearing
+COMMAND = f'beardyn() {{ "{sys.executable}" -m beardyn_core.cli.main "$@" || [ $? -ge 10 ]; }}\nset -e\n'
 LONGEST_ANSWER = 40  # lines
 ONCE = re.compile(
     r"beardyn: (compiling the kernels|kernels ready|choosing (the )?effects)"
