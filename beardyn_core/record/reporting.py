@@ -18,7 +18,13 @@ from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan, scan_recording
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.published import MissingMessages, last_published, missing_messages, missing_sentence
+from beardyn_core.record.published import (
+    MissingMessages,
+    last_published,
+    missing_messages,
+    missing_sentence,
+    published_before,
+)
 from beardyn_core.record.reading import namespace_in, read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import chosen_for, diagnosed, recorded_budget
@@ -174,7 +180,9 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     recorded = {relative_name(topic, namespace): len(each) for (topic, _), each in times.items()}
     for name, count in run.malformed.items():
         recorded[name] -= count
-    return tuple(missing_messages(published, recorded))
+    first = {relative_name(topic, namespace): min(each) for (topic, _), each in times.items()}
+    before = published_before(first, len(run.temperature.components))
+    return tuple(missing_messages(published, recorded, before))
 
 
 def _rate(times: list[int]) -> float | None:

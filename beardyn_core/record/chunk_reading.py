@@ -1,0 +1,69 @@
+"""Chunks of an MCAP file, unpacked within bounds: a few kilobytes can claim to hold gigabytes."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from importlib import import_module
+
+import zstandard
+from mcap.exceptions import McapError
+from mcap.records import Chunk, McapRecord
+from mcap.stream_reader import breakup_chunk
+
+LARGEST_CHUNK = 64 * 1024 * 1024  # bytes unpacked; writers of recordings use 1 to 4 MB
+LARGEST_RATIO = 1000  # bytes unpacked for each byte of the file, beyond `ALWAYS_UNPACKED`
+ALWAYS_UNPACKED = 32 * 1024 * 1024
+
+
+class ChunkReader:
+    """Unpacks the chunks of one file.
+
+    Parameters
+    ----------
+    file_bytes : int
+        Size of the file, which bounds what its chunks may hold together.
+    """
+
+    def __init__(self, file_bytes: int) -> None:
+        self._left = ALWAYS_UNPACKED + LARGEST_RATIO * file_bytes
+
+    def records(self, chunk: Chunk) -> list[McapRecord]:
+        """Read the records in a chunk.
+
+        Raises
+        ------
+        McapError
+            The chunk holds more than is allowed, or something else than it states.
+        """
+        limit = min(LARGEST_CHUNK, self._left)
+        data = self._unpacked(chunk, limit)
+        if len(data) > limit:
+            raise McapError(
+                f"a chunk of {len(chunk.data)} bytes holds more than {limit} bytes: {_allowed(limit)}"
+            )
+        if len(data) != chunk.uncompressed_size:
+            raise McapError(f"a chunk states {chunk.uncompressed_size} bytes and holds {len(data)}")
+        self._left -= len(data)
+        return list(breakup_chunk(replace(chunk, compression="", data=data), validate_crc=True))
+
+    def _unpacked(self, chunk: Chunk, limit: int) -> bytes:
+        """Unpack at most one byte more than the limit, whatever the chunk states."""
+        if chunk.uncompressed_size > limit:
+            raise McapError(
+                f"a chunk of {len(chunk.data)} bytes states {chunk.uncompressed_size} bytes: "
+                f"{_allowed(limit)}"
+            )
+        if chunk.compression == "zstd":
+            with zstandard.ZstdDecompressor().stream_reader(io.BytesIO(chunk.data)) as stream:
+                return bytes(stream.read(limit + 1))
+        if chunk.compression == "lz4":
+            lz4 = import_module("lz4.frame")
+            return bytes(lz4.LZ4FrameDecompressor().decompress(chunk.data, limit + 1))
+        if chunk.compression:
+            raise McapError(f"a chunk is packed by '{chunk.compression[:20]}'; known are zstd and lz4")
+        return chunk.data
+
+
+def _allowed(limit: int) -> str:
+    return f"allowed here are {limit} (it would exhaust time and memory); record again with smaller chunks"
