@@ -116,7 +116,7 @@ class TopicStrands:
         name, cdr, serial = self.name, message.cdr, message.serial
         stamp = header_stamp(cdr)
         known = [each for each in (self.old, self.main, *self.waiting) if each is not None]
-        leaps = ((each.leap_to(name, stamp, cdr), -each.begun, each) for each in known)
+        leaps = ((each.leap_to(name, stamp, cdr), (-each.count, -each.begun), each) for each in known)
         followed = [(leap, age, each) for leap, age, each in leaps if leap is not None]
         if followed:
             strand = min(followed, key=lambda found: found[:2])[2]

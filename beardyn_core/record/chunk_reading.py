@@ -11,9 +11,9 @@ from mcap.exceptions import McapError
 from mcap.records import Chunk, McapRecord
 from mcap.stream_reader import breakup_chunk
 
-LARGEST_CHUNK = 64 * 1024 * 1024  # bytes unpacked; writers of recordings use 1 to 4 MB
-LARGEST_RATIO = 1000  # bytes unpacked for each byte of the file, beyond `ALWAYS_UNPACKED`
-ALWAYS_UNPACKED = 32 * 1024 * 1024
+LARGEST_CHUNK = 32 * 1024 * 1024  # bytes unpacked; writers of recordings use 1 to 4 MB
+LARGEST_RATIO = 300  # bytes unpacked for each byte of the file, beyond `ALWAYS_UNPACKED`
+ALWAYS_UNPACKED = 16 * 1024 * 1024
 
 
 class ChunkReader:

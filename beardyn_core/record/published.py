@@ -10,6 +10,7 @@ from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.topics import NAMESPACE, relative_name
 
 PREFIX = "messages "
+LONGEST_COUNT = 15  # digits
 # Others speak there too: which run a message belongs to is not to be told.
 _NOT_COUNTED = ("/diagnostics", "/clock")
 BLOCKS = ("force_waveform", "vibration", "bodies", "contacts")
@@ -49,7 +50,7 @@ def published_counts(status: Diagnostic, namespace: str = NAMESPACE) -> dict[str
     return {
         relative_name(key.removeprefix(PREFIX), namespace): int(value)
         for key, value in status.values
-        if key.startswith(PREFIX) and value.isdecimal()
+        if key.startswith(PREFIX) and value.isdecimal() and len(value) <= LONGEST_COUNT
     }
 
 
