@@ -19,6 +19,7 @@ BLOCK_NS = 20_000_000
 TEMPERATURE = "temperature"  # one message for each part, all of one stamp
 TEMPERATURE_NS = 200_000_000
 STEPS_OVER = 4  # steps that a message may be ahead and still goes on
+HOLE_NS = 60_000_000_000  # within which the publisher that is followed goes on behind a hole
 BEGINNING_NS = 25_000_000  # no run begins with a later stamp
 BELIEVED_AFTER = 5  # messages that go on from each other
 MOST_WAITING = 16  # strands of one topic
@@ -50,6 +51,8 @@ class Strand:
         Order of arrival of its first and of its latest message.
     waiting : list of Waiting
         Those that no file has yet.
+    source : bytes
+        Publisher of its first message; empty where the middleware does not name it.
     """
 
     first_ns: int
@@ -61,6 +64,7 @@ class Strand:
     begun_at: float = field(default_factory=monotonic)
     extended_at: float = field(default_factory=monotonic)
     waiting: list[Waiting] = field(default_factory=list)
+    source: bytes = b""
     _parts: set[bytes] = field(default_factory=set)
 
     def leap_to(self, name: str, stamp: int, cdr: bytes) -> int | None:
@@ -120,11 +124,16 @@ class TopicStrands:
         followed = [(leap, age, each) for leap, age, each in leaps if leap is not None]
         if followed:
             strand = min(followed, key=lambda found: found[:2])[2]
+        elif self._goes_on_behind_a_hole(message.source, stamp):
+            assert self.main is not None
+            strand = self.main
         elif self._is_late_word_of_the_old_run(stamp):
             assert self.old is not None
             strand = self.old
         else:
-            strand = Strand(stamp, stamp, STEPS_OVER * step_of(name), serial, serial)
+            strand = Strand(
+                stamp, stamp, STEPS_OVER * step_of(name), serial, serial, source=message.source
+            )
             if is_open and self.main is None:
                 self.main = strand
             else:
@@ -152,6 +161,16 @@ class TopicStrands:
         found, strand.waiting = strand.waiting, []
         return found
 
+    def _goes_on_behind_a_hole(self, source: bytes, stamp: int) -> bool:
+        """Check whether a message ahead is of the publisher that the present run is of."""
+        main = self.main
+        return (
+            main is not None
+            and bool(source)
+            and source == main.source
+            and 0 < stamp - main.last_ns <= HOLE_NS
+        )
+
     def _is_late_word_of_the_old_run(self, stamp: int) -> bool:
         """Check whether a message behind a hole is of the run before, as no run begins with its stamp."""
         return self.main is None and self.old is not None and stamp > max(self.old.last_ns, BEGINNING_NS)
@@ -175,7 +194,8 @@ class TopicStrands:
 
     def end(self, refuse: Callable[[Waiting], None]) -> list[Waiting]:
         """Decide what waits at the end of a run; gives its tail, the rest is refused."""
-        main, found = self.main, []
+        main = self.main
+        found: list[Waiting] = []
         for each in self.waiting:
             stopped = main is not None and main.extended < each.begun
             weak = main is not None and main.count < min(each.count, BELIEVED_AFTER)
