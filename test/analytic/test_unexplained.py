@@ -116,12 +116,11 @@ def test_the_worst_bearing_decides_and_every_verdict_has_its_exit_code() -> None
     assert len({EXIT_CODES[each] for each in ("healthy", "not_diagnosable", "unexplained", "cup")}) == 4
 
 
-@pytest.mark.parametrize("turns", [2.0, 4.0])
-def test_strikes_that_turn_with_a_shaft_of_a_slightly_wrong_speed_are_no_bearing(turns: float) -> None:
+def test_strikes_that_turn_with_a_shaft_of_a_slightly_wrong_speed_are_no_bearing() -> None:
     stretch = struck(None)
     revolution = stretch.shaft_angle / (2.0 * np.pi)
     strikes = np.zeros(len(revolution))
-    for order, size in ((1.0, 20.0), (turns, 40.0)):
+    for order, size in ((1.0, 20.0), (2.0, 40.0)):
         strikes[np.searchsorted(revolution, np.arange(0.3, revolution[-1], 1.0 / order))] += size
     ringing = np.exp(-1500.0 * np.arange(300) / RATE) * np.sin(2.0 * np.pi * 4500.0 * np.arange(300) / RATE)
     added = np.convolve(strikes, ringing)[: len(strikes), None] * [0.3, 0.1, 1.0]

@@ -112,6 +112,7 @@ def shaft_of(order: float, spectrum: OrderSpectrum, power: Float, doubt: float, 
         apart = 0 if part < 4 else 1 if part < 6 else 2
         own = range(1, _SHAFT_LINES + 1)
         lines = np.array([h for h in own if h < part - apart or apart < h % part < part - apart])
+        lines = lines[np.gcd(lines, part) == 1]  # others are of a comb at a part of the order
         index = np.rint(lines * turns / spectrum.order[1]).astype(np.int64)
         line = power[index[index < len(power)]]
         line = line[line > _TAKEN_OUT]  # what lies on whole orders was taken out

@@ -17,7 +17,7 @@ UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
 _ZERO_CELSIUS = 273.15
 _RPM = 60.0  # of a hertz
 NEIGHBOUR = "another bearing on this shaft explains more"
-_SURER = 1.25  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
+_SURER = 1.6  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
 _MULTIPLE = 1.5  # over which an order is a multiple of another, [-]
 _NO_DOUBT = 0.01  # of an order against geometry, [-]
 
