@@ -131,9 +131,7 @@ class TopicStrands:
             assert self.old is not None
             strand = self.old
         else:
-            strand = Strand(
-                stamp, stamp, STEPS_OVER * step_of(name), serial, serial, source=message.source
-            )
+            strand = Strand(stamp, stamp, STEPS_OVER * step_of(name), serial, serial, source=message.source)
             if is_open and self.main is None:
                 self.main = strand
             else:

@@ -120,6 +120,19 @@ def test_a_hole_longer_than_any_step_does_not_end_a_topic(tmp_path: Path) -> Non
     assert recorded.true_messages("force") == [[STEPS["force"] * number for number in stamps]]
 
 
+def test_a_few_messages_between_two_holes_are_kept(tmp_path: Path) -> None:
+    """The publisher that is followed goes on, however few of its messages come through."""
+    recorded = Recorded(tmp_path)
+    recorded.truth("one-0")
+    stamps = [*range(50), *range(2000, 2003), *range(4000, 4100)]
+    for number in stamps:
+        recorded.recording.add(
+            topic("force"), message("force", STEPS["force"] * number, False), source=b"twin"
+        )
+    assert recorded.true_messages("force") == [[STEPS["force"] * number for number in stamps]]
+    assert recorded.refused == 0
+
+
 @pytest.mark.parametrize(
     "scene", ["../../etc/x", "/etc/x", "a/b", "..", ".hidden", "", "x\0y", "é" * 300, "a" * 5000, "con\n"]
 )
