@@ -151,7 +151,10 @@ def test_the_command_refuses_what_exists_and_what_is_the_input(
     target = tmp_path / "run.npz"
     assert main(["export", str(recording), "-o", str(target), "--signals", "vibration,force"]) == 0
     with np.load(target) as arrays:
-        assert set(arrays) == {"truth", "vibration.time", "vibration.values", "force.time", "force.values"}
+        signals = {f"{name}.{part}" for name in ("vibration", "force") for part in ("time", "values")}
+        units = {"vibration.values.unit": "m/s^2", "force.values.unit": "N, N m"}
+        assert set(arrays) == {"truth"} | signals | set(units)
+        assert {name: str(arrays[name]) for name in units} == units  # by which an import knows them
     before = target.read_bytes()
     assert main(["export", str(recording), "-o", str(target)]) == 2
     assert "the file exists; --force replaces it (in Python force=True)" in capsys.readouterr().err

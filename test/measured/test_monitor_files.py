@@ -257,3 +257,36 @@ def test_a_name_plate_that_cannot_be_is_refused_with_every_mistake(tmp_path: Pat
         load_plate("6206")
     changed = bd.name_plate("6205", contact_angle_deg=15)
     assert changed.frequencies.bpfo > bd.name_plate("6205").frequencies.bpfo
+
+
+def test_a_wrong_speed_is_unexplained_in_text_json_and_exit_code(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--speed-rpm", "1690", "--bearing", "6205"]
+    assert main(words) == EXIT_CODES["unexplained"]
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.startswith("unexplained: ")
+    assert "the outer ring (cup) of this bearing at 1" in last
+    assert main([*words, "--json"]) == EXIT_CODES["unexplained"]
+    found = json.loads(capsys.readouterr().out)
+    assert found["verdict"] == found["bearings"][0]["verdict"] == "unexplained"
+    assert found["findings"][-1]["fitting_shaft_frequency_Hz"] == pytest.approx(30.0, rel=0.01)
+
+
+def test_a_wider_speed_uncertainty_names_the_part_that_a_narrow_one_leaves_unexplained(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--speed-rpm", "1690", "--bearing", "6205"]
+    assert main([*words, "--speed-uncertainty", "7 %"]) == EXIT_CODES["cup"]
+    assert main([*words, "--speed-uncertainty", "0"]) == EXIT_CODES["unexplained"]
+
+
+def test_mistakes_of_certainty_and_of_the_file_are_reported_at_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--bearing", "6205"]
+    assert main([*words, "--speed-uncertainty", "0.03", "--neighbour", "6999"]) == BAD_INPUT
+    told = capsys.readouterr().err
+    assert "--speed-uncertainty is '0.03'; it must be 0, or a number from 0.1 to 10 in per cent" in told
+    assert "--neighbour 6999: " in told
+    assert "--speed-rpm" in told  # no speed is given either

@@ -146,7 +146,9 @@ def _verdict_on(
     sure = not stranger.strikes < settings.foreign_strikes or (own and not other)
     would = " or ".join(each.sentence(speed) for each in fits) or "no part of this or a shipped bearing"
     share = max(stranger.strikes, stranger.sharpest)
-    strike = f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.0%} of the power"
+    strike = (
+        f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.2g} times the mean power"
+    )
     if contradiction:
         reason = f"{strike} near {stranger.pattern.symbol}, but {contradiction}; "
     else:
@@ -155,17 +157,14 @@ def _verdict_on(
             f"it would fit {would}; "
         )
     if sure:
-        return Verdict(
-            UNEXPLAINED, f"{reason}check speed, wheel and bearing data", best, comb=stranger, fits=fits
+        name, advice = UNEXPLAINED, "check speed, wheel and bearing data"
+    else:
+        name = NOT_DIAGNOSABLE
+        advice = (
+            "it is weak enough to come from next to this bearing: name the other bearings on the shaft, or "
+            "check speed and bearing data"
         )
-    return Verdict(
-        NOT_DIAGNOSABLE,
-        f"{reason}it is weak enough to come from next to this bearing: name the other bearings on the shaft, "
-        "or check speed and bearing data",
-        best,
-        comb=stranger,
-        fits=fits,
-    )
+    return Verdict(name, reason + advice, best, comb=stranger, fits=fits)
 
 
 def strikes(candidate: Candidate, settings: MonitorSettings) -> bool:
