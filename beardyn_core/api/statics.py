@@ -1,7 +1,8 @@
 """Answers that need no run: stiffness, torque, life, film, load distribution, fault frequencies.
 
 Every function takes the bearing as a `Bearing` or by name, a load in kN upwards on the journal or along x, y,
-z, and a scalar or a sequence of what it is asked over.
+z, and a scalar or a sequence of what it is asked over. Rings bend unless ``rings="rigid"``: the cup in a
+housing with a wall of 25 mm, as the effect ``structure`` of kind ``rings`` has it in runs.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque
 from beardyn_core.model.laminae import equivalent_radius
 from beardyn_core.model.losses import oil_supply
+from beardyn_core.model.structure import bending_rings
 from beardyn_core.scene.operation import MOST_RPM
 
 Load = float | Sequence[float]
@@ -46,6 +48,7 @@ def equilibrium(
     speed_rpm: float = 0.0,
     tilt: str = "locked",
     laminae: int = 1,
+    rings: str = "elastic",
 ) -> StaticSolution:
     """Solve the static equilibrium of a bearing: displacement, roller loads, stiffness.
 
@@ -62,6 +65,10 @@ def equilibrium(
         ``locked`` or ``free``: tilt of the journal against the cup.
     laminae : int
         Of each raceway contact; with 1 the rollers do not tilt.
+    rings : str
+        ``elastic``: the cup bends in a housing with a wall of 25 mm, which spreads the load over more
+        rollers; ``rigid``: only contacts yield, as in catalogues and ISO 16281. The housing is assumed: name
+        the box of yours in a scene.
 
     Returns
     -------
@@ -81,6 +88,7 @@ def equilibrium(
         tilt=tilt,
         laminae=laminae,
         speed=_speed(speed_rpm),
+        body=bending_rings(chosen, rings),
     )
 
 
@@ -96,12 +104,13 @@ def stiffness(
     end_play_mm: float | Sequence[float] | None = None,
     tilt: str = "locked",
     laminae: int = 1,
+    rings: str = "elastic",
 ) -> Float:
     """Give the stiffness of a bearing against its end play or preload.
 
     Parameters
     ----------
-    bearing, load_kN, tilt, laminae
+    bearing, load_kN, tilt, laminae, rings
         See `equilibrium`; with ``tilt="free"`` the tilt follows the displacement.
     end_play_mm : float or sequence, optional
         Negative for preload; by default the bearing's own.
@@ -113,7 +122,7 @@ def stiffness(
     """
 
     def one(play: float | None) -> Float:
-        found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae)
+        found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae, rings=rings)
         return found.stiffness_tilt_free if tilt == "free" else found.stiffness_tilt_held
 
     return one(None) if end_play_mm is None else _each("end_play_mm", end_play_mm, one)
@@ -129,12 +138,13 @@ def torque(
     rib_friction: float = _RIB_FRICTION,
     supply: str = "settled",
     end_play_mm: float | None = None,
+    rings: str = "elastic",
 ) -> Any:
     """Give the running torque of raceways and ribs against speed, in pure rolling.
 
     Parameters
     ----------
-    bearing, load_kN, end_play_mm
+    bearing, load_kN, end_play_mm, rings
         See `equilibrium`.
     speed_rpm : float or sequence
         Of the shaft.
@@ -159,7 +169,7 @@ def torque(
     found = oil_supply(_film(supply))
 
     def one(rpm: float) -> float:
-        static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm)
+        static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm, rings=rings)
         return running_torque(
             chosen,
             oil,
@@ -184,6 +194,7 @@ def life(
     contamination: float = USUAL_CONTAMINATION,
     end_play_mm: float | None = None,
     tilt: str = "locked",
+    rings: str = "rigid",
 ) -> RatingLife:
     """Rate the life of a bearing under one load, ISO 281 and ISO 16281, basic and modified.
 
@@ -198,6 +209,8 @@ def life(
         Of lubricant and bearing.
     contamination : float
         e_C of ISO 281, 1 for extreme cleanliness; 0.6 by default, sealed and greased.
+    rings : str
+        ``rigid``, as ISO 16281 defines its lives, or ``elastic``: under the loads of `equilibrium`.
 
     Returns
     -------
@@ -223,6 +236,7 @@ def life(
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
         tilt=tilt,
         contamination=contamination,
+        rings=rings,
     )
     assert rated is not None
     return rated
@@ -237,12 +251,13 @@ def film(
     temperature_C: float = 70.0,
     supply: str = "settled",
     end_play_mm: float | None = None,
+    rings: str = "elastic",
 ) -> dict[str, Float]:
     """Give the smallest film of every roller on both raceways in pure rolling.
 
     Parameters
     ----------
-    bearing, load_kN, end_play_mm
+    bearing, load_kN, end_play_mm, rings
         See `equilibrium`.
     speed_rpm : float
         Of the shaft.
@@ -263,7 +278,7 @@ def film(
     Dowson and Higginson (1966), Murch and Wilson (1975): see `beardyn_core.bearing.film_thickness`.
     """
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
-    static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm)
+    static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
     oil_layer = _film(supply).oil_layer
     speeds = entrainment_speeds(chosen, speed_rpm * _RPM)

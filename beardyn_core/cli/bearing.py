@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from beardyn_core.integrate.static import StaticSolution
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
+RING_MODES = {  # those of model.structure, which is as heavy
+    "elastic": "elastic rings: the cup bends in a housing with a wall of 25 mm",
+    "rigid": "rigid rings: only the contacts yield",
+}
 _TEMPERATURE = 70.0  # of the lubricant, [degrees Celsius]
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
@@ -61,6 +65,13 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument("--speed", default="0", metavar="RPM", help="shaft speed, rpm; default 0")
     parser.add_argument(
         "--laminae", type=int, default=1, metavar="N", help="laminae of each raceway contact; default 1"
+    )
+    parser.add_argument(
+        "--rings",
+        choices=RING_MODES,
+        default="elastic",
+        help="elastic: the cup bends in a housing with a wall of 25 mm, as in runs with the effect "
+        "structure; rigid: only the contacts yield, as in catalogues; default elastic",
     )
     parser.add_argument(
         "--lubricant",
@@ -106,6 +117,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.effects import LaminaCoupling
     from beardyn_core.integrate.rating_life import life_lines, life_object
     from beardyn_core.integrate.static import solve
+    from beardyn_core.model.structure import bending_rings
 
     load, end_play, speed = operation_of(args)
     bearing = load_bearing(args.bearing)
@@ -123,6 +135,7 @@ def run(args: argparse.Namespace) -> int:
         laminae=args.laminae,
         speed=speed,
         coupling=LaminaCoupling() if args.coupled_laminae else None,
+        body=bending_rings(bearing, args.rings),
     )
     life = _life(case)
     if args.json:
@@ -168,6 +181,7 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
             "tilt": case.args.tilt,
             "shaft_speed_rad_per_s": case.speed,
             "laminae": case.args.laminae,
+            "rings": case.args.rings,
             "coupled_laminae": case.args.coupled_laminae,
             "displacement_m": solution.displacement,
             "tilt_rad": solution.tilt,
@@ -260,6 +274,7 @@ def _table(case: _Case, solution: StaticSolution) -> str:
             "",
             f"Static equilibrium under ({force}) kN on the cone{chosen}",
             f"  end play {case.end_play * 1e3:g} mm, tilt {args.tilt}, {rpm:g} rpm, laminae {args.laminae}",
+            f"  {RING_MODES[args.rings]}",
             *_static_lines(solution),
             *_rib_lines(bearing, float(solution.rib_load.max()), rpm),
             *(_line_lines(_most_loaded_roller(bearing, solution)) if args.laminae > 1 else []),

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 DONE, INVALID = 0, 3
 _ZERO_CELSIUS = 273.15  # [K]
+_RINGS = {
+    "elastic": "elastic: the cup bends in its housing (effect structure)",
+    "rigid": "rigid: only the contacts yield (no effect structure)",
+}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -135,6 +139,7 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "tier": summary.tier,
         "effects": summary.effects,
         "not_in_tier": summary.not_in_tier,
+        "rings": summary.rings,
         "chosen": summary.chosen or None,
         "faults": summary.faults,
         "clipped_samples": {sensor: count for sensor, count, _ in summary.clipped},
@@ -191,6 +196,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("effects", ", ".join(summary.effects) or "none"),
         *([("", summary.chosen)] if summary.chosen else []),
         *([("not in this tier", ", ".join(summary.not_in_tier))] if summary.not_in_tier else []),
+        ("rings", _RINGS[summary.rings]),
         ("faults", "; ".join(summary.faults) or "none"),
         (
             "simulated",

@@ -23,6 +23,7 @@ from beardyn_core.bearing.life import (
 )
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.integrate.static import solve
+from beardyn_core.model.structure import bending_rings
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 
@@ -60,6 +61,8 @@ class RatingLife:
         e_C.
     classes : int
         Load classes that were solved.
+    rings : str
+        ``rigid``, as ISO 16281 takes them, or ``elastic``: for the load distribution.
     """
 
     equivalent_load: float
@@ -70,6 +73,7 @@ class RatingLife:
     viscosity_ratio: float
     contamination: float
     classes: int
+    rings: str = "rigid"
 
 
 def scene_life(
@@ -130,6 +134,7 @@ def rating_life(
     tilt: str,
     contamination: float = USUAL_CONTAMINATION,
     laminae: int = SMALLEST_LAMINA_COUNT,
+    rings: str = "rigid",
 ) -> RatingLife | None:
     """Compute the life under classes of load, their damage added by revolutions (Palmgren and Miner).
 
@@ -145,6 +150,8 @@ def rating_life(
         e_C of ISO 281.
     laminae : int
         Laminae of each contact for the reference life.
+    rings : str
+        For the reference life: ``rigid``, as the standard defines it, or ``elastic``.
 
     Returns
     -------
@@ -159,7 +166,7 @@ def rating_life(
         return None
     rating, limit = dynamic_rating(bearing), fatigue_load_limit(bearing)
     viscosity = lubricant.kinematic_viscosity(temperature)
-    damage = np.zeros(4)
+    damage, body = np.zeros(4), bending_rings(bearing, rings)
     for part in classes:
         kappa = viscosity / reference_viscosity(bearing, part.speed)
         equivalent = rating.equivalent_load(math.hypot(part.force[0], part.force[2]), part.force[1])
@@ -173,6 +180,7 @@ def rating_life(
             tilt=tilt,
             laminae=laminae,
             speed=part.speed,
+            body=body,
         )
         reference = reference_life(
             bearing, static.cup_lamina_load, static.cone_lamina_load, kappa, contamination
@@ -190,6 +198,7 @@ def rating_life(
         viscosity_ratio=viscosity / reference_viscosity(bearing, mean_speed),
         contamination=contamination,
         classes=len(classes),
+        rings=rings,
     )
 
 
@@ -224,6 +233,7 @@ def life_object(life: RatingLife) -> dict[str, Any]:
         "viscosity_ratio": life.viscosity_ratio,
         "contamination": life.contamination,
         "load_classes": life.classes,
+        "rings": life.rings,
     }
 
 
@@ -234,6 +244,6 @@ def life_lines(life: RatingLife) -> list[str]:
         f"  ISO 281    basic {_millions(life.basic)}, modified {_millions(life.modified)}; "
         f"equivalent load {life.equivalent_load / 1e3:.1f} kN",
         f"  ISO 16281  basic {_millions(life.reference_basic)}, "
-        f"modified {_millions(life.reference_modified)}",
+        f"modified {_millions(life.reference_modified)}; {life.rings} rings",
         f"  viscosity ratio {life.viscosity_ratio:.2f}, contamination {life.contamination:g}",
     ]

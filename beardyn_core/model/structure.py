@@ -21,10 +21,12 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
 
+RINGS = ("elastic", "rigid")  # of a bearing that is asked about without a scene
 WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
 WAVES_OF_SLIP = 2  # around and along the cone, where only friction works: a third wave brings no more
 _RESOLVED = 0.5 * math.pi  # rate of a mode times the step up to which its motion is exact: four steps a turn
 _RADIAL, _TANGENTIAL, _AXIAL = range(len(FIELDS))
+_ROWS = 2
 
 
 class StructureParams(NamedTuple):
@@ -113,6 +115,29 @@ def _body(
         _suspension(modes) if suspended else None,
         modes,
     )
+
+
+def bending_rings(bearing: Bearing, how: str) -> ModalBody | None:
+    """Make the rings of a bearing that is asked about without a scene.
+
+    Parameters
+    ----------
+    how : str
+        ``elastic``: the cup bends in a housing, as `RingStructure` has them; ``rigid``: only contacts yield.
+
+    Returns
+    -------
+    ModalBody or None
+        ``None`` where they are rigid.
+
+    Raises
+    ------
+    InputError
+        It is neither.
+    """
+    if how not in RINGS:
+        raise InputError(f"rings is {how!r}; allowed are {', '.join(RINGS)}")
+    return rings(bearing, RingStructure(), _ROWS) if how == "elastic" else None
 
 
 def rings(bearing: Bearing, structure: RingStructure, rows: int) -> ModalBody:

@@ -139,6 +139,11 @@ class RunSummary:
         )
 
     @property
+    def rings(self) -> str:
+        """Whether the rings bend: ``elastic`` or ``rigid``."""
+        return "elastic" if "structure" in self.effects else "rigid"
+
+    @property
     def real_time_factor(self) -> float:
         """Simulated over wall time."""
         return self.duration / self.wall_time if self.wall_time > 0.0 else math.inf

@@ -12,7 +12,7 @@ from beardyn_core.cli.main import main
 
 
 def answer(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    assert main(["bearing", "HS130x230", "--end-play", "0", *words]) == 0
+    assert main(["bearing", "HS130x230", "--end-play", "0", "--rings", "rigid", *words]) == 0
     return capsys.readouterr().out
 
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.effects import RingStructure
 from beardyn_core.integrate.static import solve
+from beardyn_core.model.structure import rings
 
 BEARING = "HS130x230"
 
@@ -21,7 +23,7 @@ def test_stiffness_grows_with_preload() -> None:
     single = bd.stiffness(BEARING, 20, end_play_mm=0.1)
     np.testing.assert_array_equal(single, found[2])
     bearing = bd.bearing(BEARING)
-    direct = solve(bearing, (0.0, 0.0, 2e4), end_play=1e-4)
+    direct = solve(bearing, (0.0, 0.0, 2e4), end_play=1e-4, body=rings(bearing, RingStructure(), 2))
     np.testing.assert_allclose(single, direct.stiffness_tilt_held, rtol=1e-9)
     free = bd.stiffness(BEARING, 20, end_play_mm=0.1, tilt="free")
     np.testing.assert_allclose(free, direct.stiffness_tilt_free, rtol=1e-6, atol=1.0)
@@ -35,6 +37,31 @@ def test_the_load_distribution_carries_the_load() -> None:
     radial = (loads * np.cos(azimuth)).sum() * np.cos(bearing.cup_angle)
     assert radial == pytest.approx(80e3, rel=1e-3)
     np.testing.assert_array_equal(loads, bd.equilibrium(BEARING, 80, end_play_mm=0.1).cup_load)
+
+
+def test_rings_bend_unless_they_are_said_to_be_rigid() -> None:
+    elastic, rigid = bd.equilibrium(BEARING, 80), bd.equilibrium(BEARING, 80, rings="rigid")
+    assert rigid.largest_roller_load == solve(bd.bearing(BEARING), (0, 0, 8e4), end_play=2e-4).cup_load.max()
+    assert elastic.largest_roller_load < 0.8 * rigid.largest_roller_load
+    assert sum(elastic.loaded_roller_count) > sum(rigid.loaded_roller_count)
+    for answer in (bd.load_distribution, bd.stiffness):
+        assert not np.allclose(answer(BEARING, 80), answer(BEARING, 80, rings="rigid"), rtol=0.05)
+    with pytest.raises(bd.InputError, match="rings is 'soft'; allowed are elastic, rigid"):
+        bd.equilibrium(BEARING, 80, rings="soft")
+
+
+@pytest.mark.parametrize("how", ["elastic", "rigid"])
+def test_stiffness_is_the_slope_of_the_load_however_the_rings_are(how: str) -> None:
+    less, more = (bd.equilibrium(BEARING, load, rings=how).displacement[2] for load in (79.9, 80.1))
+    slope = bd.stiffness(BEARING, 80, rings=how)
+    assert 200.0 / (more - less) == pytest.approx(1.0 / np.linalg.inv(slope)[2, 2], rel=2e-3)
+
+
+def test_lives_are_of_the_standard_with_rigid_rings_and_say_so() -> None:
+    standard, bending = bd.life(BEARING, 80), bd.life(BEARING, 80, rings="elastic")
+    assert (standard.rings, bending.rings) == ("rigid", "elastic")
+    assert standard.basic == bending.basic
+    assert bending.reference_basic > 1.2 * standard.reference_basic
 
 
 def test_torque_rises_with_speed_and_load() -> None:
