@@ -55,8 +55,14 @@ class Namesakes:
         self._older_at = self._younger_at = -SILENT_AFTER_S
 
     def is_named_in(self, cdr: bytes) -> bool:
-        """Check whether a diagnostics message, read or not, speaks of another twin of this name."""
-        return self._mark in cdr and self._own not in cdr
+        """Check whether a diagnostics message has the status of another twin of this name.
+
+        A sentence in the status of another part may name the twin too, even at its end.
+        """
+        if self._mark not in cdr or self._own in cdr:
+            return False
+        statuses = decode_diagnostics(cdr)[1]
+        return any(each.name == self._name and each.value("instance") != self.instance for each in statuses)
 
     def hear(self, cdr: bytes) -> None:
         """Take one diagnostics message of a node of this name."""

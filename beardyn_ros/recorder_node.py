@@ -333,7 +333,7 @@ class RecorderNode(Node):
         return lacking > 0 and not gone and now - max(self._lacking[1], self._ended_at) < TAIL_TIMEOUT_S
 
     def _end(self, status: str) -> None:
-        self._intake.sweep()
+        self._intake.sweep_to_the_end()
         self._recording.decide()
         missing = self._missing_messages()
         self._report()
@@ -402,7 +402,7 @@ class RecorderNode(Node):
     def close(self) -> bool:
         """Finish the file; there is no thread to end."""
         if self._recording.current is not None or not self.finished:
-            self._intake.sweep()
+            self._intake.sweep_to_the_end()
             self._recording.close("" if self.finished else "the recorder was told to stop")
             self._tell_left()
         self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)

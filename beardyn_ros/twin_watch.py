@@ -34,8 +34,7 @@ class TwinWatch:
         self._heard_at = -math.inf
         self.speaks = False
         self._seen = False
-        self._missing_since: float | None = None
-        self._absent_since = time.monotonic()
+        self._absent_since: float | None = time.monotonic()
         self.last: Diagnostic | None = None
         self._others: dict[str, Diagnostic] = {}  # last statuses of other runs by run id
 
@@ -85,18 +84,14 @@ class TwinWatch:
         return "" if self.value("state") == FINISHED or self.last is None else self.last.message
 
     def absent_for(self) -> float:
-        """Compute the seconds since the twin was last there, or since the start of the watch, [s]."""
+        """Compute for how long the twin has been seen to be away, or the watch has waited for it, [s]."""
         if self._publisher_count() > 0:
+            self._seen, self._absent_since = True, None
+            return 0.0
+        if self._absent_since is None:
             self._absent_since = time.monotonic()
         return time.monotonic() - self._absent_since
 
     def vanished(self) -> bool:
         """Check whether the twin was there and is gone without a word."""
-        if self._publisher_count() > 0:
-            self._seen, self._missing_since = True, None
-            return False
-        if not self._seen:
-            return False
-        if self._missing_since is None:
-            self._missing_since = time.monotonic()
-        return time.monotonic() - self._missing_since > VANISHED_AFTER_S
+        return self.absent_for() > VANISHED_AFTER_S and self._seen

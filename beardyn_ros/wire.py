@@ -34,6 +34,7 @@ DEEPEST_HISTORY = 4000
 DIAGNOSTICS_HISTORY_FACTOR = 2
 RECENT_S = 5.0
 LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
+MOST_SWEEPS = 50
 
 SourcedHandler = Callable[[bytes, bytes], None]  # bytes of a message, identity of its publisher
 
@@ -209,7 +210,7 @@ class RawIntake:
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:
-        """Take everything that has arrived; how many messages that were."""
+        """Take what has arrived, of each topic up to `LONGEST_SWEEP`; how many messages that were."""
         total = 0
         for subscription, kind, handler in self._subscriptions:
             handle = subscription.handle
@@ -224,6 +225,12 @@ class RawIntake:
             finally:
                 total += count
         return total
+
+    def sweep_to_the_end(self) -> None:
+        """Take everything that has arrived, however much it is; a sender without a pause is left."""
+        for _ in range(MOST_SWEEPS):
+            if self.sweep() < LONGEST_SWEEP:  # so no queue has kept anything back
+                return
 
     def publisher_counts(self) -> dict[str, int]:
         """Count the publishers that each subscription is connected to, by absolute topic name."""

@@ -24,9 +24,10 @@ LONGEST_NUMBER = 100  # digits of a whole number; the seeds of NumPy have 39
 
 
 def _whole_number(node: yaml.ScalarNode) -> int:
-    if len(node.value) > LONGEST_NUMBER:
+    digits = len(node.value.lstrip("+-"))
+    if digits > LONGEST_NUMBER:
         raise yaml.MarkedYAMLError(
-            problem=f"a whole number of {len(node.value)} digits; allowed are up to {LONGEST_NUMBER}",
+            problem=f"a whole number of {digits} digits; allowed are up to {LONGEST_NUMBER}",
             problem_mark=node.start_mark,
         )
     return int(node.value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,9 @@ from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
+from beardyn_ros import twin_watch
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
+from beardyn_ros.wire import LONGEST_SWEEP, RawIntake
 from test.record.test_broken_files import told
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected
@@ -52,6 +55,47 @@ def code_and_report_agree(graph: Graph, path: Path) -> int:
         assert told in text
     assert ("no samples missing" in text) == (not missing)
     return code
+
+
+class Queue(nullcontext[None]):
+    """A subscription, and its handle, in which messages wait."""
+
+    def __init__(self, count: int) -> None:
+        super().__init__()
+        self.handle = self
+        self._waiting = count
+
+    def take_message(self, _kind: object, _raw: bool) -> tuple[bytes, dict[str, object]] | None:
+        self._waiting -= 1
+        return (b"", {}) if self._waiting >= 0 else None
+
+
+@pytest.mark.parametrize("waiting", [0, 1, LONGEST_SWEEP - 1, LONGEST_SWEEP, 5 * LONGEST_SWEEP + 224])
+def test_a_recorder_that_is_behind_takes_everything_that_waits_at_the_end(waiting: int) -> None:
+    taken: list[bytes] = []
+    intake = RawIntake(None, polled=True)
+    for count in (3, waiting, 2):
+        queue = Queue(count)
+        intake._subscriptions.append((queue, None, lambda cdr, _source: taken.append(cdr)))
+    intake.sweep_to_the_end()
+    assert len(taken) == waiting + 5
+
+
+def test_a_twin_that_was_there_all_the_time_is_gone_from_when_it_is_first_missed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, publishers = 0.0, 1
+    monkeypatch.setattr(twin_watch.time, "monotonic", lambda: now)
+    watch = twin_watch.TwinWatch("axlebox/twin", lambda: publishers)
+    now = 600.0
+    assert not watch.vanished()
+    now, publishers = 900.0, 0
+    assert watch.absent_for() == 0.0
+    now = 902.0
+    assert watch.absent_for() == 2.0
+    assert not watch.vanished()
+    now = 903.5
+    assert watch.vanished()
 
 
 def test_a_recorder_that_joins_a_run_says_from_when_and_ends_with_0(graph: Graph) -> None:

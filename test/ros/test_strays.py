@@ -16,9 +16,10 @@ from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.clouds import encode_points
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.record.messages import encode_string
+from beardyn_core.record.messages import Diagnostic, encode_diagnostics, encode_string
 from beardyn_core.record.published import published_before
 from beardyn_core.record.topics import topic
+from beardyn_ros.identity import Namesakes
 from beardyn_ros.live_load import encode_wrench
 from beardyn_ros.recording import Recording, free_name, plain_name
 from beardyn_ros.scenario import says_paused
@@ -183,3 +184,16 @@ def test_what_a_late_recorder_could_not_receive_is_not_missing_but_a_lost_beginn
     late = published_before({**blocks, "force": 42_500_000, "temperature": 420_000_000}, parts=6)
     assert late == {**dict.fromkeys(blocks, 2), "force": 17, "temperature": 12}
     assert published_before({**blocks, "force": 42_500_000, "bodies": 5_000_000}) == {}
+
+
+@pytest.mark.parametrize(
+    ("status", "named"),
+    [
+        (Diagnostic("axlebox/recorder", 1, "followed is /axlebox/twin", (("x", "axlebox/twin"),)), False),
+        (Diagnostic("axlebox/twin", 0, "running", (("instance", "0badcafe"),)), True),
+        (Diagnostic("axlebox/twin", 0, "running", ()), True),
+        (Diagnostic("left/axlebox/twin", 0, "running", (("instance", "0badcafe"),)), False),
+    ],
+)
+def test_a_sentence_about_the_twin_is_not_the_status_of_another_twin(status: Diagnostic, named: bool) -> None:
+    assert Namesakes("axlebox/twin").is_named_in(encode_diagnostics(0, "axlebox", [status])) == named
