@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 from dataclasses import replace
 from importlib import import_module
 
@@ -14,6 +15,9 @@ from mcap.stream_reader import breakup_chunk
 LARGEST_CHUNK = 32 * 1024 * 1024  # bytes unpacked; writers of recordings use 1 to 4 MB
 LARGEST_RATIO = 300  # bytes unpacked for each byte of the file, beyond `ALWAYS_UNPACKED`
 ALWAYS_UNPACKED = 16 * 1024 * 1024
+ALWAYS_READ = 100_000  # records
+BYTES_PER_RECORD = 4  # of the file, for each record beyond `ALWAYS_READ`; ours take 30 and more
+_RECORD = struct.Struct("<BQ")  # kind, length
 
 
 class ChunkReader:
@@ -27,6 +31,7 @@ class ChunkReader:
 
     def __init__(self, file_bytes: int) -> None:
         self._left = ALWAYS_UNPACKED + LARGEST_RATIO * file_bytes
+        self._records_left = ALWAYS_READ + file_bytes // BYTES_PER_RECORD
 
     def records(self, chunk: Chunk) -> list[McapRecord]:
         """Read the records in a chunk.
@@ -45,7 +50,21 @@ class ChunkReader:
         if len(data) != chunk.uncompressed_size:
             raise McapError(f"a chunk states {chunk.uncompressed_size} bytes and holds {len(data)}")
         self._left -= len(data)
+        self._count_records(data)
         return list(breakup_chunk(replace(chunk, compression="", data=data), validate_crc=True))
+
+    def _count_records(self, data: bytes) -> None:
+        """Count before anything is made of them: an empty record takes nine bytes and much more time."""
+        at = 0
+        while at < len(data):
+            self._records_left -= 1
+            if self._records_left < 0:
+                raise McapError(
+                    "the file holds more records than one of its size can: reading them would exhaust time "
+                    "and memory; record again without empty messages"
+                )
+            _, length = _RECORD.unpack_from(data, at)
+            at += _RECORD.size + length
 
     def _unpacked(self, chunk: Chunk, limit: int) -> bytes:
         """Unpack at most one byte more than the limit, whatever the chunk states."""

@@ -24,12 +24,27 @@ from beardyn_core.follow.estimator import read_estimator
 from beardyn_core.plain_json import DEEPEST, LONGEST_TEXT, read_object
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.transfer_path import read_transfer_path
-from beardyn_core.record.chunk_reading import ALWAYS_UNPACKED, LARGEST_CHUNK, LARGEST_RATIO, ChunkReader
+from beardyn_core.record.chunk_reading import (
+    _RECORD,
+    ALWAYS_READ,
+    ALWAYS_UNPACKED,
+    LARGEST_CHUNK,
+    LARGEST_RATIO,
+    ChunkReader,
+)
 from beardyn_core.structure.nastran import read_nastran
 from beardyn_core.structure.table import read_table
 from test.record.test_broken_files import MAGIC, told
 
 SOON_S = 10.0  # the whole command on a busy machine; the bombs took over 100 s
+
+
+EMPTY_MESSAGE = _RECORD.pack(5, 22) + bytes(22)
+
+
+def stored(data: bytes) -> Chunk:
+    """Make a chunk that is not packed."""
+    return Chunk("", data, 0, 0, 0, len(data))
 
 
 def bomb(path: Path, sizes: list[int], stated: int | None = None) -> Path:
@@ -68,6 +83,15 @@ def test_a_chunk_is_never_unpacked_beyond_its_bound() -> None:
         with pytest.raises(McapError, match=r"allowed here are|holds more than"):
             reader.records(Chunk("zstd", packed, 0, 0, 0, stated))
     assert ALWAYS_UNPACKED < LARGEST_CHUNK < LARGEST_RATIO * (1 << 20)
+
+
+@pytest.mark.parametrize("record", [_RECORD.pack(0, 0), _RECORD.pack(200, 0), EMPTY_MESSAGE])
+def test_records_that_hold_nothing_are_counted_before_they_are_read(record: bytes) -> None:
+    reader = ChunkReader(0)
+    assert len(reader.records(stored(record * 10))) in (0, 10)
+    for _ in range(2):
+        with pytest.raises(McapError, match="more records than one of its size can"):
+            reader.records(stored(record * (ALWAYS_READ + 1)))
 
 
 def test_a_chunk_that_states_another_checksum_is_refused() -> None:
