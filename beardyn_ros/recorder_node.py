@@ -127,7 +127,7 @@ class RecorderNode(Node):
             self._record(entry)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+            lambda: self._guard.sources.count("truth"),
         )
         self._ended_at: float | None = None
         self._lacking = (0, 0.0)

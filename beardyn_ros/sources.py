@@ -60,6 +60,7 @@ class Sources:
         self._looked_at: dict[str, float] = {}
         self._heard_at: dict[str, float] = {}
         self._silent: set[str] = set()
+        self._named: set[str] = set()  # topics that the node they are named for has published on
 
     def problem(self, entry: Topic, source: bytes) -> str:
         """Describe why a message is not taken; empty when it is, and its publisher is followed from then on.
@@ -110,6 +111,20 @@ class Sources:
         """Check whether a publisher is still in the graph; True when its identity is not known."""
         return not source or source in self._publishers(name, source)
 
+    def count(self, name: str) -> int:
+        """Count the publishers of a topic that are the node it is named for, from when there has been one.
+
+        A stranger that publishes `truth` must not stand for a twin that has gone.
+        """
+        count = int(self._node.count_publishers(self._node.resolve_topic_name(name)))
+        if count == 0:
+            return 0
+        publishers = self._publishers(name).values()
+        own = sum(self._is_own(each, _node_of(name)) for each in publishers)
+        if own:
+            self._named.add(name)
+        return own if name in self._named else count
+
     def forget(self, *names: str) -> None:
         """Follow whoever comes next on some topics."""
         for name in names:
@@ -144,10 +159,10 @@ class Sources:
     def _is_own(self, publisher: Publisher, part: str) -> bool:
         return bool(part) and publisher == Publisher(self._node.get_namespace(), part)
 
-    def _publishers(self, name: str, source: bytes) -> dict[bytes, Publisher]:
+    def _publishers(self, name: str, source: bytes = b"") -> dict[bytes, Publisher]:
         """Look up the publishers of a topic in the graph: soon for a new one, else at intervals."""
         known, now = self._known.get(name, {}), time.monotonic()
-        period = LOOK_PERIOD_S if source in known else NEW_LOOK_PERIOD_S
+        period = LOOK_PERIOD_S if not source or source in known else NEW_LOOK_PERIOD_S
         if now - self._looked_at.get(name, -period) >= period:
             self._looked_at[name] = now
             infos = self._node.get_publishers_info_by_topic(self._node.resolve_topic_name(name))

@@ -71,10 +71,8 @@ class TrainSignals:
             entry = topic(name)
             guarded = self.guard.guarded(entry, handler)
             self._intake.add_sourced(entry, guarded, keep_all=name != "/diagnostics")
-        space = node.get_namespace()
-        self.watch = TwinWatch(
-            diagnostic_name(space, TWIN), lambda: node.count_publishers(topic("vibration").path(space))
-        )
+        name = diagnostic_name(node.get_namespace(), TWIN)
+        self.watch = TwinWatch(name, lambda: self.guard.sources.count("vibration"))
 
     @property
     def connected(self) -> bool:

@@ -81,7 +81,7 @@ class ViewerNode(Node):
         self._intake.add_sourced(diagnostics, guarded, keep_all=False)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+            lambda: self._guard.sources.count("truth"),
         )
         wall_timer(self, TICK_S, self._tick)
         wall_timer(self, REPORT_PERIOD_S, self._report)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 LONGEST_NUMBER = 100  # digits of a whole number; the seeds of NumPy have 39
 
 
-def _whole_number(node: yaml.ScalarNode) -> int:
+def _whole_number(node: yaml.Node) -> int:
     digits = len(node.value.lstrip("+-"))
     if digits > LONGEST_NUMBER:
         raise yaml.MarkedYAMLError(

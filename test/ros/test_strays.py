@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,6 +24,7 @@ from beardyn_ros.identity import Namesakes
 from beardyn_ros.live_load import encode_wrench
 from beardyn_ros.recording import Recording, free_name, plain_name
 from beardyn_ros.scenario import says_paused
+from beardyn_ros.sources import Sources
 from test.examples import examples
 from test.record.synthetic_run import description
 
@@ -148,7 +150,7 @@ def test_a_truth_chooses_no_folder(scene: str) -> None:
 CHANGES = st.sampled_from(
     ["scene", "scene_text", "shape", "body_names", "sensor_names", "defects", "sensor_rates_Hz"]
 )
-NONSENSE = st.sampled_from(
+NONSENSE: st.SearchStrategy[object] = st.sampled_from(
     [None, 3, "x", [], {}, [[]], ["a/b"], ["a", "a"], [3], {"x": 1}, [{"on": 3}], True]
 )
 
@@ -197,3 +199,47 @@ def test_what_a_late_recorder_could_not_receive_is_not_missing_but_a_lost_beginn
 )
 def test_a_sentence_about_the_twin_is_not_the_status_of_another_twin(status: Diagnostic, named: bool) -> None:
     assert Namesakes("axlebox/twin").is_named_in(encode_diagnostics(0, "axlebox", [status])) == named
+
+
+class GraphNode:
+    """A node that knows who publishes on a topic."""
+
+    def __init__(self, *names: str) -> None:
+        self.names = list(names)
+
+    def get_namespace(self) -> str:
+        return "/axlebox"
+
+    def resolve_topic_name(self, name: str) -> str:
+        return f"/axlebox/{name}"
+
+    def count_publishers(self, _name: str) -> int:
+        return len(self.names)
+
+    def get_publishers_info_by_topic(self, _name: str) -> list[SimpleNamespace]:
+        return [
+            SimpleNamespace(endpoint_gid=name.encode(), node_namespace="/axlebox", node_name=name)
+            for name in self.names
+        ]
+
+
+@pytest.mark.parametrize(
+    ("before", "then", "counts"),
+    [
+        (["twin", "stranger"], ["stranger"], (1, 0)),
+        (["twin"], ["twin"], (1, 1)),
+        (["twin"], [], (1, 0)),
+        (["my_twin"], ["my_twin", "stranger"], (1, 2)),
+        (["stranger"], ["stranger", "twin"], (1, 1)),
+    ],
+)
+def test_a_stranger_on_truth_does_not_stand_for_a_twin_that_has_gone(
+    before: list[str], then: list[str], counts: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = 0.0
+    monkeypatch.setattr("beardyn_ros.sources.time.monotonic", lambda: now)
+    node = GraphNode(*before)
+    sources = Sources(node)
+    first = sources.count("truth")
+    now, node.names = 2.0, then
+    assert (first, sources.count("truth")) == counts
