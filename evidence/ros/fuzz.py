@@ -4,9 +4,9 @@ They go to every topic that any node subscribes to. Nothing may end or be missin
 one that is not of the run is refused and counted.
 
 They come 150 times a second beside about 1700 messages a second of the run, which plays in real time: whether
-anything is missing is then a matter of the nodes, as long as the machine has the two cores that a run of all
-nodes needs. A text of 5 MB is one in some 400 on a topic of texts: it is refused by its length, and what it costs
-is the middleware's.
+anything is missing is a matter of the nodes only as long as the machine has two cores free for a run of all
+nodes. With less, messages are missing without a hostile one too. A text of 5 MB is one in some 400 on a topic
+of texts: it is refused by its length, and what it costs is the middleware's.
 """
 
 from __future__ import annotations
