@@ -21,6 +21,7 @@ from beardyn_core.kernels.cage_bodies import (
     place_cages,
     settle_cages,
 )
+from beardyn_core.kernels.exchange import clear_largest
 from beardyn_core.kernels.held import is_fresh
 from beardyn_core.kernels.land import land_of, push_lands, settle_lands
 from beardyn_core.kernels.lanes import align_stack
@@ -180,4 +181,7 @@ def advance(lanes, state, work, loads, output, p):
                 + structure_energy(flex, structure)
             )
         if shown:
-            keep_trend(rollers, bodies, output, (step + 1) // stride - 1)
+            trends = (step + 1) // stride
+            keep_trend(rollers, bodies, output, trends - 1)
+            if trends % layout.TRENDS_PER_SNAPSHOT == 0:
+                clear_largest(rollers)

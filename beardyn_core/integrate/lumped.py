@@ -20,12 +20,14 @@ from beardyn_core.integrate.kinematic_step import (
     finish_step,
 )
 from beardyn_core.jit import entry
+from beardyn_core.kernels.exchange import clear_largest
 from beardyn_core.kernels.kinematic_bending import show_openings, turn_reaction
 from beardyn_core.kernels.kinematic_rings import add_sliding, hold_sliding, hold_stiffness
 from beardyn_core.kernels.kinematic_rollers import cup_wrench, held_losses, keep_losses, relative_cone
 from beardyn_core.kernels.spring_roller import (
     TREND_EXTRAS,
     add_tilt,
+    begin_largest,
     load_rollers,
     show_springs,
     sum_rollers,
@@ -43,7 +45,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
     The energy balance is not kept, but what each source loses. The trend of the rollers [trend,
-    block + TREND_EXTRAS, 1, lane] has the loads, from which `show_lumped` makes the rollers.
+    2 block + TREND_EXTRAS, 1, lane] has the loads, from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     bending = p.bending
@@ -62,6 +64,8 @@ def advance_lumped(lanes, state, work, loads, output, p):
         show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
         trend = roller_trend[step // stride]
+        if due:
+            begin_largest(roller_trend, step // stride, rollers.shape[0])
         motion = relative_cone(bodies)
         load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
@@ -84,6 +88,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
             for i, value in enumerate((turns[0], speeds[0], speeds[1])):
                 trend[rollers.shape[0] + i] = value
             copy_table(bodies, body_trend[step // stride])
+    clear_largest(rollers)
     show_springs(lanes, rollers, roller_trend[roller_trend.shape[0] - 1], p)
 
 
@@ -97,13 +102,14 @@ def show_lumped(lanes, trends, rollers, p):
 def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
     """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
     block, _fields, lane = rollers
-    return block + TREND_EXTRAS, 1, lane
+    return 2 * block + TREND_EXTRAS, 1, lane
 
 
 class SpringTrend:
     """Rollers at some instants, see `observe.kinematics.Instants`.
 
-    ``trends`` [time, block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any more.
+    ``trends`` [time, 2 block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any
+    more.
     """
 
     def __init__(self, lanes: Any, trends: NDArray[np.float64], parameters: LumpedParameters) -> None:
@@ -113,8 +119,8 @@ class SpringTrend:
         return SpringTrend(self._lanes, self._trends[times], self._parameters)
 
     def _empty(self, fields: int) -> NDArray[np.float64]:
-        times, blocks, _one, lane = self._trends.shape
-        return np.zeros((times, blocks - TREND_EXTRAS, fields, lane))
+        times, rows, _one, lane = self._trends.shape
+        return np.zeros((times, (rows - TREND_EXTRAS) // 2, fields, lane))
 
     def whole(self) -> NDArray[np.float64]:
         """Make the state as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""

@@ -14,7 +14,7 @@ from beardyn_core.integrate.kinematic_step import (
 from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, free_flight, less_turned, turned_axis
 from beardyn_core.kernels.bodies import body_vector
-from beardyn_core.kernels.exchange import load_vector, store_vector
+from beardyn_core.kernels.exchange import clear_largest, load_vector, store_vector
 from beardyn_core.kernels.kinematic_bending import (
     PLACE,
     SPEED,
@@ -57,6 +57,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     show_contacts,
     show_roller,
     sliding_torque,
+    watch_loads,
 )
 from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.loose_rollers import (
@@ -207,6 +208,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         rib_sum = rib_sum + counted * rib
         add_reaction(lanes, sums, block, counted * cup[0], p.bending, ahead)
         forces = (cup[0], cone[0], rib)
+        watch_loads(lanes, rollers, block, forces)
         if due:
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             idling = counted * steady_pocket(cone[0], speeds, k, p.base.effects.drag, p.loose)
@@ -322,6 +324,9 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         keep_change(bodies, before)
         kick_cages_across(bodies, sums, p.step, rates, loose)
         if shown:
+            trends = (step + 1) // stride
             for block in range(rollers.shape[0]):
-                copy_table(rollers[block], roller_trend[(step + 1) // stride - 1, block])
-            copy_table(bodies, body_trend[(step + 1) // stride - 1])
+                copy_table(rollers[block], roller_trend[trends - 1, block])
+            copy_table(bodies, body_trend[trends - 1])
+            if trends % layout.TRENDS_PER_SNAPSHOT == 0:
+                clear_largest(rollers)

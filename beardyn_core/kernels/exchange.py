@@ -129,6 +129,25 @@ def output_contact(lanes, rollers, block, kind, output):
 
 
 @inline
+def watch_largest(lanes, rollers, block, kind, square):
+    """Keep the square of the largest load of a contact since the last snapshot, [N^2].
+
+    ``kind``: ``CUP``, ``CONE`` or ``RIB``; ``square``: of the load of the step.
+    """
+    place = layout.LARGEST + kind
+    lanes.store(rollers, block, place, at_least(lanes.load(rollers, block, place), square))
+
+
+@inline
+def clear_largest(rollers):
+    """Start the largest loads of an interval between snapshots."""
+    for block in range(rollers.shape[0]):
+        for kind in range(layout.LARGEST_FIELDS):
+            for lane in range(rollers.shape[2]):
+                rollers[block, layout.LARGEST + kind, lane] = 0.0
+
+
+@inline
 def watch_chatter(here, ring, friction, capacity):
     """Sum the squares of what flips in the friction force, and of its capacity.
 

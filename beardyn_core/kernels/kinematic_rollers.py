@@ -10,7 +10,7 @@ import math
 from beardyn_core.jit import inline
 from beardyn_core.kernels.bodies import X, Y, Z
 from beardyn_core.kernels.drag import churning_rate
-from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector
+from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector, watch_largest
 from beardyn_core.kernels.film import film_output, log2_entrainment
 from beardyn_core.kernels.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.kernels.rib import rib_friction, rib_log2_film, spin_reach, with_spin
@@ -169,6 +169,13 @@ def show_contacts(lanes, rollers, block, axis, loads, centres, speeds, p):
     output_contact(lanes, rollers, block, layout.CUP, on_cup)
     output_contact(lanes, rollers, block, layout.CONE, on_cone)
     show_rib(lanes, rollers, block, axis, loads[2], k.rib_slip * speeds[0], p.base.effects.rib)
+
+
+@inline
+def watch_loads(lanes, rollers, block, loads):
+    """Keep the largest loads of a block of rollers since the last snapshot; 3 numbers: cup, cone, rib."""
+    for kind in (layout.CUP, layout.CONE, layout.RIB):
+        watch_largest(lanes, rollers, block, kind, loads[kind] * loads[kind])
 
 
 @inline

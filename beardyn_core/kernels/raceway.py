@@ -190,6 +190,7 @@ def settle_raceway(ring, contact, change, here, p):
     exchange.watch_chatter(here, ring, friction, capacity)
     deepest = at_least(lanes.load(here.rollers, here.block, PENETRATION), contact.sums.deepest)
     lanes.store(here.rollers, here.block, PENETRATION, deepest)
+    exchange.watch_largest(lanes, here.rollers, here.block, ring, dot(wrench.force, wrench.force))
     return wrench
 
 

@@ -6,7 +6,13 @@ from typing import Any, NamedTuple
 
 from beardyn_core.jit import inline
 from beardyn_core.kernels import point_contact
-from beardyn_core.kernels.exchange import ContactOutput, damper_time, load_vector, output_contact
+from beardyn_core.kernels.exchange import (
+    ContactOutput,
+    damper_time,
+    load_vector,
+    output_contact,
+    watch_largest,
+)
 from beardyn_core.kernels.lane_math import (
     LOG2_E,
     at_least,
@@ -193,6 +199,7 @@ def settle_rib(contact, change, total, here, rib, p):
     sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
     output = ContactOutput(wrench.force, first.arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
+    watch_largest(here.lanes, here.rollers, here.block, RIB, dot(output.force, output.force))
     return _settle_other(contact, change, add_wrenches(total, wrench), here, (rib, p), rib.end)
 
 
@@ -215,6 +222,7 @@ def _settle_other(contact, change, total, here, law, end):
     force = load_vector(here.lanes, here.rollers, here.block, _RIB_FORCE)
     output = ContactOutput(add(force, wrench.force), arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
+    watch_largest(here.lanes, here.rollers, here.block, RIB, dot(output.force, output.force))
     return both
 
 

@@ -28,6 +28,7 @@ from beardyn_core.kernels.kinematic_rollers import (
     show_contacts,
     show_roller,
     sliding_torque,
+    watch_loads,
 )
 from beardyn_core.kernels.lane_math import (
     at_least,
@@ -50,9 +51,11 @@ from beardyn_core.model.layout import (
     POCKET_COSINE,
     POCKET_SINE,
     REACTION,
+    TRENDS_PER_SNAPSHOT,
 )
 
-TREND_EXTRAS = 3  # after the loads: angle of the cages [rad], speed of shaft and cages [rad/s]
+# After the loads: angle of the cages [rad], speed of shaft and cages [rad/s]; then the largest loads [N].
+TREND_EXTRAS = 3
 _SMALLEST_APPROACH = 1e-12
 _LEAST_FIRM = 1e-6
 _FETCHED_AHEAD = 4  # steps
@@ -176,7 +179,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     """Load all rollers and sum their loads by row.
 
     Written are the largest approach of the ``rollers``, ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM`` of the
-    ``sums`` and the cup loads of the ``trend`` [block + TREND_EXTRAS, 1, lane].
+    ``sums``, and the cup loads of the ``trend`` [2 block + TREND_EXTRAS, 1, lane] with the largest ones.
 
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     What is not worked out at every step has functions of its own: with it in here the compiler counts the
@@ -209,9 +212,26 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
         loads = add_scaled(loads, load, waves)
         add_reaction(lanes, sums, block, waves[0] * load, p.bending, None)
         lanes.store(trend, block, 0, load)
+        largest = rollers.shape[0] + TREND_EXTRAS + block
+        lanes.store(trend, largest, 0, at_least(lanes.load(trend, largest, 0), load))
     lanes.store(sums, 0, LOAD_COSINE, loads[1])
     lanes.store(sums, 0, LOAD_SINE, loads[2])
     lanes.store(sums, 0, RIB_SUM, loads[0])
+
+
+@inline
+def begin_largest(trends, index, blocks):
+    """Start the largest loads of an instant of the trends, or go on with those of the one before.
+
+    ``trends`` [trend, 2 block + TREND_EXTRAS, 1, lane]: changed at `index`.
+    """
+    first = blocks + TREND_EXTRAS
+    for row in range(first, first + blocks):
+        for lane in range(trends.shape[3]):
+            before = 0.0
+            if index % TRENDS_PER_SNAPSHOT != 0:
+                before = trends[index - 1, row, 0, lane]
+            trends[index, row, 0, lane] = before
 
 
 @inline
@@ -370,7 +390,7 @@ def sum_rollers(sums, speeds, p):
 def show_springs(lanes, rollers, trend, p):
     """Write all rollers and their contacts, but for the largest approach, as the full tier keeps them.
 
-    The ``trend`` has the cup loads from `load_rollers`, then the instant. See `show_roller`.
+    The ``trend`` has the cup loads from `load_rollers`, the instant, the largest loads. See `show_roller`.
     """
     blocks, zero, k = rollers.shape[0], lanes.constant(0.0), p.kinematic
     turn = trend[blocks, 0, 0]
@@ -382,3 +402,5 @@ def show_springs(lanes, rollers, trend, p):
         place = (k.radius + zero, k.axial + zero)
         show_roller(lanes, rollers, block, place, axis, (zero, zero, zero), (turn, speeds[1]), angle, p)
         show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)
+        largest = lanes.load(trend, blocks + TREND_EXTRAS + block, 0)
+        watch_loads(lanes, rollers, block, cup_cone_rib(largest, speeds, p))

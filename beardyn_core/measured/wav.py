@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -13,9 +14,11 @@ from beardyn_core.arrays import Float
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken
+from beardyn_core.measured.units import split_unit, usual
 from beardyn_core.optional import library
 
 _USUAL_STEP = 25.0  # [Hz], of which rates that were not rounded are multiples: 11025, 25600, 44100
+_ROUNDED = 0.5  # [Hz], by which the head may be off
 _FLOATS = ("FLOAT", "DOUBLE")
 
 
@@ -25,7 +28,7 @@ class _Sound(Held):
 
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
-        wanted = [int(name.rpartition("_")[2]) - 1 for name in names]
+        wanted = [self.columns[name] for name in names]
         try:
             with self.soundfile.SoundFile(self.path) as file:
                 for block in file.blocks(BLOCK, dtype="float64", always_2d=True):
@@ -43,23 +46,42 @@ def open_file(path: Path, _reading: Reading) -> Held:
             subtype, facts = file.subtype, file.copy_metadata()
     except soundfile.LibsndfileError as error:
         raise broken(path, "WAV", error) from error
-    claims = tuple(claims_in({"sample rate": rate}))
-    channels = tuple(Channel(f"channel_{k + 1}", "", count, "", claims) for k in range(names))
+    columns, exact = _comment(str(facts.get("comment", "")), names, rate)
+    claims = tuple(claims_in({"sample rate": exact or rate}))
+    named = [split_unit(column) for column in columns] or [(f"channel_{k + 1}", "") for k in range(names)]
+    channels = tuple(Channel(name, "", count, usual(unit), claims) for name, unit in named)
     whole = subtype not in _FLOATS
     notes = [f"numbers are shares of full scale, 1 is the largest ({subtype})"] if whole else []
     found = _Sound(
         channels, {}, {}, {str(key): str(value) for key, value in facts.items()},
         notes=tuple(notes),
-        warnings=() if rate % _USUAL_STEP == 0.0 else (
+        warnings=() if exact or rate % _USUAL_STEP == 0.0 else (
             f"the head of a WAV file has whole hertz only, and {rate:.0f} Hz may be rounded by half of one "
             f"({50.0 / rate:.2g} %); give --rate-hz if the rate is known",
         ),
     )  # fmt: skip
     found.path, found.soundfile = path, soundfile
+    found.columns = {channel.name: k for k, channel in enumerate(channels)}
     missing = _missing_bytes(path)
     if missing:
         found.problems.append(f"{path}: is cut off: {missing} bytes of its samples are missing")
     return found
+
+
+def _comment(text: str, count: int, rate: float) -> tuple[list[str], float]:
+    """Take names with units and the exact rate from the comment of an exported file; nothing of any other."""
+    try:
+        said = json.loads(text)
+    except (ValueError, RecursionError):
+        return [], 0.0
+    if not isinstance(said, dict):
+        return [], 0.0
+    columns, exact = said.get("columns"), said.get("rate_Hz")
+    if not (isinstance(columns, list) and len(columns) == count == len(set(map(str, columns)))):
+        columns = []
+    if not (isinstance(exact, float) and abs(exact - rate) <= _ROUNDED):
+        exact = 0.0
+    return [str(column) for column in columns], exact
 
 
 def _missing_bytes(path: Path) -> int:

@@ -36,7 +36,11 @@ CHATTER_SQUARES = 2  # sum over the block of the squares of what flips [N^2]
 CHATTER_LOAD = 3  # sum over the block of the squared traction capacity [N^2]
 CHATTER_FIELDS = 4
 PENETRATION = CHATTER + 2 * CHATTER_FIELDS  # largest raceway approach of the block [m]
-ROLLER_FIELDS = PENETRATION + 1
+LARGEST = PENETRATION + 1  # squares of the largest loads since the last snapshot: cup, cone, rib [N^2]
+LARGEST_FIELDS = 3
+ROLLER_FIELDS = LARGEST + LARGEST_FIELDS
+
+TRENDS_PER_SNAPSHOT = 2  # bodies and contacts are shown at every second instant of the trends
 
 # --- roller constants [block, field, lane]
 MASK = 0  # 1 for a real roller, 0 for a filler lane that shadows one

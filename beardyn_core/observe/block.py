@@ -14,7 +14,9 @@ from beardyn_core.model import layout
 from beardyn_core.scene.sensor import RATES
 
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
-CONTACT_FIELDS = ("x", "y", "z", "fx", "fy", "fz", "slip", "film")
+CONTACT_FIELDS = ("x", "y", "z", "fx", "fy", "fz", "slip", "film", "largest")
+LARGEST = CONTACT_FIELDS.index("largest")
+WATCHED = 3  # kinds whose largest load is kept: all but the pocket
 
 # The residual is relative to the losses, but to no less than this [J].
 SMALLEST_LOSS = 0.1
@@ -165,9 +167,10 @@ class Block:
 
     @cached_property
     def contacts(self) -> Float:
-        """Contacts of each roller, shape [snapshot, row, roller, kind, 8].
+        """Contacts of each roller, shape [snapshot, row, roller, kind, 9].
 
         For each of `CONTACT_KINDS` the `CONTACT_FIELDS`: point, force of the roller's partner on the
-        roller, slip speed and film thickness, [m, N, m/s, m]. No contact: force exactly zero.
+        roller, slip speed and film thickness, [m, N, m/s, m]; no contact: all exactly zero. Then the largest
+        load in any step since the snapshot before, [N]; of pockets it is not kept: 0.
         """
         return self.pictures.contacts()

@@ -8,7 +8,14 @@ from beardyn_core.arrays import Float
 from beardyn_core.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
-from beardyn_core.model.layout import ANGULAR, CUP_BODY, SIGNAL_FORCE, SIGNAL_TORQUE, TILT
+from beardyn_core.model.layout import (
+    ANGULAR,
+    CUP_BODY,
+    SIGNAL_FORCE,
+    SIGNAL_TORQUE,
+    TILT,
+    TRENDS_PER_SNAPSHOT,
+)
 from beardyn_core.model.parameters import Parameters
 from beardyn_core.observe.block import Block, EnergyAudit
 from beardyn_core.observe.kinematics import (
@@ -25,7 +32,6 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 
 TRENDS_PER_BLOCK = BLOCK_NS * TREND_RATE // 1_000_000_000
-TRENDS_PER_SNAPSHOT = 2
 _TREND_NS = 1_000_000_000 // TREND_RATE
 _TREND_CHANNELS = 10
 

@@ -76,8 +76,8 @@ class Snapshots:
         return out
 
     def contacts(self) -> Float:
-        """Compute the `CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 8]."""
-        out = np.empty((len(self._bodies), 2, self._count, KINDS, 8))
+        """Compute the `CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 9]."""
+        out = np.empty((len(self._bodies), 2, self._count, KINDS, 9))
         _contacts(self._rollers, self._bodies, self._count, out)
         return out
 
@@ -246,6 +246,8 @@ def _contacts(rollers, bodies, count, out):
                             here[i], here[3 + i] = point[i], force[i]
                         here[6] = rollers[t, block, first + layout.OUTPUT_SLIP, lane]
                         here[7] = rollers[t, block, first + layout.OUTPUT_FILM, lane]
+                    if kind < layout.LARGEST_FIELDS:
+                        here[8] = math.sqrt(rollers[t, block, layout.LARGEST + kind, lane])
 
 
 @inline

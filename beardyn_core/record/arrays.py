@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
-from beardyn_core.observe.block import CONTACT_KINDS
+from beardyn_core.observe.block import CONTACT_KINDS, LARGEST, WATCHED
 from beardyn_core.scene.load import WRENCH_AXES
 
 if TYPE_CHECKING:
@@ -117,6 +117,9 @@ class Contacts(Timed):
     force: A[Float, "shape [snapshot, row, roller, kind, 3], of the partner on the roller, [N]; else zero"]
     slip: A[Float, "shape [snapshot, row, roller, kind], sliding speed, [m/s]"]
     film: A[Float, "shape [snapshot, row, roller, kind], film thickness, [m]"]
+    # shape [snapshot, row, roller, kind], largest load in any step since the snapshot before, [N]; NaN of
+    # pockets, whose loads are not watched, and in recordings of earlier versions
+    largest: Float
     kinds = CONTACT_KINDS
 
     @cached_property
@@ -136,6 +139,16 @@ class Contacts(Timed):
     def __repr__(self) -> str:
         """Give shape and rate."""
         return f"Contacts{list(self.slip.shape)} (kinds {', '.join(self.kinds)}) at {self.rate:g} Hz"
+
+
+def contacts_of(time_ns: Int, numbers: Float) -> Contacts:
+    """Make contacts of `CONTACT_FIELDS`, shape [snapshot, row, roller, kind, field], which are changed."""
+    gone = ~np.any(numbers[..., 3:6] != 0.0, axis=-1)
+    numbers[gone, :3] = numbers[gone, 6:LARGEST] = np.nan
+    numbers[:, :, :, WATCHED:, LARGEST] = np.nan
+    return Contacts(
+        time_ns, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7], numbers[..., LARGEST]
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.errors import InputError
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.plain_json import LONGEST_TEXT, read_object
 from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_at
 from beardyn_core.record.clouds import CLOUD
@@ -30,7 +30,7 @@ _COLUMNS = {
     "force_waveform": WRENCH_AXES,
     "vibration": ("ax", "ay", "az"),
     "bodies": ("body", *POSE_AXES, *TWIST_AXES),
-    "contacts": ("row", "roller", "kind", *CONTACT_FIELDS),
+    "contacts": ("row", "roller", "kind", *CONTACT_FIELDS[:LARGEST]),  # earlier versions have not the largest
     "load/blocks": (*WRENCH_AXES, "shaft_speed"),
 }
 _WHOLE = ("sample", "t", "body", "row", "roller", "kind")

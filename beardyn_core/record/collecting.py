@@ -94,13 +94,8 @@ class BlockSource:
         return arrays.Bodies(times, names, pose, twist, sample)
 
     def contacts(self) -> arrays.Contacts:
-        numbers = self._joined(lambda block: block.contacts)
-        force = numbers[..., 3:6]
-        gone = ~np.any(force != 0.0, axis=-1)
-        numbers[gone] = np.nan
-        force[gone] = 0.0
         times = self._times(lambda block: block.snapshot_time_ns)
-        return arrays.Contacts(times, numbers[..., :3], force, numbers[..., 6], numbers[..., 7])
+        return arrays.contacts_of(times, self._joined(lambda block: block.contacts))
 
     def load(self) -> arrays.Load:
         """Give `Run.load`: the load history up to the end, or without one the load at 400 Hz."""

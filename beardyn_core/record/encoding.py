@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from beardyn_core.arrays import Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.block import CONTACT_FIELDS, Block, EnergyAudit
+from beardyn_core.observe.block import CONTACT_FIELDS, LARGEST, Block, EnergyAudit
 from beardyn_core.observe.summary import NUMERICAL
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
@@ -217,7 +217,7 @@ class BlockEncoder:
         yield single("bodies", stamp, self._bodies.encode(points, stamp))
 
         contacts = block.contacts
-        pressed = (contacts[..., 3] != 0.0) | (contacts[..., 4] != 0.0) | (contacts[..., 5] != 0.0)
+        pressed = (contacts[..., 3:6] != 0.0).any(axis=-1) | (contacts[..., LARGEST] > 0.0)
         snapshot, row, roller, kind = np.nonzero(pressed)
         points = points_of(CONTACTS, 0, times[snapshot], stamp)
         points["sample"] = samples[snapshot]

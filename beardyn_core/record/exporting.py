@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Iterable, Sequence
-from io import BytesIO
+from io import SEEK_END, BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -170,7 +171,10 @@ def _write_hdf5(run: Run, path: Path, names: Sequence[str]) -> None:
 
 
 def _write_wav(run: Run, path: Path, name: str) -> None:
-    """Write the axes x, y, z that were measured as channels of 32-bit floats in m/s^2, not scaled."""
+    """Write the axes that were measured as channels of 32-bit floats in m/s^2, not scaled.
+
+    The head of a WAV file has no names, no units and whole hertz only: these stand in its comment.
+    """
     from scipy.io import wavfile
 
     signal: Any = tables.signal_of(run, name)
@@ -182,3 +186,18 @@ def _write_wav(run: Run, path: Path, name: str) -> None:
             f"{run.label}: {name} has {missing} gaps, which WAV cannot say; choose another format"
         )
     wavfile.write(path, round(signal.rate), measured_axes(signal.values).astype(np.float32))
+    units = tables.units_of(run, name)
+    columns = [f"{key} [{units[key]}]" for key in _measured_columns(run, name) if key != "time"]
+    _add_comment(path, json.dumps({"columns": columns, "rate_Hz": signal.rate}))
+
+
+def _add_comment(path: Path, text: str) -> None:
+    """Append the comment of a WAV file: a list of one text of the kind ``ICMT``."""
+    comment = text.encode("ascii") + b"\0"
+    comment += b"\0" * (len(comment) % 2)
+    chunk = b"INFOICMT" + struct.pack("<I", len(comment)) + comment
+    with path.open("r+b") as file:
+        size = file.seek(0, SEEK_END)
+        file.write(b"LIST" + struct.pack("<I", len(chunk)) + chunk)
+        file.seek(4)
+        file.write(struct.pack("<I", size + len(chunk)))

@@ -152,14 +152,16 @@ class MessageSource:
         if not rollers and len(points):
             rollers = int(points["roller"].max()) + 1
         shape = (len(sample), ROWS, rollers, len(CONTACT_KINDS), len(CONTACT_FIELDS))
-        numbers = np.full(shape, np.nan)
-        numbers[..., 3:6] = 0.0
+        numbers = np.zeros(shape)
+        fields = [name for name in CONTACT_FIELDS if name in (points.dtype.names or CONTACT_FIELDS)]
         if len(points) and len(sample):
             place = np.minimum(np.searchsorted(sample, points["sample"]), len(sample) - 1)
             known = sample[place] == points["sample"]
             here = points[known]
-            numbers[place[known], here["row"], here["roller"], here["kind"]] = _columns(here, CONTACT_FIELDS)
-        return arrays.Contacts(times, numbers[..., :3], numbers[..., 3:6], numbers[..., 6], numbers[..., 7])
+            there = place[known], here["row"], here["roller"], here["kind"], slice(len(fields))
+            numbers[there] = _columns(here, fields)
+        numbers[..., len(fields) :] = np.nan  # earlier versions have not the largest load
+        return arrays.contacts_of(times, numbers)
 
     def load(self) -> arrays.Load:
         parts = [decode_load(cdr) for cdr in self._of("load/blocks")]

@@ -39,6 +39,7 @@ _PARTS: dict[str, dict[str, tuple[tuple[str, ...], str]]] = {
         "force": ((*_CONTACT, "axis"), "N"),
         "slip": (_CONTACT, "m/s"),
         "film": (_CONTACT, "m"),
+        "largest": (_CONTACT, "N"),
     },
     "load": {
         "wrench": (("component",), "N, N m"),
@@ -161,7 +162,7 @@ def _contact_columns(contacts: Any) -> dict[str, NDArray[Any]]:
     }
     columns |= {axis: contacts.point[here][:, k] for k, axis in enumerate(_AXES)}
     columns |= {f"f{axis}": contacts.force[here][:, k] for k, axis in enumerate(_AXES)}
-    return columns | {"slip": contacts.slip[here], "film": contacts.film[here]}
+    return columns | {name: getattr(contacts, name)[here] for name in ("slip", "film", "largest")}
 
 
 def to_pandas(run: Run, signal: str = VIBRATION) -> Any:

@@ -59,7 +59,7 @@ TOPICS: tuple[Topic, ...] = (
           "pose and twist of every body: sample, t, body, x, y, z, qx, qy, qz, qw, vx, vy, vz, wx, wy, wz"),
     Topic("contacts", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second",
           "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, force on "
-          "the roller, slip, film"),
+          "the roller, slip, film, largest load since the snapshot before (without one now: force 0)"),
     Topic("temperature", TEMPERATURE, *_RELIABLE, 50, "every 0.2 s, with the thermal effect",
           "temperature of one part, degrees Celsius; the frame names it: <frame>/axlebox, cup, cone, "
           "rollers, cages or grease"),

@@ -14,6 +14,7 @@ from beardyn_core.model.layout import (
     CAGE_BODY,
     CONTACT_OUTPUT,
     CUP_BODY,
+    LARGEST,
     LINEAR,
     MOMENTUM,
     OUTPUT_ARM,
@@ -109,7 +110,7 @@ class RollerViews:
         return np.concatenate([self._vector(VELOCITY), omega], axis=-1)
 
     def contacts(self) -> Float:
-        """`CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 8]."""
+        """`CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 9]."""
         kinds = []
         centre = self.centre
         for kind in range(4):
@@ -120,9 +121,10 @@ class RollerViews:
                 [self._fields[first + OUTPUT_SLIP], self._fields[first + OUTPUT_FILM]], axis=-1
             )
             kinds.append(np.concatenate([point, force, scalars], axis=-1))
-        contacts = np.stack(kinds, axis=-2)
+        contacts, zero = np.stack(kinds, axis=-2), np.zeros_like(self._fields[0])
         touching = np.any(contacts[..., 3:6] != 0.0, axis=-1, keepdims=True)
-        return np.where(touching, contacts, 0.0)
+        largest = np.sqrt(np.stack([*self._fields[LARGEST : LARGEST + 3], zero], axis=-1))[..., None]
+        return np.concatenate([np.where(touching, contacts, 0.0), largest], axis=-1)
 
 
 def ring_pose(bodies: Float, cage_place: float) -> Float:

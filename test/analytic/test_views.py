@@ -12,6 +12,7 @@ from beardyn_core.model.layout import (
     CAGE_BODY,
     CONE_BODY,
     CONTACT_OUTPUT,
+    LARGEST,
     OUTPUT_FIELDS,
     RATE,
     ROLLER_FIELDS,
@@ -31,6 +32,7 @@ def random_states(width: int) -> tuple[np.ndarray, np.ndarray, Arrangement]:
     random, arrangement = np.random.default_rng(width), Arrangement(COUNT, width)
     rollers = 5.0 * random.normal(size=(TIMES, arrangement.block_count, ROLLER_FIELDS, width))
     rollers[:, :, AXIS : AXIS + 3] /= np.linalg.norm(rollers[:, :, AXIS : AXIS + 3], axis=2, keepdims=True)
+    rollers[:, :, LARGEST:] **= 2
     for kind in range(4):
         first = CONTACT_OUTPUT + kind * OUTPUT_FIELDS
         rollers[:, kind % 2 :: 2, first : first + 3] = 0.0

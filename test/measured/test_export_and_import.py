@@ -16,7 +16,7 @@ RATE = 12_000.0
 
 
 @pytest.mark.parametrize("axes", [1, 2, 3])
-@pytest.mark.parametrize("ending", ["csv", "parquet", "npz", "h5"])
+@pytest.mark.parametrize("ending", ["csv", "parquet", "npz", "h5", "wav"])
 def test_export_and_import_is_a_round_trip(ending: str, axes: int, tmp_path: Path) -> None:
     values = noise(6000, axes)
     columns = {f"a{axis} [g]": column for axis, column in zip("zxy"[:axes], values.T, strict=True)}
