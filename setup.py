@@ -68,7 +68,7 @@ setup(
     name=NAME,
     version="0.1.0",
     description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
-    long_description=Path(__file__).with_name("README.md").read_text(encoding="utf-8"),
+    long_description=Path(__file__).resolve().with_name("README.md").read_text(encoding="utf-8"),
     long_description_content_type="text/markdown",
     author="beardyn developers",
     maintainer="beardyn developers",

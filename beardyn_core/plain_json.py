@@ -1,4 +1,4 @@
-"""What strict JSON can hold: no NaN, no infinity, no arrays."""
+"""JSON on the way out and in: strict text of what we write, a bounded reading of what others wrote."""
 
 from __future__ import annotations
 
@@ -6,6 +6,12 @@ import json
 import math
 from collections.abc import Mapping
 from typing import Any
+
+from beardyn_core.errors import InputError
+
+LONGEST_TEXT = 4_000_000  # characters; the description of a scene with every part takes 60 000
+DEEPEST = 32  # levels of objects and lists; ours have at most 8
+LONGEST_NUMBER = 400  # digits; the longest float64 written in full has 309 before its point
 
 
 def strict_text(content: Mapping[str, Any], indent: int | None = None) -> str:
@@ -26,3 +32,84 @@ def plain(value: Any) -> Any:
     if value is None or isinstance(value, (bool, int, str)):
         return value
     return str(value)
+
+
+def read_object(text: str, required: Mapping[str, type | tuple[type, ...]] | None = None) -> dict[str, Any]:
+    """Read one JSON object that anybody may have written.
+
+    Parameters
+    ----------
+    text : str
+    required : mapping of str to type, optional
+        Keys that must be there, each with the type of its value.
+
+    Returns
+    -------
+    dict
+        Every text in it can be encoded as UTF-8.
+
+    Raises
+    ------
+    InputError
+        The text is too long, nested too deeply, no JSON object, or a required key is missing.
+    """
+    if len(text) > LONGEST_TEXT:
+        raise InputError(f"the text has {len(text)} characters; allowed are up to {LONGEST_TEXT}")
+    try:
+        found = json.loads(text, parse_int=_whole_number)
+    except RecursionError:
+        raise InputError(_TOO_DEEP) from None
+    except ValueError as error:
+        raise InputError(f"the text is no JSON object ({error})") from None
+    if not isinstance(found, dict):
+        raise InputError(f"the text is a JSON {_name_of(found)}; an object is needed")
+    _check_values(found)
+    problems = [
+        f"the key '{key}' is missing" if key not in found else f"the key '{key}' is a {_name_of(found[key])}"
+        for key, kind in (required or {}).items()
+        if not isinstance(found.get(key), kind)
+    ]
+    if problems:
+        raise InputError(problems)
+    return found
+
+
+_TOO_DEEP = f"the text has more than {DEEPEST} levels of lists and objects in each other"
+_NAMES = {dict: "object", list: "list", str: "text", bool: "true or false", type(None): "null"}
+
+
+def _name_of(value: object) -> str:
+    return _NAMES.get(type(value), "number")
+
+
+def _whole_number(digits: str) -> int:
+    if len(digits) > LONGEST_NUMBER:
+        raise ValueError(f"a number has {len(digits)} digits")
+    return int(digits)
+
+
+def _check_values(found: dict[str, Any]) -> None:
+    """Check depth and texts level by level, for a recursion could be exhausted."""
+    level: list[Any] = [found]
+    for _ in range(DEEPEST):
+        below: list[Any] = []
+        for each in level:
+            parts = [*each.keys(), *each.values()] if isinstance(each, dict) else each
+            for part in parts:
+                if isinstance(part, str):
+                    _check_text(part)
+                elif isinstance(part, (dict, list)):
+                    below.append(part)
+        if not below:
+            return
+        level = below
+    raise InputError(_TOO_DEEP)
+
+
+def _check_text(text: str) -> None:
+    if text.isascii():
+        return
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError("a text in it has half of a character (a lone surrogate)") from None

@@ -10,7 +10,8 @@ requirements          says which Python packages of a distribution are too old
 parameters            parameters declared once from a table, refused with a sentence
 addressed             which parameters were given to one node itself, which to whoever shares a file
 wire                  topics of the table as publishers, and raw subscriptions that are emptied in one sweep
-message_guard         malformed messages: counted, warned of, not taken
+message_guard         the intake of every node: counts and refuses what it does not take
+sources               whose messages are taken: one publisher a topic
 frames                names of frames, one tree for each axlebox
 poses                 place and orientation of one frame in another
 transforms            transforms as tf2 messages
@@ -43,7 +44,9 @@ twin_report           what the twin says about its runs, the one that a reset ha
 twin_node             the lifecycle node around a session: topics, services, diagnostics
 twin_watch            is the twin there, has it ended, how
 shared_file           one file for the runs of several axleboxes
-recording             messages into files, one a run, with proof of what was lost
+run_file              one run in one file, with proof of what was lost
+strands               which messages of a topic go on from each other
+recording             messages into files, one a run
 recorder_node         every topic into a crash-safe MCAP file
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else

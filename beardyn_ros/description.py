@@ -8,13 +8,14 @@ one view.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from math import atan2, cos, sin
 from pathlib import Path
 from xml.etree import ElementTree
 
-import yaml
-
+from beardyn_core.config.yaml_text import read_mapping
+from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import orbit_joints
@@ -118,13 +119,17 @@ def sensor_places(scene_text: str) -> dict[str, tuple[float, float, float]]:
     dict of str to tuple of float
         From the bearing centre, [m]; without sensors that the text says nothing of.
     """
-    scene = yaml.safe_load(scene_text)
-    sensors = scene.get("sensors") if isinstance(scene, dict) else None
+    try:
+        scene = read_mapping(scene_text, "the scene of the truth")
+    except InputError:
+        return {}
+    sensors = scene.get("sensors")
     found = {}
-    for sensor in sensors or ():
+    for sensor in sensors if isinstance(sensors, list) else ():
         if isinstance(sensor, dict) and "name" in sensor and "position_mm" in sensor:
-            x, y, z = (float(value) * 1e-3 for value in sensor["position_mm"])
-            found[str(sensor["name"])] = (x, y, z)
+            with suppress(TypeError, ValueError, OverflowError):
+                x, y, z = (float(value) * 1e-3 for value in sensor["position_mm"])
+                found[str(sensor["name"])] = (x, y, z)
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.published import published_values
@@ -17,6 +18,9 @@ from beardyn_ros.run_state import (
     WAITING_FOR_LOAD,
     SessionReport,
 )
+
+if TYPE_CHECKING:
+    from beardyn_ros.message_guard import MessageGuard
 
 OK, WARN, ERROR = 0, 1, 2
 TWIN = "twin"
@@ -145,7 +149,13 @@ def lag_diagnostic(name: str, report: SessionReport, speed_factor: float) -> Dia
 
 
 def load_diagnostic(
-    name: str, state: str, replay: Replay, lead: float, lost_messages: int, sent: Mapping[str, int]
+    name: str,
+    state: str,
+    replay: Replay,
+    lead: float,
+    lost_messages: int,
+    sent: Mapping[str, int],
+    guard: MessageGuard,
 ) -> Diagnostic:
     """Report the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
     values = (
@@ -158,8 +168,10 @@ def load_diagnostic(
         ("loop", str(replay.loop).lower()),
         ("lost_messages", str(lost_messages)),
         *published_values(sent),
+        *guard.values(),
     )
-    return Diagnostic(name, WARN if lost_messages else OK, f"the load is {state}", values)
+    said = "; ".join(filter(None, (f"the load is {state}", guard.sentence())))
+    return Diagnostic(name, WARN if lost_messages or guard.total else OK, said, values)
 
 
 def needs_attention(report: SessionReport) -> bool:

@@ -9,6 +9,7 @@ import uuid
 from beardyn_core.record.messages import decode_diagnostics
 
 SILENT_AFTER_S = 1.0
+LONGEST_TIME = 20  # digits of a time in nanoseconds
 _LENGTH = struct.Struct("<I")
 _FRAME_AT = 12  # behind the encapsulation and the stamp
 
@@ -53,15 +54,28 @@ class Namesakes:
         self._own = self.instance.encode() + b"\0"
         self._older_at = self._younger_at = -SILENT_AFTER_S
 
-    def hear(self, cdr: bytes) -> None:
-        """Take one diagnostics message."""
+    def is_named_in(self, cdr: bytes) -> bool:
+        """Check whether a diagnostics message has the status of another twin of this name.
+
+        A sentence in the status of another part may name the twin too, even at its end.
+        """
         if self._mark not in cdr or self._own in cdr:
+            return False
+        statuses = decode_diagnostics(cdr)[1]
+        return any(each.name == self._name and each.value("instance") != self.instance for each in statuses)
+
+    def hear(self, cdr: bytes) -> None:
+        """Take one diagnostics message of a node of this name."""
+        if not self.is_named_in(cdr):
             return
         for status in decode_diagnostics(cdr)[1]:
             instance = status.value("instance")
             if status.name != self._name or instance in (None, self.instance):
                 continue
-            other = (int(status.value("since") or 0), instance)
+            since = status.value("since") or "0"
+            if not since.isdecimal() or len(since) > LONGEST_TIME:
+                continue
+            other = (int(since), instance)
             if other < (self.since_ns, self.instance):
                 self._older_at = time.monotonic()
             else:

@@ -199,9 +199,9 @@ class LoadGate:
             self.condition.notify_all()
         return None
 
-    def refuse(self, reason: str, sentence: str) -> str:
-        """Count a message that cannot even be read."""
-        return self.refusals.add(reason, f"load/blocks refused: {sentence}")
+    def refuse(self, reason: str, sentence: str, name: str = "load/blocks") -> str:
+        """Count a message that cannot even be read, or is of another sender."""
+        return self.refusals.add(reason, f"{name} refused: {sentence}")
 
     def _end(self) -> None:
         self.ended = True

@@ -7,13 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.load_stream import decode_load
 from beardyn_core.record.messages import decode, decode_string, header_stamp
 from beardyn_core.record.topics import TWIST, WRENCH, topic
-from beardyn_ros.held_load import LiveLoad
+from beardyn_ros.held_load import SHAFT, LiveLoad
+from beardyn_ros.held_load import WRENCH as WRENCH_TOPIC
 from beardyn_ros.identity import wrong_frame
 from beardyn_ros.load_feed import LoadFeed
 from beardyn_ros.scenario import says_paused
+from beardyn_ros.sources import Sources
 from beardyn_ros.wire import RawIntake
 
 
@@ -31,6 +34,8 @@ class LoadIntake:
         self._node = node
         self._frame = frame
         self._intake = RawIntake(node)
+        self._sources = Sources(node)
+        self._checker = MessageChecker()
         self._feed: LoadFeed | None = None
         self._paused = False
 
@@ -40,12 +45,31 @@ class LoadIntake:
         if feed is None:
             return
         if not self._intake.publisher_counts():
-            self._intake.add(topic("load/blocks"), self._on_load)
-            self._intake.add(topic("load/truth"), self._on_load_truth)
+            self._add("load/blocks", self._on_load)
+            self._add("load/truth", self._on_load_truth)
             if live:
-                self._intake.add(topic("load/wrench"), self._on_wrench)
-                self._intake.add(topic("load/shaft"), self._on_shaft)
+                self._add("load/wrench", self._on_wrench)
+                self._add("load/shaft", self._on_shaft)
         feed.pause(self._paused)
+
+    def _add(self, name: str, handler: Callable[[bytes], None]) -> None:
+        entry = topic(name)
+
+        def take(cdr: bytes, source: bytes) -> None:
+            if self._feed is None:
+                return
+            problem = self._checker.problem(entry, cdr)
+            reason = "wrong fields"
+            if not problem:
+                reason, problem = "second publisher", self._sources.problem(entry, source)
+            if not problem:
+                handler(cdr)
+            elif name in (WRENCH_TOPIC, SHAFT):
+                self._report(self._feed.live.refuse(name, reason, problem))
+            else:
+                self._report(self._feed.gate.refuse(reason, problem, name))
+
+        self._intake.add_sourced(entry, take)
 
     def count_senders(self) -> int:
         """Count the publishers of load; whoever is gone is not paused any more, its silence is a loss."""
@@ -77,11 +101,7 @@ class LoadIntake:
         self._report(refusal)
 
     def _on_load_truth(self, cdr: bytes) -> None:
-        try:
-            text = decode_string(cdr)
-        except Exception:  # as above; it is no pause
-            return
-        self._set_paused(says_paused(text))
+        self._set_paused(says_paused(decode_string(cdr)))
 
     def _on_wrench(self, cdr: bytes) -> None:
         def take(live: LiveLoad) -> str | None:

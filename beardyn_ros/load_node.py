@@ -12,7 +12,6 @@ keeps the twin from taking the silence for a loss.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -24,7 +23,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.load_stream import encode_load
-from beardyn_core.record.messages import decode_string, encode_diagnostics, encode_string, header_stamp
+from beardyn_core.record.messages import decode_told, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
 from beardyn_ros.answers import StepService
@@ -35,6 +34,7 @@ from beardyn_ros.identity import run_instance
 from beardyn_ros.live_filter import LowPass
 from beardyn_ros.live_load import encode_shaft, encode_wrench
 from beardyn_ros.load_parameters import PARAMETERS
+from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.replay import Replay
 from beardyn_ros.replay_clock import ReplayClock
@@ -54,6 +54,7 @@ SETTLED_AFTER_S = 0.3  # a recorder may be found a moment later than the twin
 LOOK_PERIOD_S = 0.1
 IDLE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 0.5
+MOST_BEYOND_NS = 1_000_000_000  # that a twin may have used beyond what was sent: its last block
 
 
 class LoadNode(Node):
@@ -96,11 +97,12 @@ class LoadNode(Node):
         )
         self._restart()
         self._intake = RawIntake(self, polled=True)
-        self._intake.add(
-            topic("load/consumed"), lambda cdr: self._credit.hear(header_stamp(cdr)), keep_all=False
-        )
+        self._guard = MessageGuard(self)
+        consumed = topic("load/consumed")
+        self._intake.add_sourced(consumed, self._guard.guarded(consumed, self._on_consumed), keep_all=False)
         self._runs = RawIntake(self)
-        self._runs.add(topic("truth"), self._on_truth)
+        truth = topic("truth")
+        self._runs.add_sourced(truth, self._guard.guarded(truth, self._on_truth))
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
@@ -147,13 +149,19 @@ class LoadNode(Node):
         self._live_filter = LowPass(self._values.live_rate / (LIVE_RATE_OVER_BANDWIDTH * self._pace))
         self._live_last_ns = -1
 
+    def _on_consumed(self, cdr: bytes) -> None:
+        credit_ns = header_stamp(cdr)
+        if not self._live and credit_ns > self._replay.next_ns + MOST_BEYOND_NS:
+            self._guard.refuse(
+                "load/consumed",
+                f"it gives credit until {credit_ns / 1e9:.6g} s; load is sent until "
+                f"{self._replay.next_ns / 1e9:.6g} s",
+            )
+        else:
+            self._credit.hear(credit_ns)
+
     def _on_truth(self, cdr: bytes) -> None:
-        try:
-            run_id = str(json.loads(decode_string(cdr)).get("run_id", ""))
-        except Exception as error:  # a foreign message may break the decoder in any way
-            self.get_logger().warning(f"truth refused: it cannot be read ({error!r})")
-            return
-        self._next_run_id = run_id
+        run_id = self._next_run_id = str(decode_told(cdr).get("run_id", ""))
         same_twin = run_instance(run_id) == run_instance(self._run_id)
         if same_twin or not self._run_id:
             self._follow_run()
@@ -240,7 +248,9 @@ class LoadNode(Node):
         name = diagnostic_name(self.get_namespace(), "load")
         lead = (self._replay.next_ns - self._credit.time_ns) * 1e-9
         sent = {each: self._out.sent[each] for each in self._out.names if each != "/diagnostics"}
-        status = load_diagnostic(name, self._state, self._replay, lead, self._out.lost_messages, sent)
+        status = load_diagnostic(
+            name, self._state, self._replay, lead, self._out.lost_messages, sent, self._guard
+        )
         hardware = frame_of(self.get_namespace())
         self._out.publish("/diagnostics", encode_diagnostics(self._credit.time_ns, hardware, [status]))
         self._steps.fail_late("the block is not sent yet: it waits for the twin to take what it has")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,19 +11,27 @@ from rclpy.node import Node
 
 from beardyn_core.errors import InputError
 from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_told, encode_diagnostics
+from beardyn_core.record.messages import (
+    Diagnostic,
+    decode_diagnostics,
+    decode_string,
+    decode_told,
+    encode_diagnostics,
+)
 from beardyn_core.record.published import MissingMessages, missing_sentence
 from beardyn_core.record.topics import TOPICS, Topic, topic
 from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
+from beardyn_ros.identity import run_instance
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.recording import Recording, RunFile, free_name, is_recorded
+from beardyn_ros.recording import Recording, free_name, is_recorded
+from beardyn_ros.run_file import RunFile, run_id_of
 from beardyn_ros.run_state import END_STATES, LEFT
-from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
+from beardyn_ros.runtime import EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.shared_file import SharedFiles
 from beardyn_ros.twin_watch import TwinWatch
-from beardyn_ros.wire import RawIntake, TopicPublishers
+from beardyn_ros.wire import RawIntake, SourcedHandler, TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
@@ -33,6 +41,8 @@ GONE_TIMEOUT_S = 1.0
 COUNTS_TIMEOUT_S = 2.0
 JUDGES_TIMEOUT_S = 20.0
 OLD_RUN_TIMEOUT_S = 1.0
+LAST_WORDS_TIMEOUT_S = 0.5
+MOST_OTHER_TRUTHS = 4
 JUDGES = ("monitor/result", "follower/estimate")  # whose last word comes after the end of the twin
 TWIN_TOPICS = (
     "truth",
@@ -105,16 +115,19 @@ class RecorderNode(Node):
             replace=self._values.replace,
             splitting=self._splitting,
             open_writer=None if shared is None else lambda path: shared.writer(path, space),
+            refuse=lambda name, sentence: self._guard.refuse(name, sentence),
+            belongs=lambda name, source: self._guard.sources.follows(name, source),
         )
         self._out = TopicPublishers(self, "/diagnostics")
         self._intake = RawIntake(self, polled=True)
         self._guard = MessageGuard(self)
         self._names: set[str] = set()
+        self._other_truths: dict[bytes, bytes] = {}  # of twins that are not followed, by publisher
         for entry in TOPICS:
             self._record(entry)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+            lambda: self._guard.sources.count("truth"),
         )
         self._ended_at: float | None = None
         self._lacking = (0, 0.0)
@@ -172,17 +185,18 @@ class RecorderNode(Node):
     def _record(self, entry: Topic) -> None:
         if entry.name not in self._names:
             self._names.add(entry.name)
-            guarded = self._guard.guarded(entry, self._handler(entry))
-            self._intake.add(entry, guarded, complete=True)
+            if entry.name == "truth":
+                self._intake.add_sourced(entry, self._offer_truth, complete=True)
+                return
+            guarded = self._guard.guarded_sourced(entry, self._handler(entry))
+            self._intake.add_sourced(entry, guarded, complete=True)
 
-    def _handler(self, entry: Topic) -> Callable[[bytes], None]:
-        def take(cdr: bytes) -> None:
+    def _handler(self, entry: Topic) -> SourcedHandler:
+        def take(cdr: bytes, source: bytes) -> None:
             if entry.name == "/diagnostics":
                 self._on_statuses(decode_diagnostics(cdr)[1])
-            self._recording.add(entry, cdr)
-            if entry.name == "truth":
-                self._on_truth(cdr)
-            elif entry.name == "monitor/result":
+            self._recording.add(entry, cdr, source)
+            if entry.name == "monitor/result":
                 if any(status.value("final") == "true" for status in decode_diagnostics(cdr)[1]):
                     self._judged.add(entry.name)
             elif entry.name == "follower/estimate" and decode_told(cdr).get("final"):
@@ -195,6 +209,45 @@ class RecorderNode(Node):
         for status in statuses:
             if status.name == self._watch.name and status.value("state") in END_STATES:
                 self._recording.hear(status)
+
+    def _offer_truth(self, cdr: bytes, source: bytes) -> None:
+        """Take the truth of the twin that is followed; another one is kept for when that twin has gone.
+
+        A truth is published once a run: refused for good, the next twin would have none.
+        """
+        entry = topic("truth")
+        problem = self._guard.problem(entry, cdr, source) or self._problem_of_run(cdr)
+        if not problem:
+            self._other_truths.pop(source, None)
+            self._recording.add(entry, cdr, source)
+            self._on_truth(cdr)
+            return
+        self._guard.refuse(entry.name, problem)
+        if not self._guard.checker.problem(entry, cdr):
+            self._other_truths[source] = cdr
+            while len(self._other_truths) > MOST_OTHER_TRUTHS:
+                del self._other_truths[next(iter(self._other_truths))]
+
+    def _problem_of_run(self, cdr: bytes) -> str:
+        """Describe why a truth does not begin a run: it is of another twin, and the one followed runs on."""
+        current = self._recording.current
+        if current is None or not current.run_id or self._watch.ended or not self._watch.speaks:
+            return ""
+        run_id = run_id_of(decode_string(cdr))
+        if run_instance(run_id) == run_instance(current.run_id):
+            return ""
+        return f"it is of the run '{run_id}'; the twin of run '{current.run_id}' runs on"
+
+    def _offer_other_truths(self) -> None:
+        """Take the truth of another twin that is there when the one followed has gone."""
+        for source, cdr in list(self._other_truths.items()):
+            entry = topic("truth")
+            if self._guard.problem(entry, cdr, source) or self._problem_of_run(cdr):
+                continue
+            del self._other_truths[source]
+            if self._guard.sources.is_there(entry.name, source):
+                self._recording.add(entry, cdr, source)
+                self._on_truth(cdr)
 
     def _on_truth(self, cdr: bytes) -> None:
         self._ended_at = None
@@ -218,6 +271,9 @@ class RecorderNode(Node):
 
     def _tick(self) -> None:
         self._intake.sweep()
+        self._guard.sources.look()
+        self._watch.look()
+        self._offer_other_truths()
         self._recording.flush_and_close_old(OLD_RUN_TIMEOUT_S, TAIL_TIMEOUT_S)
         self._tell_left()
         if not self._announced_ready and not self.missing():
@@ -225,11 +281,7 @@ class RecorderNode(Node):
             self.get_logger().info("connected to every topic of the twin")
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._watch.mixed and not self.finished:
-            self.get_logger().error(self._watch.mixed)
-            self._end(self._watch.mixed)
-            self.exit_code, self.finished = EXIT_BAD_INPUT, True
-        elif self._last_word() is not None:
+        if self._last_word() is not None:
             self._end_when_complete()
         elif self._watch.vanished() and self._recording.current is not None:
             self._end("the twin has vanished without a last word")
@@ -281,7 +333,8 @@ class RecorderNode(Node):
         return lacking > 0 and not gone and now - max(self._lacking[1], self._ended_at) < TAIL_TIMEOUT_S
 
     def _end(self, status: str) -> None:
-        self._intake.sweep()
+        self._intake.sweep_to_the_end()
+        self._recording.decide()
         missing = self._missing_messages()
         self._report()
         current = self._recording.current
@@ -302,13 +355,17 @@ class RecorderNode(Node):
             self._tell_missing(left.missing(), left)
 
     def _tell_missing(self, missing: list[MissingMessages] | None, current: RunFile) -> None:
+        if current.begin_s:
+            begin, count = current.loss.missed_at_start, sum(current.before().values())
+            self.get_logger().warning(
+                f"{current.path}: recorded from t = {current.begin_s:.3f} s on, {count} "
+                f"messages and {begin} vibration samples were before the recorder was there"
+            )
         if not missing and not current.loss.total:
             return
         self.exit_code = EXIT_INCOMPLETE
         if missing:
-            begin = current.loss.missed_at_start
-            late = f"; {begin} vibration samples were before the recorder was there" if begin else ""
-            self.get_logger().error(f"{current.path}: {missing_sentence(missing)}{late}")
+            self.get_logger().error(f"{current.path}: {missing_sentence(missing)}")
 
     def _report(self) -> None:
         self._reported_at = time.monotonic()
@@ -329,6 +386,7 @@ class RecorderNode(Node):
             ("messages", str(current.message_count if current else 0)),
             ("lost_samples", str(lost)),
             ("missed_at_start", str(current.loss.missed_at_start if current else 0)),
+            ("recorded_from", f"{current.begin_s if current else 0.0:.3f}"),
         ]
         if current is not None:
             values += [(f"lost: {name}", str(count)) for name, count in sorted(current.loss.lost.items())]
@@ -344,9 +402,10 @@ class RecorderNode(Node):
     def close(self) -> bool:
         """Finish the file; there is no thread to end."""
         if self._recording.current is not None or not self.finished:
-            self._intake.sweep()
+            self._intake.sweep_to_the_end()
             self._recording.close("" if self.finished else "the recorder was told to stop")
             self._tell_left()
+        self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         return False
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.errors import InputError
+from beardyn_core.plain_json import read_object
 from beardyn_core.rail.events import events_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.replay import Replay
@@ -115,7 +117,7 @@ def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> s
 def says_paused(truth: str) -> bool:
     """Check whether the sender of a ``load/truth`` is paused knowingly; False when it cannot be read."""
     try:
-        replay = json.loads(truth).get("replay", {})
-        return bool(replay.get("state") == PAUSED)
-    except (ValueError, AttributeError):
+        replay = read_object(truth, {"replay": dict})["replay"]
+    except InputError:
         return False
+    return bool(replay.get("state") == PAUSED)

@@ -69,11 +69,10 @@ class TrainSignals:
             "/diagnostics": self._on_diagnostics,
         }.items():
             entry = topic(name)
-            self._intake.add(entry, self.guard.guarded(entry, handler), keep_all=name != "/diagnostics")
-        space = node.get_namespace()
-        self.watch = TwinWatch(
-            diagnostic_name(space, TWIN), lambda: node.count_publishers(topic("vibration").path(space))
-        )
+            guarded = self.guard.guarded(entry, handler)
+            self._intake.add_sourced(entry, guarded, keep_all=name != "/diagnostics")
+        name = diagnostic_name(node.get_namespace(), TWIN)
+        self.watch = TwinWatch(name, lambda: self.guard.sources.count("vibration"))
 
     @property
     def connected(self) -> bool:
@@ -95,6 +94,7 @@ class TrainSignals:
         """Tell the hearer what has come since the last sweep."""
         self._came = False
         self._intake.sweep()
+        self.guard.sources.look()
         self._nothing_waits = not self._came  # diagnostics of a whole train never pause
         if self._shaft:
             turning = run_of_messages({"shaft": self._shaft}, None).shaft

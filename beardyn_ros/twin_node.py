@@ -14,6 +14,7 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from std_srvs.srv import SetBool, Trigger
 
 from beardyn_core.errors import InputError
+from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic
 from beardyn_ros.answers import StepService
@@ -37,6 +38,7 @@ from beardyn_ros.run_state import (
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.session import TwinSession
 from beardyn_ros.simulation_services import SimulationServices, interfaces
+from beardyn_ros.sources import Sources
 from beardyn_ros.spreading import Spreader
 from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.twin_report import TwinReporter
@@ -102,7 +104,8 @@ class TwinNode(LifecycleNode):
         self._load = LoadIntake(self, self._frame)
         self._reporter = TwinReporter(self, self._values, self._namesakes, self._load, self._out)
         self._namesake_intake = RawIntake(self, polled=True)
-        self._namesake_intake.add(topic("/diagnostics"), self._namesakes.hear, keep_all=False)
+        self._namesake_intake.add_sourced(topic("/diagnostics"), self._on_diagnostics, keep_all=False)
+        self._checker, self._sources = MessageChecker(), Sources(self)
         self._guard = self.create_guard_condition(self._publish_waiting)
         wall_timer(self, REPORT_PERIOD_S, self._on_timer)
         self.create_service(SetBool, "pause", self._on_pause)
@@ -200,6 +203,17 @@ class TwinNode(LifecycleNode):
         self._session, self._consumed_ns = None, None
         self._simulation.look()
         return alive
+
+    def _on_diagnostics(self, cdr: bytes, source: bytes) -> None:
+        """Hear other twins of this name; what cannot be read, or only claims the name, is refused."""
+        problem = self._checker.problem(topic("/diagnostics"), cdr)
+        reason = "wrong fields"
+        if not problem and self._namesakes.is_named_in(cdr):
+            reason, problem = "foreign status", self._sources.problem_of_name(source)
+        if not problem:
+            self._namesakes.hear(cdr)
+        elif self._session is not None:
+            self._session.feed.gate.refuse(reason, problem, "/diagnostics")
 
     def _settle(self) -> None:
         """Let a run begin as soon as no other twin of this name is to be expected."""

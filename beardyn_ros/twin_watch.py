@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
 
 from beardyn_core.record.messages import Diagnostic
-from beardyn_ros.identity import run_instance
 from beardyn_ros.run_state import END_STATES, FINISHED, LEFT
 
 VANISHED_AFTER_S = 3.0
+SILENT_AFTER_S = 2.0
+MOST_OTHERS = 16  # runs whose status is kept until their truth comes
 
 
 class TwinWatch:
@@ -29,21 +31,18 @@ class TwinWatch:
         self._publisher_count = publisher_count
         self._run_id = ""
         self._told = False
-        self._instance = ""
-        self._former: set[str] = set()
+        self._heard_at = -math.inf
+        self.speaks = False
         self._seen = False
-        self._missing_since: float | None = None
-        self._absent_since = time.monotonic()
+        self._absent_since: float | None = time.monotonic()
         self.last: Diagnostic | None = None
         self._others: dict[str, Diagnostic] = {}  # last statuses of other runs by run id
-        self.mixed = ""
 
     def begin_run(self, run_id: str) -> None:
         """Follow the run that a ``truth`` has told; what was said about others is forgotten.
 
         Topics are not ordered among each other: what the twin said about this run may have come before.
         """
-        self._note_instance(run_id)
         if self.last is None or self.last.value("run_id") != run_id:
             self.last = self._others.get(run_id)
         self._others.clear()
@@ -55,26 +54,18 @@ class TwinWatch:
             if status.name != self.name:
                 continue
             run_id = status.value("run_id") or ""
-            self._note_instance(run_id)
             if not self._told and run_id:
                 self._run_id = run_id
             if run_id == self._run_id:
-                self.last = status
+                self.last, self._heard_at, self.speaks = status, time.monotonic(), True
             else:
                 self._others[run_id] = status
+                while len(self._others) > MOST_OTHERS:
+                    del self._others[next(iter(self._others))]
 
-    def _note_instance(self, run_id: str) -> None:
-        """Notice when two twins under this name take turns: their messages cannot be told apart."""
-        instance = run_instance(run_id)
-        if not instance or instance == self._instance:
-            return
-        if instance in self._former:
-            self.mixed = (
-                f"two twins speak as {self.name} at once, their messages cannot be told apart: give each a "
-                "namespace of its own (-r __ns:=/left)"
-            )
-        self._former.add(self._instance)
-        self._instance = instance
+    def look(self) -> None:
+        """Note whether the twin speaks of its run; to be called when everything that has come is taken."""
+        self.speaks = time.monotonic() - self._heard_at < SILENT_AFTER_S
 
     def value(self, key: str, default: Any = None) -> Any:
         """Look up a value of the twin's last status."""
@@ -93,18 +84,14 @@ class TwinWatch:
         return "" if self.value("state") == FINISHED or self.last is None else self.last.message
 
     def absent_for(self) -> float:
-        """Compute the seconds since the twin was last there, or since the start of the watch, [s]."""
+        """Compute for how long the twin has been seen to be away, or the watch has waited for it, [s]."""
         if self._publisher_count() > 0:
+            self._seen, self._absent_since = True, None
+            return 0.0
+        if self._absent_since is None:
             self._absent_since = time.monotonic()
         return time.monotonic() - self._absent_since
 
     def vanished(self) -> bool:
         """Check whether the twin was there and is gone without a word."""
-        if self._publisher_count() > 0:
-            self._seen, self._missing_since = True, None
-            return False
-        if not self._seen:
-            return False
-        if self._missing_since is None:
-            self._missing_since = time.monotonic()
-        return time.monotonic() - self._missing_since > VANISHED_AFTER_S
+        return self.absent_for() > VANISHED_AFTER_S and self._seen

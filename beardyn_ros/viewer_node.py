@@ -25,6 +25,9 @@ from beardyn_ros.wire import RawIntake, TopicPublishers
 
 TICK_S = 0.1
 REPORT_PERIOD_S = 0.5
+LAST_WORDS_TIMEOUT_S = 0.5
+# What drawing raises on numbers of the right type that make no picture.
+NOT_DRAWABLE = (InputError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError)
 DRAWN = (
     "truth",
     "force",
@@ -74,10 +77,11 @@ class ViewerNode(Node):
             self._draw(name)
         self._further: set[str] = set()
         diagnostics = topic("/diagnostics")
-        self._intake.add(diagnostics, self._guard.guarded(diagnostics, self._on_diagnostics), keep_all=False)
+        guarded = self._guard.guarded(diagnostics, self._on_diagnostics)
+        self._intake.add_sourced(diagnostics, guarded, keep_all=False)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),
-            lambda: self.count_publishers(topic("truth").path(self.get_namespace())),
+            lambda: self._guard.sources.count("truth"),
         )
         wall_timer(self, TICK_S, self._tick)
         wall_timer(self, REPORT_PERIOD_S, self._report)
@@ -85,7 +89,7 @@ class ViewerNode(Node):
 
     def _draw(self, name: str) -> None:
         entry = topic(name)
-        self._intake.add(entry, self._guard.guarded(entry, self._drawer(name)))
+        self._intake.add_sourced(entry, self._guard.guarded(entry, self._drawer(name)))
 
     def _drawer(self, name: str) -> Callable[[bytes], None]:
         def draw(cdr: bytes) -> None:
@@ -93,8 +97,8 @@ class ViewerNode(Node):
                 self._view.feed(name, cdr)
                 if name == "truth":
                     self._know(RunDescription.from_json(decode_string(cdr)))
-            except InputError as error:
-                self.get_logger().error(str(error), throttle_duration_sec=5.0)
+            except NOT_DRAWABLE as error:
+                self._guard.refuse(name, f"it cannot be drawn ({error})")
 
         return draw
 
@@ -110,9 +114,16 @@ class ViewerNode(Node):
     def _on_diagnostics(self, cdr: bytes) -> None:
         self._watch.take_statuses(decode_diagnostics(cdr)[1])
 
-    def _tick(self) -> None:
+    def _sweep(self) -> None:
         self._intake.sweep()
-        self._view.flush()
+        self._guard.sources.look()
+        try:
+            self._view.flush()
+        except NOT_DRAWABLE as error:
+            self._guard.refuse("drawing", f"what has come cannot be drawn ({error})")
+
+    def _tick(self) -> None:
+        self._sweep()
         if self._watch.ended or self._watch.vanished():
             self.finished = bool(self._values.exit_when_done)
 
@@ -127,9 +138,10 @@ class ViewerNode(Node):
 
     def close(self) -> bool:
         """Draw the rest and close the stream; there is no thread to end."""
-        self._intake.sweep()
-        self._view.flush()
+        self._sweep()
+        self._report()
         self._stack.close()
+        self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         return False
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
 from typing import Any
@@ -34,6 +34,9 @@ DEEPEST_HISTORY = 4000
 DIAGNOSTICS_HISTORY_FACTOR = 2
 RECENT_S = 5.0
 LONGEST_SWEEP = 1000  # of one topic, then it is the turn of the next
+MOST_SWEEPS = 50
+
+SourcedHandler = Callable[[bytes, bytes], None]  # bytes of a message, identity of its publisher
 
 
 @cache
@@ -154,6 +157,12 @@ class _PolledGroup(CallbackGroup):
         """Do nothing: nothing has begun."""
 
 
+def source_of(info: Mapping[str, Any]) -> bytes:
+    """Take the identity of the publisher out of what comes with a message; empty in an older rclpy."""
+    found = info.get("publisher_gid")
+    return bytes(found["data"]) if found else b""
+
+
 class RawIntake:
     """Subscriptions that hand over CDR bytes, all queues emptied in one sweep.
 
@@ -168,7 +177,7 @@ class RawIntake:
     def __init__(self, node: Any, *, polled: bool = False) -> None:
         self._node = node
         self._group = _PolledGroup() if polled else None
-        self._subscriptions: list[tuple[Any, Any, Callable[[bytes], None]]] = []
+        self._subscriptions: list[tuple[Any, Any, SourcedHandler]] = []
 
     def add(
         self,
@@ -178,10 +187,16 @@ class RawIntake:
         complete: bool = False,
     ) -> None:
         """Subscribe to a topic; `handler` gets the bytes of each message, in order."""
+        self.add_sourced(entry, lambda cdr, _source: handler(cdr), keep_all, complete)
+
+    def add_sourced(
+        self, entry: Topic, handler: SourcedHandler, keep_all: bool = True, complete: bool = False
+    ) -> None:
+        """Subscribe to a topic; `handler` also gets the identity of the publisher, empty when not known."""
         kind = message_class(entry.type)
 
-        def on_message(cdr: bytes) -> None:
-            handler(cdr)
+        def on_message(cdr: bytes, info: Mapping[str, Any]) -> None:
+            handler(cdr, source_of(info))
             self.sweep()
 
         subscription = self._node.create_subscription(
@@ -195,7 +210,7 @@ class RawIntake:
         self._subscriptions.append((subscription, kind, handler))
 
     def sweep(self) -> int:
-        """Take everything that has arrived; how many messages that were."""
+        """Take what has arrived, of each topic up to `LONGEST_SWEEP`; how many messages that were."""
         total = 0
         for subscription, kind, handler in self._subscriptions:
             handle = subscription.handle
@@ -203,13 +218,19 @@ class RawIntake:
             try:
                 with handle:
                     while count < LONGEST_SWEEP and (taken := handle.take_message(kind, True)) is not None:
-                        handler(taken[0])
+                        handler(taken[0], source_of(taken[1]))
                         count += 1
             except InvalidHandle:
                 continue
             finally:
                 total += count
         return total
+
+    def sweep_to_the_end(self) -> None:
+        """Take everything that has arrived, however much it is; a sender without a pause is left."""
+        for _ in range(MOST_SWEEPS):
+            if self.sweep() < LONGEST_SWEEP:  # so no queue has kept anything back
+                return
 
     def publisher_counts(self) -> dict[str, int]:
         """Count the publishers that each subscription is connected to, by absolute topic name."""

@@ -172,8 +172,17 @@ RECORDER = """
 The last word of the twin on `/diagnostics` says how many messages of every topic it has published (values
 `messages TOPIC`). The recorder waits for what is still on its way, then says which topics lack how many, and
 ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
-says that it vanished. Malformed messages are counted (`refused: TOPIC` in its diagnostic, as in those of
-monitor and viewer) and not recorded. A disk that stalls is waited for in the background, up to 128 MB.
+says that it vanished. A recorder that joins a run ends with 0 when nothing was lost since: it states from
+when it has recorded (`recorded_from`, s) and how much was before.
+
+Every node takes a message only if it is what its topic promises and comes from the publisher that it follows:
+the node that the topic is named for, where there is one, else the first that speaks; another one follows when
+that has gone. What is refused is counted (`refused: TOPIC` and `refused_messages` in the diagnostic of every
+node; in that of the twin by reason) and not recorded. A `truth` names a file and chooses no folder.
+`python -m evidence.ros.fuzz --messages 10000` publishes hostile messages on every topic beside a run of all
+nodes and says whether anything ended, split or is missing; the machine must have two cores free for it.
+
+A disk that stalls is waited for in the background, up to 128 MB.
 
 With `max_file_size` or `max_file_duration` a run becomes a folder as rosbag2 makes it: each file is whole in
 itself and names the next one, `metadata.yaml` lists them. `beardyn report`, `view`, `export` and `monitor`

@@ -13,10 +13,24 @@ import yaml
 
 from beardyn_core.edge import written
 from beardyn_core.errors import InputError
+from beardyn_core.inputs import text_of_file
 from beardyn_core.outputs import note_read
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
+
+
+LONGEST_NUMBER = 100  # digits of a whole number; the seeds of NumPy have 39
+
+
+def _whole_number(node: yaml.Node) -> int:
+    digits = len(node.value.lstrip("+-"))
+    if digits > LONGEST_NUMBER:
+        raise yaml.MarkedYAMLError(
+            problem=f"a whole number of {digits} digits; allowed are up to {LONGEST_NUMBER}",
+            problem_mark=node.start_mark,
+        )
+    return int(node.value)
 
 
 def _float(text: str) -> float:
@@ -61,7 +75,7 @@ for _kind, _pattern, _first in (
     ),
 ):
     _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{_kind}", re.compile(_pattern), _first)
-_Loader.add_constructor("tag:yaml.org,2002:int", lambda _, node: int(node.value))
+_Loader.add_constructor("tag:yaml.org,2002:int", lambda _, node: _whole_number(node))
 _Loader.add_constructor("tag:yaml.org,2002:float", lambda _, node: _float(node.value))
 
 
@@ -75,6 +89,10 @@ class _Dumper(yaml.SafeDumper):
         ]
         for first in {*_Loader.yaml_implicit_resolvers, *yaml.SafeDumper.yaml_implicit_resolvers}
     }
+
+
+# What the safe loader raises on a scalar that is not what its tag says, such as `!!timestamp 2026-99-99`.
+_BROKEN_SCALAR = (ValueError, KeyError, TypeError, AttributeError, OverflowError, IndexError)
 
 
 def read_mapping(text: str, label: str) -> dict[str, Any]:
@@ -100,6 +118,8 @@ def read_mapping(text: str, label: str) -> dict[str, Any]:
         raise InputError(f"{label}: {' '.join(str(error).split())}") from None
     except RecursionError:
         raise InputError(f"{label}: nested too deeply to be read") from None
+    except _BROKEN_SCALAR as error:
+        raise InputError(f"{label}: a value does not fit its tag ({error}); leave the tag out") from None
     if not isinstance(data, dict):
         found = "empty" if data is None else f"a {type(data).__name__}"
         raise InputError(
@@ -118,7 +138,7 @@ def read_file(path: Path) -> dict[str, Any]:
     """Read the mapping in a YAML file; see `read_mapping`."""
     note_read(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = text_of_file(path)
     except UnicodeDecodeError:
         raise InputError(f"{path}: the file is not UTF-8 text") from None
     except OSError as error:

@@ -23,6 +23,7 @@ from beardyn_core.follow.learnt import LEVELS, Learnt, Way
 from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
+from beardyn_core.inputs import size_of_file
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
@@ -219,6 +220,7 @@ def read_estimator(path: Path) -> Estimator:
         The file is absent, or no estimator of this version.
     """
     try:
+        size_of_file(path)
         with np.load(path, allow_pickle=False) as file:
             stored = {name: file[name] for name in file.files}
         head = json.loads(str(stored.pop("head")))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError, separator_problem
+from beardyn_core.inputs import size_of_file
 from beardyn_core.outputs import note_read
 
 Rows = list[list[str]]
@@ -96,6 +97,7 @@ def _read_rows(path: Path, layout: Layout) -> tuple[list[str], list[int], Rows]:
     lines: list[int] = []
     rows: Rows = []
     try:
+        size_of_file(path)
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file)
             for row in reader:
@@ -111,7 +113,8 @@ def _read_rows(path: Path, layout: Layout) -> tuple[list[str], list[int], Rows]:
             ) from None
         raise InputError(f"{path}: the file is not UTF-8 text; save it as UTF-8") from None
     except (OSError, csv.Error) as error:
-        raise InputError(f"{path}: cannot be read as CSV text: {error}") from None
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{path}: cannot be read as CSV text: {reason}") from None
     if rows and (problem := separator_problem(",".join(rows[0]))):
         raise InputError(f"{path}: {problem}")
     if not rows:

@@ -17,6 +17,7 @@ description        what a run says about itself (the content of ``truth``)
 sinks              where blocks go: memory, MCAP, one file for several axleboxes
 background_file    a file that a slow disk does not hold up
 bag_metadata       what rosbag2 wants to know of a recording
+chunk_reading      chunks unpacked within bounds
 chunk_writing      chunks of many messages at once
 mcap_writing       crash-safe MCAP that rosbag2 reads
 mcap_scanning      reading that survives a cut file

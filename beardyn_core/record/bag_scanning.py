@@ -9,6 +9,7 @@ from pathlib import Path
 import yaml
 
 from beardyn_core.errors import InputError
+from beardyn_core.inputs import text_of_file
 from beardyn_core.record.mcap_scanning import END_RECORD, McapScan, RecordedMessage
 
 INDEX = "metadata.yaml"
@@ -70,7 +71,7 @@ def _listed(index: Path) -> list[str]:
     try:
         if index.stat().st_size > _LONGEST_INDEX:
             raise InputError(f"{index}: is too large for an index of files; {wanted}")
-        content = yaml.safe_load(index.read_text(encoding="utf-8"))
+        content = yaml.safe_load(text_of_file(index))
     except OSError as error:
         raise InputError(f"{index}: cannot be read ({error.strerror})") from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:

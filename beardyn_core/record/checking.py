@@ -15,11 +15,13 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.errors import InputError
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
+from beardyn_core.plain_json import LONGEST_TEXT, read_object
 from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_at
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
-from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME, decode
+from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME, decode, decode_string
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, TWIST, WRENCH, Topic, topic
 from beardyn_core.scene.load import WRENCH_AXES
 
@@ -36,6 +38,7 @@ _LITTLE = b"\x00\x01"
 _ROWS = 2
 _SECOND = 1_000_000_000
 _PADDING = 3
+LONGEST_NAME = 200
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class MessageChecker:
         self._checks: dict[str, Callable[[Topic, bytes], None]] = {
             CLOUD: self._check_cloud,
             JOINTS: self._check_joints,
-            STRING: _check_decoding,
+            STRING: _check_text,
             DIAGNOSTICS: _check_decoding,
             **dict.fromkeys((TIME, CLOCK), _check_time),
             **dict.fromkeys(_NUMBERS, _check_numbers),
@@ -205,6 +208,21 @@ def _check_decoding(entry: Topic, cdr: bytes) -> None:
         decode(entry.type, cdr)
     except Exception as error:  # the decoder breaks in any way on bytes of another type
         raise MalformedError(f"it is no {entry.type} ({type(error).__name__})") from error
+
+
+def _check_text(entry: Topic, cdr: bytes) -> None:
+    """Check a text: each of the table is one JSON object."""
+    if len(cdr) > LONGEST_TEXT:
+        raise MalformedError(f"it has {len(cdr)} bytes; a text has up to {LONGEST_TEXT}")
+    _check_decoding(entry, cdr)
+    try:
+        found = read_object(decode_string(cdr))
+    except InputError as error:
+        raise MalformedError(str(error)) from None
+    for key in ("run_id", "scene"):
+        name = found.get(key, "")
+        if not isinstance(name, str) or len(name) > LONGEST_NAME or not (name.isprintable()):
+            raise MalformedError(f"its key '{key}' is no name of at most {LONGEST_NAME} characters")
 
 
 def _check_stamp(cdr: bytes) -> None:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
-from math import atan, sin, tan
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass, fields, is_dataclass
+from math import atan, pi, sin, tan
+from types import UnionType
+from typing import TYPE_CHECKING, Any, Union, get_args, get_origin, get_type_hints
 from typing import Annotated as A
 
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.errors import InputError
 from beardyn_core.observe.labels import load_labels
+from beardyn_core.plain_json import read_object
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.sensor import RATES
@@ -21,6 +24,9 @@ if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
 
 DESCRIPTION_KEY = "description"
+MOST_ROLLERS, MOST_BODIES, MOST_SENSORS = 200, 1000, 64
+LARGEST_SIZE, LARGEST_NUMBER = 10.0, 1e12  # [m]; of any number
+_SENSOR = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,79}").fullmatch
 
 
 @dataclass(frozen=True)
@@ -171,9 +177,9 @@ class RunDescription:
             The text is not a description written by `to_json`.
         """
         try:
-            truth = json.loads(text)
+            truth = read_object(text, {DESCRIPTION_KEY: dict})
             stored = truth.pop(DESCRIPTION_KEY)
-            return cls(
+            found = cls(
                 scene=stored["scene"],
                 scene_text=stored["scene_text"],
                 shape=BearingShape(**stored["shape"]),
@@ -183,8 +189,56 @@ class RunDescription:
                 truth=truth,
                 sensor_rates=tuple(stored.get("sensor_rates_Hz", ())),
             )
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            _check(found)
+            return found
+        except (InputError, ValueError, KeyError, TypeError, AttributeError, ArithmeticError) as error:
             raise InputError(
                 f"the truth of the recording does not describe a beardyn run ({error!r}); "
                 "it was written by another program or another version"
             ) from error
+
+
+def _check(run: RunDescription) -> None:
+    """Check a description that anybody may have written, so that nobody computes or draws with nonsense.
+
+    Raises
+    ------
+    ValueError
+        A value is of another kind than its field, or no bearing has it.
+    """
+    parts = [run.shape, *run.defects, *(part for each in run.defects for part in _dataclasses_in(each))]
+    for part in parts:
+        for name, hint in get_type_hints(type(part)).items():
+            if not _fits(getattr(part, name), hint):
+                raise ValueError(f"{name} of {type(part).__name__} is {getattr(part, name)!r:.60}")
+    shape = run.shape
+    if not 1 <= shape.roller_count <= MOST_ROLLERS:
+        raise ValueError(f"roller_count is {shape.roller_count}; allowed is 1 to {MOST_ROLLERS}")
+    sizes = (shape.pitch_diameter, shape.roller_diameter, shape.roller_length, shape.outer_diameter)
+    if not (all(0.0 < size < LARGEST_SIZE for size in sizes) and 0.0 < shape.contact_angle < pi / 2.0):
+        raise ValueError("a dimension of the bearing is none")
+    texts = (run.scene, run.scene_text, *run.body_names)
+    if not all(isinstance(text, str) for text in texts) or len(run.body_names) > MOST_BODIES:
+        raise ValueError("the scene or the names of the bodies are no texts")
+    names = run.sensor_names
+    if len(names) > MOST_SENSORS or not all(isinstance(name, str) and _SENSOR(name) for name in names):
+        raise ValueError("a sensor has a name that no topic can have")
+    if len(set(names)) < len(names) or len(run.sensor_rates) != len(names):
+        raise ValueError("the names and rates of the sensors contradict each other")
+    if not all(_fits(rate, float) and rate > 0.0 for rate in run.sensor_rates):
+        raise ValueError("a sensor has a rate that is none")
+
+
+def _dataclasses_in(part: object) -> list[Any]:
+    return [value for value in vars(part).values() if is_dataclass(value)]
+
+
+def _fits(value: object, hint: Any) -> bool:
+    """Check whether a value is of the type of its field; what is no plain type is left to its class."""
+    if get_origin(hint) in (Union, UnionType):
+        return any(_fits(value, each) for each in get_args(hint))
+    if hint is float:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST_NUMBER
+    if hint is int:
+        return isinstance(value, int) and not isinstance(value, bool) and abs(value) < LARGEST_NUMBER
+    return isinstance(value, hint) if hint in (str, bool, type(None)) else True

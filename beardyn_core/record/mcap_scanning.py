@@ -19,12 +19,13 @@ from typing import BinaryIO
 import zstandard
 from mcap.exceptions import McapError
 from mcap.records import Attachment, Channel, Chunk, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
 from beardyn_core.errors import InputError
 from beardyn_core.inputs import size_of_file
 from beardyn_core.outputs import is_being_written, open_to_write
+from beardyn_core.record.chunk_reading import ChunkReader
 
 END_RECORD = "beardyn_end"
 LONGEST_RECORD = 256 * 1024 * 1024
@@ -33,7 +34,7 @@ MAGIC = b"\x89MCAP0\r\n"
 # What the mcap library and the decompressor raise on bytes that were cut or damaged.
 _DAMAGE = (
     *(McapError, zstandard.ZstdError, struct.error),
-    *(ValueError, KeyError, IndexError, EOFError, MemoryError),
+    *(ValueError, KeyError, IndexError, EOFError, MemoryError, ImportError, RuntimeError),
 )
 
 
@@ -101,13 +102,11 @@ class McapScan:
         """Read the messages as MCAP records; their channels and schemas are in the attributes by then."""
         with self.path.open("rb") as file:
             reader = StreamReader(file, emit_chunks=True, record_size_limit=LONGEST_RECORD)
-            records = iter(reader.records)
+            records, chunks = iter(reader.records), ChunkReader(self.size_bytes)
             while True:
                 try:
                     record = next(records)
-                    inside = (
-                        breakup_chunk(record, validate_crc=True) if isinstance(record, Chunk) else [record]
-                    )
+                    inside = chunks.records(record) if isinstance(record, Chunk) else [record]
                     found = self._sort(inside)
                 except StopIteration:
                     # The reader ends without an error only behind the footer and the closing magic.

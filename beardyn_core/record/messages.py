@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +15,7 @@ from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from beardyn_core.errors import InputError
-from beardyn_core.plain_json import strict_text
+from beardyn_core.plain_json import read_object, strict_text
 
 TIME = "builtin_interfaces/msg/Time"
 HEADER = "std_msgs/msg/Header"
@@ -99,12 +98,9 @@ def decode_told(cdr: bytes) -> Mapping[str, Any]:
         Its text is no JSON object.
     """
     try:
-        found = json.loads(decode_string(cdr))
-    except ValueError as error:
-        raise InputError(f"a message that should be a JSON object is none ({error})") from None
-    if not isinstance(found, dict):
-        raise InputError(f"a message that should be a JSON object is a {type(found).__name__}")
-    return found
+        return read_object(decode_string(cdr))
+    except InputError as error:
+        raise InputError(f"a message that should be a JSON object is none: {error}") from None
 
 
 @dataclass(frozen=True)

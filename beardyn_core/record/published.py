@@ -10,8 +10,12 @@ from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.topics import NAMESPACE, relative_name
 
 PREFIX = "messages "
+LONGEST_COUNT = 15  # digits
 # Others speak there too: which run a message belongs to is not to be told.
 _NOT_COUNTED = ("/diagnostics", "/clock")
+BLOCKS = ("force_waveform", "vibration", "bodies", "contacts")
+_BLOCK_NS, _TEMPERATURE_NS = 20_000_000, 200_000_000
+_TREND_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ def published_counts(status: Diagnostic, namespace: str = NAMESPACE) -> dict[str
     return {
         relative_name(key.removeprefix(PREFIX), namespace): int(value)
         for key, value in status.values
-        if key.startswith(PREFIX) and value.isdecimal()
+        if key.startswith(PREFIX) and value.isdecimal() and len(value) <= LONGEST_COUNT
     }
 
 
@@ -72,17 +76,54 @@ def last_published(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -
     return found
 
 
-def missing_messages(published: Mapping[str, int], recorded: Mapping[str, int]) -> list[MissingMessages]:
+def published_before(first_ns: Mapping[str, int], parts: int = 1) -> dict[str, int]:
+    """Count the messages of a run that a recorder which joined late could not receive.
+
+    A recorder that has the first block of any topic was there from the start: then nothing was before it,
+    and what lacks was lost.
+
+    Parameters
+    ----------
+    first_ns : mapping of str to int
+        First stamp of each topic in the recording, by name in the table, [ns].
+    parts : int
+        Parts whose temperature is published.
+
+    Returns
+    -------
+    dict of str to int
+        Empty when the recorder was there from the start.
+    """
+    found = {}
+    for name, stamp in first_ns.items():
+        if name in _TREND_NS:
+            found[name] = stamp // _TREND_NS[name]
+        elif name in BLOCKS or name.startswith("vibration/"):
+            found[name] = round(stamp / _BLOCK_NS)
+    if not found or min(found.values()) <= 0:
+        return {}
+    if "temperature" in first_ns:
+        found["temperature"] = parts * max(round((first_ns["temperature"] - _BLOCK_NS) / _TEMPERATURE_NS), 0)
+    return found
+
+
+def missing_messages(
+    published: Mapping[str, int], recorded: Mapping[str, int], before: Mapping[str, int] | None = None
+) -> list[MissingMessages]:
     """List the topics of which fewer messages are recorded than were published.
 
     Parameters
     ----------
     published, recorded : mapping of str to int
         Messages by name in the topic table.
+    before : mapping of str to int, optional
+        Published before the recording began, see `published_before`.
     """
+    early = before or {}
+    wanted = {name: count - early.get(name, 0) for name, count in published.items()}
     return [
         MissingMessages(name, count, recorded.get(name, 0))
-        for name, count in sorted(published.items())
+        for name, count in sorted(wanted.items())
         if recorded.get(name, 0) < count and name not in _NOT_COUNTED
     ]
 

@@ -37,21 +37,39 @@ def read_run(path: Path | str, namespace: str | None = None) -> Run:
     InputError
         The file is absent, not MCAP, or holds not one usable message of the namespace.
     """
+    return read_with_times(path, namespace)[0]
+
+
+def read_with_times(
+    path: Path | str, namespace: str | None = None
+) -> tuple[Run, McapScan | BagScan, dict[tuple[str, str], list[int]]]:
+    """Read a recording as `read_run` does, in the same pass also what a report needs.
+
+    Returns
+    -------
+    run : Run
+    scan : McapScan or BagScan
+        Its pass is over.
+    times : dict of (topic, type) to list of int
+        Log times of every topic of the file, [ns].
+    """
     scan = scan_recording(path)
     recorded: dict[str, list[bytes]] = defaultdict(list)
     types: dict[str, str] = {}
+    times: dict[tuple[str, str], list[int]] = defaultdict(list)
     for message in scan.messages():
         recorded[message.topic].append(message.cdr)
         types[message.topic] = message.type
+        times[message.topic, message.type].append(message.log_time)
     boxes = _Boxes(scan, recorded, types)
     if namespace is None:
-        return boxes.first()
+        return boxes.first(), scan, times
     wanted = namespace.strip("/")
     if wanted not in boxes:
         names = ", ".join(boxes)
         found = f"it has {names or ', '.join(sorted(recorded)) or scan.problem or 'no messages'}"
         raise InputError(f"{scan.path}: no messages under the namespace /{wanted}; {found}")
-    return boxes[wanted]
+    return boxes[wanted], scan, times
 
 
 class _Boxes(Mapping[str, Run]):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -15,11 +14,17 @@ from numpy.typing import NDArray
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.observe.summary import TorqueBudget
 from beardyn_core.record.arrays import decoding_checked
-from beardyn_core.record.bag_scanning import BagScan, scan_recording
+from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.published import MissingMessages, last_published, missing_messages, missing_sentence
-from beardyn_core.record.reading import namespace_in, read_run
+from beardyn_core.record.published import (
+    MissingMessages,
+    last_published,
+    missing_messages,
+    missing_sentence,
+    published_before,
+)
+from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import chosen_for, diagnosed, recorded_budget
 from beardyn_core.record.topics import relative_name
@@ -110,11 +115,7 @@ def report(path: Path | str, box: str | None = None) -> Report:
     InputError
         The file is absent, not MCAP, or holds not one usable message.
     """
-    scan = scan_recording(path)
-    times: dict[tuple[str, str], list[int]] = defaultdict(list)
-    for message in scan.messages():
-        times[message.topic, message.type].append(message.log_time)
-    run = read_run(path, box)
+    run, scan, times = read_with_times(path, box)
     with decoding_checked(scan.path):
         return _report(scan, run, times)
 
@@ -174,7 +175,9 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     recorded = {relative_name(topic, namespace): len(each) for (topic, _), each in times.items()}
     for name, count in run.malformed.items():
         recorded[name] -= count
-    return tuple(missing_messages(published, recorded))
+    first = {relative_name(topic, namespace): min(each) for (topic, _), each in times.items()}
+    before = published_before(first, len(run.temperature.components))
+    return tuple(missing_messages(published, recorded, before))
 
 
 def _rate(times: list[int]) -> float | None:

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from beardyn_core.errors import InputError
+from beardyn_core.inputs import text_of_file
 from beardyn_core.structure.shapes import Shapes
 
 _EIGENVALUE = re.compile(r"\$EIGENVALUE =\s*(\S+)\s+MODE =\s*(\d+)")
@@ -65,7 +66,7 @@ def read_nastran(punch: Path, bulk: Path) -> Shapes:
 
 def _lines(path: Path) -> list[str]:
     try:
-        return path.read_text(encoding="latin-1").splitlines()  # titles may be in any language
+        return text_of_file(path, "latin-1").splitlines()  # titles may be in any language
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
 

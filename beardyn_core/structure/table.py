@@ -22,6 +22,7 @@ import yaml
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError, separator_problem
+from beardyn_core.inputs import text_of_file
 from beardyn_core.outputs import note_read
 from beardyn_core.structure.cup import DIMENSIONS, Cup
 from beardyn_core.structure.modes import FIELDS, WAVES, Modes
@@ -85,7 +86,7 @@ def table_text_of(path: Path | str) -> str:
     """Read the text of a table, mistakes and all; raises `InputError` where there is none."""
     note_read(path)
     try:
-        return Path(path).read_text(encoding="utf-8")
+        return text_of_file(Path(path))
     except UnicodeDecodeError:
         raise InputError(
             f"{path}: the file is not UTF-8 text; give a table that `beardyn structure` wrote"
@@ -100,7 +101,7 @@ def modes_of_text(text: str, label: str) -> Modes:
     begin = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
     try:
         head = yaml.safe_load("\n".join(line.removeprefix("#").removeprefix(" ") for line in lines[:begin]))
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise InputError(f"{label}: the head is no YAML: {' '.join(str(error).split())}") from error
     if not isinstance(head, dict):
         raise InputError(f"{label}: the head is missing; lines that begin with # say name, mass_kg and so on")

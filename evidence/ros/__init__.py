@@ -9,6 +9,8 @@ review      plays them: what was measured then, what is now, whether it holds; w
 costs       processor time and memory of every node per simulated second
 memory      whether the memory of the nodes stays flat, in megabytes an hour
 leaving     do nodes that leave stop those who stay; how soon newcomers are found
+fuzz        hostile messages on every topic beside a run of all nodes
+hostile     makes them
 soak        kill -9 of each node in turn, nonsense, a full disk, clocks that jump
 =========== =====================================================================
 """

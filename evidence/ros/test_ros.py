@@ -11,6 +11,7 @@ if importlib.util.find_spec("rclpy") is None:
     pytest.skip("rclpy is not installed (pip install .[ros])", allow_module_level=True)
 
 from evidence.ros.faults import FAULTS, Fault
+from evidence.ros.fuzz import fuzz
 from evidence.ros.kills import LARGEST_LOSS_S, killed_recorders
 from evidence.ros.review import line_of
 from evidence.ros.soak import soak
@@ -34,3 +35,7 @@ def test_a_fault_of_the_review_is_mended(fault: Fault, tmp_path: Path) -> None:
 
 def test_five_minutes_of_faults_leave_nothing_that_does_not_hold(tmp_path: Path) -> None:
     assert soak(tmp_path, 300.0) == []
+
+
+def test_hostile_messages_on_every_topic_end_nothing_and_cost_nothing(tmp_path: Path) -> None:
+    assert fuzz(tmp_path, 400, seed=2) == []

@@ -136,6 +136,10 @@ class Graph:
         for name in names:
             self._intake.add(topic(name), self.messages[name].append)
 
+    def drain(self) -> int:
+        """Take everything that waits in the queues; how many messages that were."""
+        return self._intake.sweep()
+
     def until(
         self,
         condition: Callable[[], Any],

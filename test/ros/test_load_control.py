@@ -87,7 +87,7 @@ def test_seek_and_loop_move_the_position_and_the_truth_says_where(graph: Graph) 
     assert np.array_equal(load.wrench[1400:1601], history.wrench[3600:3801])
     assert np.array_equal(load.wrench[1801:4000], history.wrench[200:2399])
     assert graph.set_parameter("load", "loop", False).successful
-    graph.out.publish("load/consumed", encode_time(60_000_000_000))
+    graph.out.publish("load/consumed", encode_time(2_900_000_000))
     assert graph.exit_code("load") == 0
     assert len(stream(graph).time_ns) == 1601 + 4001
     assert truth(graph)["replay"]["state"] == "ended"

@@ -310,7 +310,7 @@ def test_a_message_that_cannot_be_read_is_counted_and_the_run_goes_on(
     graph.until(lambda: len(graph.messages["vibration"]) > 10, "blocks under live load")
     graph.out.publish("load/wrench", b"\x00\x01\x00\x00\x01")
     graph.out.publish("load/truth", b"\x00\x01\x00\x00\xff\xff\xff\xffx")
-    graph.until(lambda: graph.statuses("twin")[-1].value("refused: wrong fields") == "1", "the refusal")
+    graph.until(lambda: graph.statuses("twin")[-1].value("refused: wrong fields") == "2", "two refusals")
     goal = len(graph.messages["vibration"]) + 50
     graph.until(lambda: len(graph.messages["vibration"]) > goal, "the run going on")
     assert "Traceback" not in graph.processes.log("twin")

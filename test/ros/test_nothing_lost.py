@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
+from beardyn_ros import twin_watch
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
+from beardyn_ros.wire import LONGEST_SWEEP, RawIntake
 from test.record.test_broken_files import told
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected
@@ -53,7 +57,48 @@ def code_and_report_agree(graph: Graph, path: Path) -> int:
     return code
 
 
-def test_what_came_before_the_recorder_is_missing_and_told_by_topic(graph: Graph) -> None:
+class Queue(nullcontext[None]):
+    """A subscription, and its handle, in which messages wait."""
+
+    def __init__(self, count: int) -> None:
+        super().__init__()
+        self.handle = self
+        self._waiting = count
+
+    def take_message(self, _kind: object, _raw: bool) -> tuple[bytes, dict[str, object]] | None:
+        self._waiting -= 1
+        return (b"", {}) if self._waiting >= 0 else None
+
+
+@pytest.mark.parametrize("waiting", [0, 1, LONGEST_SWEEP - 1, LONGEST_SWEEP, 5 * LONGEST_SWEEP + 224])
+def test_a_recorder_that_is_behind_takes_everything_that_waits_at_the_end(waiting: int) -> None:
+    taken: list[bytes] = []
+    intake = RawIntake(None, polled=True)
+    for count in (3, waiting, 2):
+        queue = Queue(count)
+        intake._subscriptions.append((queue, None, lambda cdr, _source: taken.append(cdr)))
+    intake.sweep_to_the_end()
+    assert len(taken) == waiting + 5
+
+
+def test_a_twin_that_was_there_all_the_time_is_gone_from_when_it_is_first_missed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, publishers = 0.0, 1
+    monkeypatch.setattr(twin_watch.time, "monotonic", lambda: now)
+    watch = twin_watch.TwinWatch("axlebox/twin", lambda: publishers)
+    now = 600.0
+    assert not watch.vanished()
+    now, publishers = 900.0, 0
+    assert watch.absent_for() == 0.0
+    now = 902.0
+    assert watch.absent_for() == 2.0
+    assert not watch.vanished()
+    now = 903.5
+    assert watch.vanished()
+
+
+def test_a_recorder_that_joins_a_run_says_from_when_and_ends_with_0(graph: Graph) -> None:
     path = graph.folder / "run.mcap"
     graph.fake_twin(speed_factor=2.0)
     graph.fake_load(duration=12.0)
@@ -62,15 +107,18 @@ def test_what_came_before_the_recorder_is_missing_and_told_by_topic(graph: Graph
     )
     graph.node_process("recorder", output=str(path))
     assert graph.exit_code("twin") == 0
-    assert code_and_report_agree(graph, path) == INCOMPLETE
-    missing = {each.topic: each for each in report(path).missing_messages or ()}
-    assert missing["vibration"].published == 600
-    assert missing["force"].published == 4800
-    assert missing["vibration"].recorded == recorded_counts(path)["vibration"]
+    assert code_and_report_agree(graph, path) == 0
+    assert report(path).missing_messages == ()
+    counts, samples = recorded_counts(path), read_run(path).vibration.sample
+    assert np.array_equal(samples, np.arange(samples[0], 600 * 512))
+    assert 0 < counts["vibration"] < 600
+    assert report(path).begin > 0.4
     assert "before the recorder was there" in graph.processes.log("recorder")
+    assert "recorded from t = " in graph.processes.log("recorder")
+    assert float(graph.statuses("recorder")[-1].value("recorded_from")) > 0.4
 
 
-def test_a_file_that_a_reset_leaves_incomplete_is_told_and_the_monitor_goes_on(graph: Graph) -> None:
+def test_a_file_that_begins_late_and_is_left_by_a_reset_says_so_and_the_monitor_goes_on(graph: Graph) -> None:
     from std_srvs.srv import SetBool, Trigger
 
     def simulated(more_than: float) -> None:
@@ -93,10 +141,10 @@ def test_a_file_that_a_reset_leaves_incomplete_is_told_and_the_monitor_goes_on(g
     simulated(at)
     assert graph.call("reset", Trigger).success
     graph.set_parameter("twin", "speed_factor", 2.0)
-    assert graph.exit_code("recorder") == INCOMPLETE
+    assert graph.exit_code("recorder") == 0
     assert graph.exit_code("monitor") == 0
-    assert report(path).missing_messages
-    assert f"{path}: published messages that are not in the file: " in graph.processes.log("recorder")
+    assert report(path).missing_messages == ()
+    assert f"{path}: recorded from t = " in graph.processes.log("recorder")
     second = path.with_name("run_2.mcap")
     assert report(second).missing_messages == (), graph.processes.log("recorder")
     assert f"{second}: published" not in graph.processes.log("recorder")

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-import time
+import json
 
 import numpy as np
 
-from beardyn_core.record.messages import DIAGNOSTICS, Diagnostic, decode, encode_diagnostics
+from beardyn_core.record.messages import (
+    DIAGNOSTICS,
+    Diagnostic,
+    decode,
+    decode_string,
+    encode_diagnostics,
+    encode_string,
+)
 from beardyn_core.record.reading import read_run
+from beardyn_core.record.reporting import report
+from beardyn_ros.live_load import encode_wrench
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected
 
@@ -104,29 +113,40 @@ def test_a_second_twin_of_the_same_name_refuses_and_the_recording_of_the_first_i
     assert np.array_equal(run.vibration.sample, np.arange(blocks * 512))
 
 
-def test_a_recorder_refuses_to_mix_two_twins_that_speak_in_turns(graph: Graph) -> None:
+def test_a_recorder_follows_its_twin_while_another_publisher_speaks_in_its_name(graph: Graph) -> None:
+    """Status, truth and signals of a rival are refused and counted; nothing ends, splits or is missing."""
     path = graph.folder / "run.mcap"
+    graph.listen("truth")
     graph.fake_twin(speed_factor=1.0)
     graph.node_process("recorder", output=str(path))
     is_connected(graph, "recorder")
-    graph.fake_load(duration=60.0)
+    graph.fake_load(duration=6.0)
     graph.until_state("running")
-    graph.until(
-        lambda: any(int(s.value("messages") or 0) > 100 for s in graph.statuses("recorder")), "a recording"
-    )
+    graph.connected("truth", "force", "vibration")
     values = (
-        *(("state", "running"), ("run_id", "0badcafe-0")),
-        *(("instance", "0badcafe"), ("since", str(2**62))),
+        *(("state", "finished"), ("run_id", "0badcafe-0")),
+        *(("instance", "0badcafe"), ("since", "0")),
     )
-    rival = encode_diagnostics(0, "axlebox", [Diagnostic("axlebox/twin", 0, "running", values)])
-    begin = time.monotonic()
-    graph.until(
-        lambda: graph.out.publish("/diagnostics", rival) and time.monotonic() - begin > 0.5,
-        "a rival twin",
-        check_processes=False,  # the recorder may be quicker
-    )
-    assert graph.exit_code("recorder") == 2
-    assert "two twins speak as axlebox/twin at once" in (read_run(path).status or "")
+    own = json.loads(decode_string(graph.messages["truth"][0]))
+    for count, run_id in enumerate(("0badcafe-0", own["run_id"], ""), start=1):
+        rival = dict(values) | {"run_id": run_id}
+        status = Diagnostic("axlebox/twin", 0, "finished", tuple(rival.items()))
+        graph.out.publish("/diagnostics", encode_diagnostics(0, "axlebox", [status]))
+        graph.out.publish("truth", encode_string(json.dumps({**own, "run_id": run_id, "scene": "/tmp/x"})))
+        graph.until(  # the topic keeps its latest message only
+            lambda count=count: graph.statuses("recorder")[-1].value("refused: truth") == str(count),  # type: ignore[misc]
+            "the refusal",
+        )
+    graph.out.publish("force", encode_wrench(np.zeros(6), 0))
+    for part in ("twin", "recorder", "load"):
+        assert graph.exit_code(part) == 0, graph.processes.log(part)
+    said = graph.statuses("recorder")[-1]
+    assert said.value("refused: truth") == "3"
+    assert said.value("refused: force") == "1"
+    assert int(said.value("refused: /diagnostics") or 0) == 3
+    assert list(graph.folder.glob("*.mcap")) == [path]
+    assert report(path).missing_messages == ()
+    assert len(read_run(path).force) == 2400
 
 
 def test_a_twin_says_that_somebody_else_publishes_the_clock(graph: Graph) -> None:

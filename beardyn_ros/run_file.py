@@ -1,0 +1,174 @@
+"""One run in one file: what was written, what is missing, how it began."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from beardyn_core.errors import InputError
+from beardyn_core.plain_json import read_object
+from beardyn_core.record.bag_writing import BagWriter
+from beardyn_core.record.cloud_layout import cloud_points
+from beardyn_core.record.clouds import CLOUD
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.mcap_writing import McapWriter
+from beardyn_core.record.messages import Diagnostic, header_stamp
+from beardyn_core.record.published import (
+    BLOCKS,
+    MissingMessages,
+    missing_messages,
+    published_before,
+    published_counts,
+)
+from beardyn_core.record.topics import STRING, Topic
+from beardyn_ros.shared_file import BoxWriter
+from beardyn_ros.strands import STEP_NS, TEMPERATURE, frame_bytes
+
+RunWriter = McapWriter | BagWriter | BoxWriter
+COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
+UNSTAMPED = (STRING,)
+LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
+SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
+DRAWN = ("bodies", "contacts")
+OF_ONE_RUN = (*SIMULATED, *DRAWN, TEMPERATURE)  # their stamps begin anew with each run
+
+
+class LossWatch:
+    """Finds holes in the running indices (clouds) and in the stamps (trends) of each topic."""
+
+    def __init__(self) -> None:
+        self.lost: dict[str, int] = {}
+        self.received: dict[str, int] = {}
+        self.missed_at_start = 0
+        self._next_sample: dict[str, int] = {}
+        self._last_ns: dict[str, int] = {}
+
+    def count_message(self, entry: Topic, cdr: bytes) -> None:
+        """Note one message."""
+        name = entry.name
+        if entry.type == CLOUD and (name in COUNTED_CLOUDS or name.startswith("vibration")):
+            samples = cloud_points(cdr)["sample"]
+            if len(samples):
+                first, last = int(samples[0]), int(samples[-1])
+                if name == "vibration" and name not in self.received:
+                    self.missed_at_start = first
+                self._count(name, first - self._next_sample.get(name, first), last + 1 - first)
+                self._next_sample[name] = last + 1
+        elif name in STEP_NS:
+            stamp, step = header_stamp(cdr), STEP_NS[name]
+            self._count(name, round((stamp - self._last_ns.get(name, stamp - step)) / step) - 1, 1)
+            self._last_ns[name] = stamp
+
+    def _count(self, name: str, missing: int, here: int) -> None:
+        self.received[name] = self.received.get(name, 0) + here
+        if missing > 0:
+            self.lost[name] = self.lost.get(name, 0) + missing
+
+    @property
+    def total(self) -> int:
+        """Samples that were published but never came."""
+        return sum(self.lost.values())
+
+
+class RunFile:
+    """One run in one MCAP file, in a folder of several, or in a file that it shares.
+
+    Parameters
+    ----------
+    path : Path
+        Of the folder when files are split.
+    namespace : str
+    truth : str or None
+        Content of the topic; ``None`` when none has come.
+    writer : RunWriter
+        Of the file.
+    """
+
+    def __init__(self, path: Path, namespace: str, truth: str | None, writer: RunWriter) -> None:
+        self.path = path
+        self._namespace = namespace
+        self.run_id = ""
+        self.last_word: Diagnostic | None = None
+        self.problem = ""
+        self.description: RunDescription | None = None
+        self.loss = LossWatch()
+        self.last_ns: dict[str, int] = {}
+        self._first_ns: dict[str, int] = {}
+        self._parts: set[bytes] = set()  # that have a temperature
+        self._simulated_ns = 0
+        self._writer = writer
+        if truth is None:
+            self.problem = "no truth has come: the file does not say which scene it holds"
+            return
+        self.run_id = run_id_of(truth)
+        try:
+            self.description = RunDescription.from_json(truth)
+        except InputError as error:
+            self.problem = str(error)
+        else:
+            self._writer.describe(self.description)
+
+    def add(self, entry: Topic, cdr: bytes) -> None:
+        """Append one message; live load stands at the last simulated time seen, its header as it came."""
+        stamp = 0 if entry.type in UNSTAMPED else header_stamp(cdr)
+        if entry.name in LIVE_LOAD or entry.name == "load/truth":
+            stamp = self._simulated_ns
+        elif entry.name in SIMULATED:
+            self._simulated_ns = max(self._simulated_ns, stamp)
+        if entry.name == TEMPERATURE:
+            self._parts.add(frame_bytes(cdr))
+        last = self.last_ns.get(entry.name, 0)
+        if entry.name == "load/blocks" and stamp < last:
+            stamp = last  # the empty block that ends the stream carries no time
+        self.last_ns[entry.name] = stamp
+        first = self._first_ns.get(entry.name, stamp)
+        self._first_ns[entry.name] = min(first, stamp)
+        self._writer.add(entry.name, stamp, cdr)
+        self.loss.count_message(entry, cdr)
+
+    def flush_if_due(self) -> None:
+        """Bring what has come to the operating system; also needed when nothing comes any more."""
+        self._writer.flush_if_due()
+
+    def close(self, status: str) -> None:
+        """Finish the file; `status` is empty when the run ended as asked."""
+        self._writer.close(status)
+
+    @property
+    def message_count(self) -> int:
+        """Messages written so far."""
+        return self._writer.message_count
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """Messages written so far by name in the topic table."""
+        return self._writer.counts
+
+    def missing(self) -> list[MissingMessages] | None:
+        """List the topics that the twin has published more of; ``None`` when it has had no last word."""
+        published = published_counts(self.last_word, self._namespace) if self.last_word else {}
+        return missing_messages(published, self.counts, self.before()) if published else None
+
+    def before(self) -> dict[str, int]:
+        """Count the messages of the run that were published before the recorder was there, by topic."""
+        return published_before(self._first_ns, len(self._parts))
+
+    @property
+    def begin_s(self) -> float:
+        """Simulated time from which on every topic is recorded, 0 when the whole run is, [s]."""
+        if not self.before():
+            return 0.0
+        return max(self._first_ns[name] for name in BLOCKS if name in self._first_ns) * 1e-9
+
+
+def run_id_of(truth: str) -> str:
+    """Run id in the content of ``truth``; '' when it has none."""
+    return str(parsed_truth(truth).get("run_id", ""))
+
+
+def parsed_truth(truth: str) -> dict[str, object]:
+    """Read the content of ``truth`` as an object; empty when it is none."""
+    try:
+        return read_object(truth)
+    except InputError:
+        return {}
