@@ -14,7 +14,7 @@ CUP, POCKET = CONTACT_KINDS.index("cup"), CONTACT_KINDS.index("pocket")
 
 
 def watched(contacts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Load of each contact at the snapshots and its largest one since the snapshot before, pockets left out."""
+    """Load of each contact but the pocket at the snapshots, and its largest since the snapshot before."""
     loads = np.linalg.norm(contacts[..., :POCKET, 3:6], axis=-1)
     return loads, contacts[..., :POCKET, LARGEST]
 
