@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.config import load_bearing
 from beardyn_core.record.messages import decode_diagnostics
 from beardyn_core.study.monitored_recording import Finding
 from test.ros.graph import Graph
@@ -34,6 +38,25 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
     assert abs(last.deviation) < 0.01
     assert last.signal_to_background > 10.0
     assert statuses[0].value("verdict") == "waiting"
+
+
+def test_a_fault_heard_with_the_data_of_another_bearing_is_unexplained_on_the_topic(graph: Graph) -> None:
+    graph.listen("monitor/result")
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("monitor", bearing="FR130x230x150")
+    graph.until(
+        lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
+        "the monitor's connection",
+    )
+    graph.fake_load(duration=3.0)
+    assert graph.exit_code("monitor") == 0
+    status = decode_diagnostics(graph.messages["monitor/result"][-1])[1][0]
+    last = Finding.from_diagnostic(status)
+    assert last is not None
+    assert (status.value("final"), last.verdict, status.level) == ("true", "unexplained", 1)
+    orders = fault_frequencies(load_bearing("HS130x230"))
+    assert last.comb_order == pytest.approx(orders.bpfo, rel=0.01)
+    assert "HS130x230" in last.reason
 
 
 def test_algorithm_of_ones_own_takes_the_place_of_the_chain(graph: Graph) -> None:

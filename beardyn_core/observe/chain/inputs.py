@@ -154,6 +154,7 @@ class MonitorSettings:
         "and what those of a comb that no part explains at any speed must make, for it may come from a "
         "bearing next to this one, [-]",
     ] = 1.0
+    foreign_sharpest: A[float, "or what they must make in one of `strike_bands`, [-]"] = 1.5
     clockwork_depth: A[
         float, "line over the mean power from which the signal is heard as measured, too, [-]"
     ] = 0.25
