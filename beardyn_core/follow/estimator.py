@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from math import sqrt
+from math import inf, isfinite, nan
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any
@@ -18,6 +18,7 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.familiarity import Familiarity
 from beardyn_core.follow.forest import Forest
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way
 from beardyn_core.follow.part import PartEstimate, PartRule
@@ -26,7 +27,7 @@ from beardyn_core.follow.regression import Regression
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
-VERSION = 2
+VERSION = 3
 # of each way to a number: its arrays, and its numbers
 _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[str, ...]]] = {
     "kernel": (
@@ -39,7 +40,14 @@ _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[
 _PART = ("slope", "offset", "least")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
-_FAR = 4.0  # standard deviations: an expected share of 1e-4 of runs like those learnt from
+_AT_EDGE = 0.97  # of the largest value learnt from: what reaches it may be any larger one
+UNLIKE = (
+    "the signal is unlike all that was learnt from (strangeness {:.1f}, familiar up to 1): another box, "
+    "sensor place or track"
+)
+ELSEWHERE = f"not reported: {UNLIKE}"
+_UNUSUAL = "not reported: the passages are unlike those learnt from (strangeness {:.1f}, familiar up to 1)"
+_FAMILIAR = ("columns", "directions", "sizes")
 
 
 @dataclass(frozen=True)
@@ -52,7 +60,10 @@ class Estimate:
         tuple[tuple[float, float], ...],
         "of 50 and of 90 %, SI; of the runs learnt from",
     ]
-    reason: A[str, "why nothing can be said; empty"] = ""
+    reason: A[str, "why nothing can be said, or no more than `at_least`; empty"] = ""
+    at_least: A[
+        float, "lower end of the last interval, where the upper end is beyond what was learnt from"
+    ] = nan
 
     @property
     def sentence(self) -> str:
@@ -72,7 +83,7 @@ class Estimates:
 
     part: A[PartEstimate | None, "condition of the bearing; none where the estimator learnt one alone"]
     quantities: A[tuple[Estimate, ...], "in the order in which they are told"]
-    strangeness: A[float, "distance from the runs learnt from, 1 where hardly one of them lies, [-]"]
+    strangeness: A[float, "distance from the runs learnt from, 1 where one in twenty lies farther away, [-]"]
     stretches: A[int, "of the signal that were heard"]
     shaft_frequency: A[float, "middle of the stretches, [Hz]"]
 
@@ -82,10 +93,7 @@ class Estimates:
         lines = [] if self.part is None else [self.part.sentence]
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
-            lines.append(
-                f"the signal is unlike all that was learnt from, {self.strangeness:.1f} times as far "
-                "as those hardly are: intervals do not hold"
-            )
+            lines.append(f"{UNLIKE.format(self.strangeness)}; what depends on levels is not reported")
         return lines
 
     def __getitem__(self, name: str) -> Estimate:
@@ -103,9 +111,8 @@ class Estimator:
     stretch: A[float, "length of signal that it hears at once, [s]"]
     middle: A[Float, "shape [descriptor], mean of those learnt from"]
     spread: A[Float, "shape [descriptor], their standard deviation"]
-    usual: A[Float, "shape [direction, descriptor]: principal directions of standardised descriptors"]
-    sizes: A[Float, "shape [direction], standard deviation along each"]
-    farthest: A[float, "distance from the middle that a run learnt from hardly has, [-]"]
+    box: A[Familiarity, "of the levels of bands, which tell another box or sensor place"]
+    passages: A[Familiarity, "of what repeats with the passages of a fault, on spalled bearings"]
     regressions: A[Mapping[str, Learnt], "by quantity"]
     part: A[PartRule | None, "which part is spalled; none where one condition alone was learnt"]
     card: A[Mapping[str, Any], "set, counts, errors on bearings not learnt from, versions"]
@@ -120,9 +127,8 @@ class Estimator:
         return np.nan_to_num((descriptors - self.middle) / self.spread, nan=0.0, posinf=0.0, neginf=0.0)
 
     def strangeness(self, descriptors: Float) -> Float:
-        """Say how far runs lie from those learnt from, shape [run], 1 where hardly one of those did."""
-        along = self.standardised(descriptors) @ self.usual.T / self.sizes
-        return np.asarray(np.sqrt((along**2).mean(axis=1)) / self.farthest, np.float64)
+        """Compute how far runs lie from those learnt from, shape [run]; one in twenty exceeds 1."""
+        return self.box.distance(self.standardised(descriptors))
 
     def estimates(self, descriptors: Float) -> Estimates:
         """Estimate from stretches of one run, shape [stretch, descriptor].
@@ -134,15 +140,17 @@ class Estimator:
         part = None if self.part is None else self.part.estimate(standard)
         known = [BY_NAME[name] for name in BY_NAME if name in self.card["quantities"]]
         spalled = part is None or part.condition != HEALTHY
+        strange = float(np.median(self.strangeness(descriptors)))
+        unusual = float(np.median(self.passages.distance(standard)))
         return Estimates(
             part,
             tuple(
                 _silent(each, "no part is called spalled")
                 if each.of_fault and not spalled
-                else self._estimate(each, standard)
+                else self._estimate(each, standard, strange, unusual)
                 for each in known
             ),
-            float(np.median(self.strangeness(descriptors))),
+            strange,
             len(descriptors),
             float(np.median(10.0 ** descriptors[:, names_of(self.axes).index("shaft")])),
         )
@@ -157,10 +165,19 @@ class Estimator:
             tuple((low, high) for low, high in known["ranges"]),
         )
 
-    def _estimate(self, quantity: Quantity, standard: Float) -> Estimate:
+    def ends_of(self, quantity: Quantity) -> tuple[float, float]:
+        """Give the least and the largest value that was learnt from, SI."""
+        low, high = self.card["quantities"][quantity.name].get("ends", (-inf, inf))
+        return low, high
+
+    def _estimate(self, quantity: Quantity, standard: Float, strange: float, unusual: float) -> Estimate:
         if quantity.name not in self.regressions:
             return self.unidentified(quantity)
         known = self.card["quantities"][quantity.name]
+        far, reason = (unusual, _UNUSUAL) if quantity.of_passages else (strange, ELSEWHERE)
+        if far > 1.0:
+            ranges = tuple((low, high) for low, high in known["ranges"])
+            return _silent(quantity, reason.format(far), ranges)
         guess = self.regressions[quantity.name].guess(standard)
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
@@ -169,11 +186,14 @@ class Estimator:
         intervals = tuple((float(first), float(last)) for first, last in ends)
         if 2.0 * half[-1] >= AS_WIDE * (high - low):
             return Estimate(quantity, float("nan"), intervals, _BLURRED)
-        return Estimate(quantity, float(quantity.restored(np.array(middle))), intervals)
+        value = float(quantity.restored(np.array(middle)))
+        return within_learnt(quantity, value, intervals, self.ends_of(quantity))
 
     def save(self, path: Path, *, replace: bool = True) -> None:
         """Write the estimator as an NPZ file, whole or not at all."""
-        arrays = {f"{name}_": getattr(self, name) for name in ("middle", "spread", "usual", "sizes")}
+        arrays = {f"{name}_": getattr(self, name) for name in ("middle", "spread")}
+        for name in ("box", "passages"):
+            arrays |= {f"{name}.{part}": getattr(getattr(self, name), part) for part in _FAMILIAR}
         kinds = {name: [_kind_of(way) for way in each.ways] for name, each in self.regressions.items()}
         for name, each in self.regressions.items():
             arrays[f"{name}.reach"] = each.reach
@@ -193,7 +213,10 @@ class Estimator:
             "axes": self.axes,
             "rate": self.rate,
             "stretch": self.stretch,
-            "farthest": self.farthest,
+            "familiar": {
+                name: [getattr(self, name).outside, getattr(self, name).farthest]
+                for name in ("box", "passages")
+            },
             "quantities": kinds,
             "conditions": () if self.part is None else self.part.conditions,
             "card": dict(self.card),
@@ -204,6 +227,26 @@ class Estimator:
         }
         with as_a_whole(path, replace=replace) as fresh, fresh.open("wb") as file:
             np.savez_compressed(file, head=np.array(json.dumps(head)), **stored)  # type: ignore[arg-type]
+
+
+def within_learnt(
+    quantity: Quantity,
+    value: float,
+    intervals: tuple[tuple[float, float], ...],
+    ends: tuple[float, float],
+) -> Estimate:
+    """Give an estimate, or the least value alone where its interval reaches the end of what was learnt from.
+
+    What lies beyond that end looks like the end: an estimate cannot tell them apart.
+    """
+    low, high = intervals[-1]
+    if not (quantity.of_fault and isfinite(ends[1]) and high >= _AT_EDGE * ends[1]):
+        return Estimate(quantity, value, intervals)
+    reason = (
+        f"at least {quantity.text(low)}: the interval reaches {quantity.text(ends[1])}, the largest value "
+        "learnt from"
+    )
+    return Estimate(quantity, nan, intervals, reason, low)
 
 
 def _silent(quantity: Quantity, reason: str, ranges: tuple[tuple[float, float], ...] = ()) -> Estimate:
@@ -230,8 +273,11 @@ def read_estimator(path: Path) -> Estimator:
             name: values if values.dtype.kind == "i" else np.asarray(values, np.float64)
             for name, values in stored.items()
         }
-        kept: dict[str, Any] = {name: head[name] for name in ("rate", "stretch", "farthest", "card")}
-        kept |= {name: numbers[f"{name}_"] for name in ("middle", "spread", "usual", "sizes")}
+        kept: dict[str, Any] = {name: head[name] for name in ("rate", "stretch", "card")}
+        kept |= {name: numbers[f"{name}_"] for name in ("middle", "spread")}
+        for name in ("box", "passages"):
+            parts = [numbers[f"{name}.{part}"] for part in _FAMILIAR]
+            kept[name] = Familiarity(*parts, *head["familiar"][name])
         found = Estimator(
             plate=NamePlate(**head["plate"]),
             axes=tuple(head["axes"]),
@@ -268,9 +314,3 @@ def _way(stored: Mapping[str, Any], name: str, kind: str) -> Way:
     learns, parts, numbers = _KINDS[kind]
     given: dict[str, Any] = {part: stored[f"{name}.{part}"] for part in parts}
     return learns(**given, **dict(zip(numbers, stored[f"{name}.numbers"].tolist(), strict=True)))
-
-
-def farthest_of(along: Float) -> float:
-    """Find the distance that a run learnt from hardly has; `along` in standard deviations of each."""
-    distance = np.sqrt((along**2).mean(axis=1))
-    return float(distance.mean() + _FAR * distance.std()) or sqrt(along.shape[1])

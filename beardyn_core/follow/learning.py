@@ -12,14 +12,16 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow.descriptors import names_of
-from beardyn_core.follow.estimator import Estimator, farthest_of
+from beardyn_core.follow.descriptors import names_of, places_of
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.familiarity import familiarity_of
 from beardyn_core.follow.forest import Forest, forest_of
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
+from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.optional import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
@@ -29,10 +31,9 @@ _FOLDS = 5
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
 _DOUBT_RIDGE = 3.0
 _TREES, _LEAST_RUNS = 60, 2  # of a forest, and at each end of a tree
+_ASKED = 0.33  # share of the descriptors among which each question of a tree is chosen
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way_")  # descriptors that tell the parts apart
-_LEVELS_OF_BANDS = ("band", "fine")  # descriptors that a forest is not asked to sort through
-_USUAL = 20  # principal directions that strangeness looks along
 
 
 class Judged(NamedTuple):
@@ -57,24 +58,27 @@ def trained(
         middle, spread = np.nanmean(descriptors, axis=0), np.nanstd(descriptors, axis=0)
     middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
     standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
-    sizes, usual = _principal(standard)
     found, card = {}, {}
     for quantity in QUANTITIES:
         values, inside = known(quantity, train)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
-        best = _learnt(quantity, standard[inside], values[inside], bearings, names_of(axes))
+        best = _learnt(quantity, standard[inside], values[inside], bearings, axes)
         explained = 1.0 - best.square / float(np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
         ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
+        reached = quantity.restored(np.quantile(values[inside], [0.0, 1.0])).tolist()
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
-                               "shared": shared_of(best.errors, bearings)}  # fmt: skip
+                               "shared": shared_of(best.errors, bearings),
+                               "ends": reached}  # fmt: skip
         if explained >= LEAST_EXPLAINED:
             found[quantity.name] = Learnt(best.ways, np.ones(len(LEVELS)))
-    farthest = farthest_of(standard @ usual.T / sizes)
+    spalled = train.conditions != HEALTHY
+    box = familiarity_of(standard, places_of(axes, "box"))
+    passages = familiarity_of(standard[spalled] if spalled.any() else standard, places_of(axes, "passages"))
     return Estimator(
-        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, found,
+        plate, axes, rate, stretch, middle, spread, box, passages, found,
         _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
     )  # fmt: skip
 
@@ -103,7 +107,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
             if straightened:
                 best = _straightened(best, given, values[inside])
         if straightened:
-            truer = (standard[inside], values[inside], runs.bearings[inside], names_of(estimator.axes))
+            truer = (standard[inside], values[inside], runs.bearings[inside], estimator.axes)
             best = _truer(best, quantity, *truer)
             variance = float(np.var(values[inside]))
             explained = 0.0 if best is None or not variance else 1.0 - best.square / variance
@@ -118,7 +122,15 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         places = [part.conditions.index(each) for each in runs.conditions[inside]]
         truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
         part = replace(part, least=least_of(truth))
-    return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
+    spalled = runs.conditions != HEALTHY
+    return replace(
+        estimator,
+        regressions=found,
+        part=part,
+        box=estimator.box.bounded(standard) if len(standard) else estimator.box,
+        passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
+        card={**estimator.card, "quantities": card},
+    )
 
 
 def _truer(
@@ -127,12 +139,12 @@ def _truer(
     standard: Float,
     values: Float,
     bearings: NDArray[Any],
-    names: tuple[str, ...],
+    axes: tuple[str, ...],
 ) -> Judged | None:
     """Learn a number from runs of a truer tier alone; that, what is there, or their mean, as errs least."""
     if len(values) < FEWEST or len(set(bearings.tolist())) < 2 or np.ptp(values) < 1e-12:
         return best
-    alone = _learnt(quantity, standard, values, bearings, names)
+    alone = _learnt(quantity, standard, values, bearings, axes)
     if best is None:
         return alone
     errors, expected = 0.5 * (alone.errors + best.errors), 0.5 * (alone.expected + best.expected)
@@ -155,13 +167,6 @@ def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]
     return values, np.isfinite(values)
 
 
-def _principal(standard: Float) -> tuple[Float, Float]:
-    """Find the directions in which runs differ most, shape [direction, descriptor], and their spreads."""
-    _, size, turn = np.linalg.svd(standard - standard.mean(axis=0), full_matrices=False)
-    count = min(_USUAL, int(np.count_nonzero(size > 1e-6 * size[0])))
-    return size[:count] / np.sqrt(len(standard)), turn[:count]
-
-
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
     """Find the share of the errors' variance that runs of one bearing and box have in common, 0 to 1.
 
@@ -175,18 +180,24 @@ def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
 
 
 def _learnt(
-    quantity: Quantity, standard: Float, values: Float, bearings: NDArray[Any], names: tuple[str, ...]
+    quantity: Quantity, standard: Float, values: Float, bearings: NDArray[Any], axes: tuple[str, ...]
 ) -> Judged:
-    """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken."""
+    """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken.
+
+    A number of the passages is learnt from descriptors without a level; a load, from all but the profile of
+    the passages.
+    """
     library("sklearn.cross_decomposition", "training", "sweep")
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
-    by_kernel = _by_kernel(standard, values, folds)
+    columns = places_of(axes, "shape" if quantity.of_passages else "levels")
+    shown = np.zeros_like(standard)
+    shown[:, columns] = standard[:, columns]
+    by_kernel = _by_kernel(shown, values, folds)
     if not quantity.of_fault:
         return by_kernel
-    columns = np.array([k for k, name in enumerate(names) if not name.startswith(_LEVELS_OF_BANDS)])
-    by_trees = _by_trees(standard, values, folds, columns)
+    by_trees = _by_trees(standard, values, folds, places_of(axes, "shape"))
     return by_trees if by_trees.square < by_kernel.square else by_kernel
 
 
@@ -208,7 +219,7 @@ def _grown(standard: Float, values: Float, columns: NDArray[np.int64]) -> Forest
     """Grow a forest."""
     from sklearn.ensemble import ExtraTreesRegressor
 
-    trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=1.0, random_state=0)
+    trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=_ASKED, random_state=0)
     return forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
 
 

@@ -53,6 +53,17 @@ def test_width_follows_from_entry_and_exit(fault, width):
     )
 
 
+@pytest.mark.parametrize("width", [20e-3, 24e-3, 28e-3, 30e-3, 33e-3, 36e-3])
+def test_a_wide_spall_is_never_measured_as_a_narrow_one(width):
+    # its exit is followed by the entry of the next roller, as near as the entry of a narrow one lies before
+    signal, angle, order = _passages("cup", width)
+    found = severity_of(signal, RATE, angle, "cup", order, PLATE)
+    assert found.grade == NOT_MEASURABLE
+    assert not found.low > width
+    if np.isfinite(found.low):
+        assert "at least" in found.reason
+
+
 def test_one_event_noise_and_rollers_are_not_measurable():
     signal, angle, order = _passages("cup", None)
     assert severity_of(signal, RATE, angle, "cup", order, PLATE).grade == NOT_MEASURABLE

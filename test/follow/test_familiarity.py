@@ -1,0 +1,61 @@
+"""Another box or sensor place is recognised, and its numbers are not reported."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from beardyn_core.follow.descriptors import AXES, places_of
+from beardyn_core.follow.estimator import Estimator
+from test.follow.synthetic import drawn, taught
+
+FOUR_SIGMA = 4.0
+
+
+@pytest.fixture(scope="module")
+def estimator() -> Estimator:
+    return taught(drawn(200, 2))
+
+
+def test_one_in_twenty_runs_of_the_kind_learnt_from_is_strange(estimator: Estimator) -> None:
+    share = float(np.mean(estimator.strangeness(drawn(400, 3).descriptors) > 1.0))
+    assert abs(share - 0.05) < FOUR_SIGMA * np.sqrt(0.05 * 0.95 * (1 / 400 + 1 / 200))
+
+
+def test_box_that_shifts_many_levels_gives_no_load_and_says_why(estimator: Estimator) -> None:
+    rows = drawn(20, 4).descriptors
+    levels = places_of(AXES, "box")
+    rows[:, levels] += np.random.default_rng(5).normal(
+        0.0, 3.0, len(levels)
+    )  # each band by some of its spread
+    for row in rows:
+        found = estimator.estimates(row[None])
+        assert found.strangeness > 1.0
+        assert np.isnan(found["vertical_load"].value)
+        assert np.isnan(found["end_play"].value)
+        assert "another box, sensor place or track" in found["vertical_load"].reason
+        assert "another box, sensor place or track" in found.sentences[-1]
+
+
+def test_passages_unlike_those_learnt_from_give_no_width(estimator: Estimator) -> None:
+    runs = drawn(60, 6)
+    rows = runs.descriptors[runs.conditions == "cup"]
+    shape = places_of(AXES, "passages")
+    rows[:, shape] += np.random.default_rng(7).normal(0.0, 3.0, len(shape))
+    found = [estimator.estimates(row[None])["width"] for row in rows]
+    assert all(np.isnan(each.value) and np.isnan(each.at_least) for each in found)
+    assert any("passages are unlike" in each.reason for each in found)
+
+
+def test_width_at_the_edge_of_what_was_learnt_is_a_least_width(estimator: Estimator) -> None:
+    runs = drawn(400, 8)
+    wide = runs.truth["width"] > 15.5e-3  # learnt up to 16 mm
+    assert wide.sum() > 3
+    for row in runs.descriptors[wide]:
+        found = estimator.estimates(row[None])
+        width = found["width"]
+        if found.part is None or found.part.condition == "healthy" or "unlike" in width.reason:
+            continue
+        assert np.isnan(width.value)
+        assert 5e-3 < width.at_least < 16e-3
+        assert "at least" in width.sentence
