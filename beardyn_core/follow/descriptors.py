@@ -32,16 +32,18 @@ _OF_PASSAGES = (*passages.NAMES, *passage_profile.NAMES)
 
 
 def places_of(axes: tuple[str, ...], family: str) -> Int:
-    """List the places of descriptors of a family, ``box``, ``passages``, ``shape`` or ``levels``.
+    """List the places of descriptors of a family.
 
     ``box`` are levels of bands; ``passages`` is what repeats with the passages of a fault; ``shape`` is
-    everything that has no level in it, so that a box changes it little; ``levels`` is all but the passages.
+    everything that has no level in it, so that a box changes it little; ``levels`` is all but the profile of
+    the passages; ``order of events`` is what knows before from after.
     """
     wanted = {
         "box": lambda name: name.startswith(LEVELS_OF_BOX),
         "passages": lambda name: name in _OF_PASSAGES,
         "shape": lambda name: not name.startswith((*LEVELS_OF_BOX, *_LINES_OF_BOX)),
         "levels": lambda name: name not in passage_profile.NAMES,
+        "order of events": lambda name: name.startswith(("profile_", "crossed_", "louder")),
     }[family]
     return np.array([k for k, name in enumerate(names_of(axes)) if wanted(name)], np.int64)
 

@@ -12,6 +12,7 @@ from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
@@ -24,6 +25,7 @@ from beardyn_core.follow.learnt import LEVELS, Learnt, Way
 from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
+from beardyn_core.follow.wide_spall import WideRule
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
@@ -40,7 +42,7 @@ _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[
 _PART = ("slope", "offset", "least")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
-_AT_EDGE = 0.97  # of the largest value learnt from: what reaches it may be any larger one
+AT_EDGE = 0.97  # of the largest value learnt from: what reaches it may be any larger one
 UNLIKE = (
     "the signal is unlike all that was learnt from (strangeness {:.1f}, familiar up to 1): another box, "
     "sensor place or track"
@@ -93,7 +95,7 @@ class Estimates:
         lines = [] if self.part is None else [self.part.sentence]
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
-            lines.append(f"{UNLIKE.format(self.strangeness)}; what depends on levels is not reported")
+            lines.append(f"{UNLIKE.format(self.strangeness)}; no numbers are reported")
         return lines
 
     def __getitem__(self, name: str) -> Estimate:
@@ -115,6 +117,7 @@ class Estimator:
     passages: A[Familiarity, "of what repeats with the passages of a fault, on spalled bearings"]
     regressions: A[Mapping[str, Learnt], "by quantity"]
     part: A[PartRule | None, "which part is spalled; none where one condition alone was learnt"]
+    wide: A[WideRule | None, "whether a spall is wide; none where no wide ones were learnt"]
     card: A[Mapping[str, Any], "set, counts, errors on bearings not learnt from, versions"]
 
     @property
@@ -170,11 +173,42 @@ class Estimator:
         low, high = self.card["quantities"][quantity.name].get("ends", (-inf, inf))
         return low, high
 
+    def reports(self, quantity: Quantity, standard: Float) -> NDArray[np.bool_]:
+        """Tell of which runs, shape [run], the number of a quantity is reported."""
+        reported = self.box.distance(standard) <= 1.0
+        if quantity.of_passages:
+            reported &= self.passages.distance(standard) <= 1.0
+            if self.wide is not None:
+                reported &= self.wide.chance(standard) <= self.wide.narrow
+            high = quantity.restored(self.regressions[quantity.name].guess(standard).high[-1])
+            reported &= high < AT_EDGE * self.ends_of(quantity)[1]
+        return np.asarray(reported)
+
+    def _wide(
+        self, quantity: Quantity, standard: Float, value: float, interval: tuple[float, float]
+    ) -> Estimate | None:
+        """Give the least width of a spall that is or can be wide; value and interval, SI, if it is narrow."""
+        if self.wide is None or not quantity.of_passages:
+            return None
+        chance = float(np.median(self.wide.chance(standard)))
+        if chance <= self.wide.narrow:
+            return None
+        half = quantity.text(self.wide.half)
+        low, why = self.wide.least, f"wider than {half}, half of the distance of two rollers, or nearly so"
+        if chance <= self.wide.wide:
+            low = min(interval[0], self.wide.least)
+            narrow = f"{quantity.text(value)}, {quantity.text(interval[0])} to {quantity.text(interval[1])}"
+            why = f"either {narrow}, or wider than {half}, which looks alike"
+        ends = ((low, self.ends_of(quantity)[1]),) * len(LEVELS)
+        return Estimate(quantity, nan, ends, f"at least {quantity.text(low)}: {why}", low)
+
     def _estimate(self, quantity: Quantity, standard: Float, strange: float, unusual: float) -> Estimate:
         if quantity.name not in self.regressions:
             return self.unidentified(quantity)
         known = self.card["quantities"][quantity.name]
-        far, reason = (unusual, _UNUSUAL) if quantity.of_passages else (strange, ELSEWHERE)
+        far, reason = strange, ELSEWHERE
+        if quantity.of_passages and strange <= 1.0:
+            far, reason = unusual, _UNUSUAL
         if far > 1.0:
             ranges = tuple((low, high) for low, high in known["ranges"])
             return _silent(quantity, reason.format(far), ranges)
@@ -184,9 +218,11 @@ class Estimator:
         low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
         ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
         intervals = tuple((float(first), float(last)) for first, last in ends)
+        value = float(quantity.restored(np.array(middle)))
+        if (wide := self._wide(quantity, standard, value, intervals[-1])) is not None:
+            return wide
         if 2.0 * half[-1] >= AS_WIDE * (high - low):
             return Estimate(quantity, float("nan"), intervals, _BLURRED)
-        value = float(quantity.restored(np.array(middle)))
         return within_learnt(quantity, value, intervals, self.ends_of(quantity))
 
     def save(self, path: Path, *, replace: bool = True) -> None:
@@ -201,6 +237,10 @@ class Estimator:
                 _, parts, numbers = _KINDS[kinds[name][k]]
                 arrays |= {f"{name}.{k}.{part}": getattr(way, part) for part in parts}
                 arrays[f"{name}.{k}.numbers"] = np.array([getattr(way, part) for part in numbers])
+        if self.wide is not None:
+            _, parts, numbers = _KINDS["kernel"]
+            arrays |= {f"wide.{part}": getattr(self.wide.regression, part) for part in parts}
+            arrays["wide.numbers"] = np.array([getattr(self.wide.regression, part) for part in numbers])
         if self.part is not None:
             arrays |= {f"part.{name}": getattr(self.part, name) for name in _PART}
         head = {
@@ -217,6 +257,7 @@ class Estimator:
                 name: [getattr(self, name).outside, getattr(self, name).farthest]
                 for name in ("box", "passages")
             },
+            "wide": None if self.wide is None else [self.wide.half, self.wide.narrow, self.wide.wide],
             "quantities": kinds,
             "conditions": () if self.part is None else self.part.conditions,
             "card": dict(self.card),
@@ -240,7 +281,7 @@ def within_learnt(
     What lies beyond that end looks like the end: an estimate cannot tell them apart.
     """
     low, high = intervals[-1]
-    if not (quantity.of_fault and isfinite(ends[1]) and high >= _AT_EDGE * ends[1]):
+    if not (quantity.of_passages and isfinite(ends[1]) and high >= AT_EDGE * ends[1]):
         return Estimate(quantity, value, intervals)
     reason = (
         f"at least {quantity.text(low)}: the interval reaches {quantity.text(ends[1])}, the largest value "
@@ -282,6 +323,7 @@ def read_estimator(path: Path) -> Estimator:
             plate=NamePlate(**head["plate"]),
             axes=tuple(head["axes"]),
             **kept,
+            wide=_wide_rule(numbers, head["wide"]),
             regressions={name: _learnt(numbers, name, kinds) for name, kinds in head["quantities"].items()},
             part=PartRule(tuple(head["conditions"]), *(numbers[f"part.{name}"] for name in _PART))
             if head["conditions"]
@@ -308,6 +350,14 @@ def _kind_of(way: Way) -> str:
 def _learnt(stored: Mapping[str, Any], name: str, kinds: Sequence[str]) -> Learnt:
     ways = tuple(_way(stored, f"{name}.{k}", kind) for k, kind in enumerate(kinds))
     return Learnt(ways, stored[f"{name}.reach"])
+
+
+def _wide_rule(stored: Mapping[str, Any], limits: Sequence[float] | None) -> WideRule | None:
+    if limits is None:
+        return None
+    regression = _way(stored, "wide", "kernel")
+    assert isinstance(regression, Regression)
+    return WideRule(regression, *limits)
 
 
 def _way(stored: Mapping[str, Any], name: str, kind: str) -> Way:

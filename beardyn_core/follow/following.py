@@ -201,7 +201,9 @@ class Follower:
 
     def _correct(self, heard: Estimates) -> tuple[str, ...]:
         """Correct the belief by what a stretch says; gives the numbers that have made a step."""
-        told = [k for k, name in enumerate(self.names) if _is_told(heard[name]) and self._fits(heard, name)]
+        told = [
+            k for k, name in enumerate(self.names) if isfinite(heard[name].value) and self._fits(heard, name)
+        ]
         if not told:
             return ()
         count = len(self.names)
@@ -211,7 +213,7 @@ class Follower:
             each = heard[self.names[k]]
             low, high = each.quantity.scaled(np.array(each.intervals[-1]))
             whole = ((high - low) / (2.0 * NORMAL_90) * max(heard.strangeness, 1.0)) ** 2
-            observed.append(0.5 * float(low + high))  # of a number that is at least so large, too
+            observed.append(float(each.quantity.scaled(np.array(each.value))))
             variance.append(max(whole - self._common[k], _LEAST_OWN * whole))
         seen, errors = np.array(observed), np.array(variance)
         ready = corrected(self.belief, rows, seen, errors)
@@ -257,7 +259,11 @@ class Follower:
             heard,
             part=part,
             stretches=self.stretches,
-            quantities=tuple(self._estimate(each.quantity) for each in heard.quantities),
+            quantities=tuple(
+                # a least width stands for itself: the belief may be the narrow one of two that look alike
+                each if isfinite(each.at_least) and self._spalled else self._estimate(each.quantity)
+                for each in heard.quantities
+            ),
         )
 
     def _estimate(self, quantity: Quantity) -> Estimate:
@@ -265,7 +271,7 @@ class Follower:
             return Estimate(quantity, np.nan, (), "no part is called spalled")
         if quantity.name not in self.names:
             return self.estimator.unidentified(quantity)
-        if self._strangeness > 1.0 and not quantity.of_passages:
+        if self._strangeness > 1.0:
             return Estimate(quantity, np.nan, (), ELSEWHERE.format(self._strangeness))
         k = self.names.index(quantity.name)
         middle, spread = self.belief.mean[k], self.belief.deviation[k]
@@ -301,8 +307,3 @@ class Follower:
         if doubts:
             return UNEXPLAINED
         return SOUND if known.part is None or known.part.condition == HEALTHY else SPALLED
-
-
-def _is_told(estimate: Estimate) -> bool:
-    """Tell whether a stretch says something of a number: its value, or the least that it is."""
-    return isfinite(estimate.value) or isfinite(estimate.at_least)

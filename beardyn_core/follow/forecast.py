@@ -77,7 +77,9 @@ class Forecast:
                 f"{high} km in 90 of 100; {when}"
             )
         elif self.condition != HEALTHY:
-            lines.append(f"spall of the {self.condition}: its width is not known, so no mileage is given")
+            lines.append(
+                f"spall of the {self.condition}: how wide it can be is not known, so no mileage is given"
+            )
         if isfinite(self.life):
             lines.append(
                 f"rating life at {1e-3 * self.equivalent_load:.1f} kN: {self.life / 1e9:.2f} million km (ISO "
@@ -136,7 +138,7 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     """Draw mileages until the spall is too wide, and give their quantiles, [m]."""
     width = _estimate(found, "width")
     length = _estimate(found, "length")
-    if width is not None and (isfinite(width.at_least) or _can_be_wide(width)):
+    if width is not None and _must_come_out(width):
         return _NOTHING
     if width is None or not isfinite(width.value) or length is None or not length.intervals:
         return nan, nan, nan
@@ -148,8 +150,10 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     return low, middle, high
 
 
-def _can_be_wide(width: Estimate) -> bool:
-    return isfinite(width.value) and width.intervals[-1][1] >= WIDEST_FORECAST
+def _must_come_out(width: Estimate) -> bool:
+    """Tell whether a width reaches the one from which no mileage is left, or is half of it at least."""
+    reaches = isfinite(width.value) and width.intervals[-1][1] >= WIDEST_FORECAST
+    return reaches or width.at_least >= 0.5 * WIDEST_FORECAST
 
 
 def _estimate(found: Estimates, name: str) -> Estimate | None:

@@ -94,11 +94,12 @@ def crosswise_parts(bearings: NDArray[Any], parts: int = CROSSWISE) -> Iterator[
 
 
 def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
-    """Guess every number of runs that have one, by quantity."""
+    """Guess every number of runs that have one and of which it is reported, by quantity."""
     standard = estimator.standardised(runs.descriptors)
     found = {}
     for name, each in estimator.regressions.items():
         values, inside = known(BY_NAME[name], runs)
+        inside = inside & estimator.reports(BY_NAME[name], standard)
         if inside.any():
             found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
     return found

@@ -21,6 +21,8 @@ from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
+from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND
+from beardyn_core.follow.wide_spall import LEARNT_SHARE, WideRule, half_distance
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.optional import library
 
@@ -32,6 +34,7 @@ _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0,
 _DOUBT_RIDGE = 3.0
 _TREES, _LEAST_RUNS = 60, 2  # of a forest, and at each end of a tree
 _ASKED = 0.33  # share of the descriptors among which each question of a tree is chosen
+_WIDE_SETTING = (40, 1.9, 0.3)  # directions, width of the kernel and ridge of the rule for wide spalls
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way_")  # descriptors that tell the parts apart
 
@@ -59,8 +62,11 @@ def trained(
     middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
     standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
     found, card = {}, {}
+    wide = _wide_rule(standard, train, plate, axes)
     for quantity in QUANTITIES:
         values, inside = known(quantity, train)
+        if wide is not None and quantity.of_passages:
+            inside = inside & _is_learnt(train.truth["width"], wide)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
@@ -79,7 +85,7 @@ def trained(
     passages = familiarity_of(standard[spalled] if spalled.any() else standard, places_of(axes, "passages"))
     return Estimator(
         plate, axes, rate, stretch, middle, spread, box, passages, found,
-        _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
+        _part_of(standard, train.conditions, names_of(axes)), wide, {"quantities": card},
     )  # fmt: skip
 
 
@@ -97,6 +103,8 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         if quantity.name not in card:
             continue
         values, inside = known(quantity, runs)
+        if estimator.wide is not None and quantity.of_passages:
+            inside = inside & _is_learnt(runs.truth["width"], estimator.wide)
         if not inside.any():  # nothing judges it, so nothing is told
             continue
         learnt = estimator.regressions.get(quantity.name)
@@ -165,6 +173,38 @@ def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]
     """Give the truth of a quantity on the scale of learning, and which runs have one."""
     values = quantity.scaled(runs.truth[quantity.name])
     return values, np.isfinite(values)
+
+
+def _is_learnt(widths: Float, wide: WideRule) -> NDArray[np.bool_]:
+    """Tell which spalls are narrow enough for the number of their width to be learnt."""
+    return np.asarray(np.nan_to_num(widths, nan=np.inf) <= LEARNT_SHARE * wide.half)
+
+
+def _wide_rule(standard: Float, runs: Described, plate: NamePlate, axes: tuple[str, ...]) -> WideRule | None:
+    """Learn which spalls are wide, and set what decides on bearings left out; `None` with few of a kind."""
+    library("sklearn.model_selection", "training", "sweep")
+    from sklearn.model_selection import GroupKFold
+
+    half, widths = half_distance(plate), runs.truth["width"]
+    spalled = np.isfinite(widths)
+    wide = (widths[spalled] > half) * 1.0
+    if min(wide.sum(), len(wide) - wide.sum()) < FEWEST_OF_KIND:
+        return None
+    shown, chances = standard[spalled], np.empty(len(wide))
+    directions = _principal(shown, places_of(axes, "order of events"))
+    for fit, rest in GroupKFold(_FOLDS).split(shown, wide, runs.bearings[spalled]):
+        learnt = _fitted(shown[fit], wide[fit], directions, _WIDE_SETTING)
+        chances[rest] = learnt.value(shown[rest])
+    rule = WideRule(_fitted(shown, wide, directions, _WIDE_SETTING), half)
+    return rule.decided(chances, widths[spalled])
+
+
+def _principal(standard: Float, columns: NDArray[np.int64]) -> Float:
+    """Find the directions of some descriptors in which runs differ most, shape [descriptor, direction]."""
+    _, _, turn = np.linalg.svd(standard[:, columns], full_matrices=False)
+    directions = np.zeros((standard.shape[1], min(_WIDE_SETTING[0], len(turn))))
+    directions[columns] = turn[: directions.shape[1]].T
+    return directions
 
 
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:

@@ -38,6 +38,7 @@ _STANDS_OUT = 4.0  # times the median of the cepstrum
 _CLEAR = 1.25  # times the next peak that is no multiple
 _MULTIPLE = 0.12  # within which a peak is twice another, relative
 _AROUND = 6  # steps of the profile around an event in which its power is looked for
+_RINGS = 2.0  # times the power before the loudest event that the one behind it has, else it is its ringing
 _SMOOTHED = 5  # steps of the profile that are averaged
 
 
@@ -218,7 +219,7 @@ def _follows(events: Events, share: float) -> bool:
     near = np.arange(-_AROUND, _AROUND + 1)
     near = near[np.abs(near) < step]  # not the loudest event itself
     before, after = (float(events.profile[(side * step + near) % _PROFILE].max()) for side in (-1, 1))
-    return after > before
+    return after > _RINGS * before  # the loudest event rings on behind it
 
 
 def _profile_of(envelope: Float, place: NDArray[np.int64]) -> Float:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from beardyn_core.follow.descriptors import AXES, places_of
-from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.estimator import Estimator, within_learnt
+from beardyn_core.follow.quantities import BY_NAME
 from test.follow.synthetic import drawn, taught
 
 FOUR_SIGMA = 4.0
@@ -47,15 +50,16 @@ def test_passages_unlike_those_learnt_from_give_no_width(estimator: Estimator) -
     assert any("passages are unlike" in each.reason for each in found)
 
 
-def test_width_at_the_edge_of_what_was_learnt_is_a_least_width(estimator: Estimator) -> None:
-    runs = drawn(400, 8)
-    wide = runs.truth["width"] > 15.5e-3  # learnt up to 16 mm
-    assert wide.sum() > 3
-    for row in runs.descriptors[wide]:
-        found = estimator.estimates(row[None])
-        width = found["width"]
-        if found.part is None or found.part.condition == "healthy" or "unlike" in width.reason:
-            continue
-        assert np.isnan(width.value)
-        assert 5e-3 < width.at_least < 16e-3
-        assert "at least" in width.sentence
+@given(value=st.floats(1e-3, 30e-3), factor=st.floats(1.01, 4.0), end=st.floats(5e-3, 40e-3))
+def test_width_whose_interval_reaches_the_largest_one_learnt_is_a_least_width(
+    value: float, factor: float, end: float
+) -> None:
+    intervals = ((value / factor**0.4, value * factor**0.4), (value / factor, value * factor))
+    found = within_learnt(BY_NAME["width"], value, intervals, (1e-3, end))
+    if value * factor >= end:
+        assert np.isnan(found.value)
+        assert found.at_least == value / factor
+        assert "at least" in found.sentence
+    if value * factor < 0.9 * end:
+        assert found.value == value
+        assert np.isnan(found.at_least)

@@ -72,11 +72,19 @@ def test_a_spall_that_can_be_20_mm_wide_has_no_mileage_left(width: float, widest
 
 
 def test_a_width_that_is_known_from_below_alone_has_no_mileage_left() -> None:
-    least = replace(known("width", 6e-3, 8e-3, 40e-3, "at least 6 mm"), at_least=6e-3)
+    least = replace(known("width", 6e-3, 8e-3, 40e-3, "at least 11 mm"), at_least=11e-3)
     others = tuple(each for each in found().quantities if each.quantity.name != "width")
     told = forecast(replace(found(), quantities=(*others, least)), BEARING, GREASE, SERVICE)
     assert told.remaining[0] < SOON
     assert "take it out now" in told.sentences[0]
+
+
+def test_a_spall_that_is_narrow_or_wide_has_no_mileage_and_is_not_called_out() -> None:
+    least = replace(known("width", 5e-3, 6e-3, 40e-3, "at least 5 mm"), at_least=5e-3)
+    others = tuple(each for each in found().quantities if each.quantity.name != "width")
+    told = forecast(replace(found(), quantities=(*others, least)), BEARING, GREASE, SERVICE)
+    assert isnan(told.remaining[0])
+    assert "no mileage is given" in told.sentences[0]
 
 
 def test_a_spall_of_unknown_width_is_said_to_have_no_forecast() -> None:
@@ -84,7 +92,7 @@ def test_a_spall_of_unknown_width_is_said_to_have_no_forecast() -> None:
     others = tuple(each for each in found().quantities if each.quantity.name != "width")
     told = forecast(replace(found(), quantities=(*others, blurred)), BEARING, GREASE, SERVICE)
     assert isnan(told.remaining[1])
-    assert "width is not known" in told.sentences[0]
+    assert "how wide it can be is not known" in told.sentences[0]
 
 
 def test_nine_of_ten_spalls_that_grow_by_the_law_come_to_the_width_within_the_interval() -> None:
