@@ -317,8 +317,9 @@ def read_estimator(path: Path) -> Estimator:
         kept: dict[str, Any] = {name: head[name] for name in ("rate", "stretch", "card")}
         kept |= {name: numbers[f"{name}_"] for name in ("middle", "spread")}
         for name in ("box", "passages"):
-            parts = [numbers[f"{name}.{part}"] for part in _FAMILIAR]
-            kept[name] = Familiarity(*parts, *head["familiar"][name])
+            outside, farthest = head["familiar"][name]
+            found_parts: dict[str, Any] = {part: numbers[f"{name}.{part}"] for part in _FAMILIAR}
+            kept[name] = Familiarity(**found_parts, outside=outside, farthest=farthest)
         found = Estimator(
             plate=NamePlate(**head["plate"]),
             axes=tuple(head["axes"]),

@@ -187,15 +187,16 @@ def _wide_rule(standard: Float, runs: Described, plate: NamePlate, axes: tuple[s
 
     half, widths = half_distance(plate), runs.truth["width"]
     spalled = np.isfinite(widths)
-    wide = (widths[spalled] > half) * 1.0
+    wide = np.asarray(widths[spalled] > half, np.float64)
     if min(wide.sum(), len(wide) - wide.sum()) < FEWEST_OF_KIND:
         return None
     shown, chances = standard[spalled], np.empty(len(wide))
+    clear = (widths[spalled] < half) | (widths[spalled] > LEARNT_SHARE * half)  # neither one nor the other
     directions = _principal(shown, places_of(axes, "order of events"))
     for fit, rest in GroupKFold(_FOLDS).split(shown, wide, runs.bearings[spalled]):
-        learnt = _fitted(shown[fit], wide[fit], directions, _WIDE_SETTING)
-        chances[rest] = learnt.value(shown[rest])
-    rule = WideRule(_fitted(shown, wide, directions, _WIDE_SETTING), half)
+        chosen = fit[clear[fit]]
+        chances[rest] = _fitted(shown[chosen], wide[chosen], directions, _WIDE_SETTING).value(shown[rest])
+    rule = WideRule(_fitted(shown[clear], wide[clear], directions, _WIDE_SETTING), half)
     return rule.decided(chances, widths[spalled])
 
 
