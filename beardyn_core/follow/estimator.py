@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from math import inf, isfinite, nan
 from pathlib import Path
 from typing import Annotated as A
@@ -145,6 +145,9 @@ class Estimator:
         spalled = part is None or part.condition != HEALTHY
         strange = float(np.median(self.strangeness(descriptors)))
         unusual = float(np.median(self.passages.distance(standard)))
+        if part is not None and self.part is not None and strange > 1.0:
+            # in another box no condition is excluded
+            part = replace(part, sets=(self.part.conditions,) * len(LEVELS))
         return Estimates(
             part,
             tuple(

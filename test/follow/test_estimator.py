@@ -84,8 +84,8 @@ def test_an_interval_as_wide_as_the_range_learnt_from_is_no_estimate() -> None:
 
 
 def test_signals_unlike_all_that_was_learnt_from_are_told(estimator: Estimator) -> None:
-    usual = drawn(50, 10).descriptors
-    assert (estimator.strangeness(usual) < 1.0).all()
+    usual = drawn(50, 10).descriptors  # of which one in twenty lies beyond 1, see test_familiarity
+    assert (estimator.strangeness(usual) < 1.5).all()
     strange = usual[:1] + 60.0 * (np.arange(len(NAMES)) % 2)
     assert "unlike all that was learnt from" in estimator.estimates(strange).sentences[-1]
 

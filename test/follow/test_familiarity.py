@@ -36,6 +36,8 @@ def test_box_that_shifts_many_levels_gives_no_load_and_says_why(estimator: Estim
         assert found.strangeness > 1.0
         assert np.isnan(found["vertical_load"].value)
         assert np.isnan(found["end_play"].value)
+        assert found.part is not None
+        assert set(found.part.sets[-1]) == {"healthy", "cup", "cone"}
         assert "another box, sensor place or track" in found["vertical_load"].reason
         assert "another box, sensor place or track" in found.sentences[-1]
 
