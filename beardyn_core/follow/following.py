@@ -121,6 +121,7 @@ class Follower:
         self.condition = None if rule is None else ConditionBelief(rule.conditions)
         self._aside = np.zeros(len(self.names))  # stretches in a row that missed, with their side
         self._surprise, self._time, self._distance = 1.0, 0.0, 0.0
+        self._is_to_come_out = False
         self._strange: list[float] = []  # strangeness of the latest stretches
 
     def begin(self) -> None:
@@ -302,7 +303,11 @@ class Follower:
         """Say the most urgent thing that holds: a doubt, told beside it, takes no warning back."""
         if self.stretches < _FEWEST:
             return WAITING
-        if remains is not None and isfinite(remains.remaining[0]) and remains.remaining[0] < SOON:
+        if remains is not None and isfinite(remains.remaining[0]):
+            self._is_to_come_out = remains.remaining[0] < SOON
+        elif self._strangeness <= 1.0:  # a signal that says nothing takes no warning back
+            self._is_to_come_out = False
+        if self._is_to_come_out:
             return TAKE_OUT
         if doubts:
             return UNEXPLAINED
