@@ -13,7 +13,7 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow import passage_profile, passages
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from beardyn_core.observe.passage_order import find_passage_order
-from beardyn_core.observe.severity import severity_of
+from beardyn_core.observe.severity import narrow_width
 
 AXES = ("x", "y", "z")
 RACEWAYS = ("cup", "cone")
@@ -122,8 +122,8 @@ def _ways(stretch: Stretch, passed: dict[str, float], plate: NamePlate) -> dict[
     """Measure how far entry and exit are apart on cup and cone, [mm]; 0 where no second event stands out."""
     found = {}
     for part, order in passed.items():
-        measured = severity_of(stretch.acceleration, stretch.rate, stretch.shaft_angle, part, order, plate)
-        found[f"way_{part}"] = 1e3 * measured.width if isfinite(measured.width) else 0.0
+        width = narrow_width(stretch.acceleration, stretch.rate, stretch.shaft_angle, part, order, plate)
+        found[f"way_{part}"] = 1e3 * width if isfinite(width) else 0.0
     return found
 
 

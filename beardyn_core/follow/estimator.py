@@ -42,6 +42,7 @@ _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[
 _PART = ("slope", "offset", "least")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
+_UNPROVEN = "not reported: too few runs of its kind judge the interval"
 AT_EDGE = 0.97  # of the largest value learnt from: what reaches it may be any larger one
 UNLIKE = (
     "the signal is unlike all that was learnt from (strangeness {:.1f}, familiar up to 1): another box, "
@@ -216,6 +217,8 @@ class Estimator:
             ranges = tuple((low, high) for low, high in known["ranges"])
             return _silent(quantity, reason.format(far), ranges)
         guess = self.regressions[quantity.name].guess(standard)
+        if not np.isfinite(self.regressions[quantity.name].reach).all():
+            return _silent(quantity, _UNPROVEN, tuple((low, high) for low, high in known["ranges"]))
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
         low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()

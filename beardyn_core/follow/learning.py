@@ -19,7 +19,7 @@ from beardyn_core.follow.forest import Forest, forest_of
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
-from beardyn_core.follow.quantities import QUANTITIES, Quantity
+from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
 from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND
 from beardyn_core.follow.wide_spall import LEARNT_SHARE, WideRule, half_distance
@@ -64,9 +64,7 @@ def trained(
     found, card = {}, {}
     wide = _wide_rule(standard, train, plate, axes)
     for quantity in QUANTITIES:
-        values, inside = known(quantity, train)
-        if wide is not None and quantity.of_passages:
-            inside = inside & _is_learnt(train.truth["width"], wide)
+        values, inside = _judging(quantity, train, wide)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
@@ -102,9 +100,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
     for quantity in QUANTITIES:
         if quantity.name not in card:
             continue
-        values, inside = known(quantity, runs)
-        if estimator.wide is not None and quantity.of_passages:
-            inside = inside & _is_learnt(runs.truth["width"], estimator.wide)
+        values, inside = _judging(quantity, runs, estimator.wide)
         if not inside.any():  # nothing judges it, so nothing is told
             continue
         learnt = estimator.regressions.get(quantity.name)
@@ -139,6 +135,31 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
         card={**estimator.card, "quantities": card},
     )
+
+
+def widened(estimator: Estimator, runs: Described) -> Estimator:
+    """Widen the intervals to those that other runs not learnt from need, where these are wider.
+
+    A truer tier that straightens a number sets intervals that hold for that tier alone; the runs of the tier
+    that was learnt from need intervals of their own. An interval is the widest of those of the sets that
+    calibrate it; without an end where one of them has too few runs, and then no number is reported.
+    """
+    standard = estimator.standardised(runs.descriptors)
+    found = {}
+    for name, each in estimator.regressions.items():
+        values, inside = _judging(BY_NAME[name], runs, estimator.wide)
+        shown = standard[inside]
+        needed = reach_of(values[inside] - each.value(shown), each.expected_error(shown))
+        found[name] = replace(each, reach=np.maximum(each.reach, needed))
+    return replace(estimator, regressions=found)
+
+
+def _judging(quantity: Quantity, runs: Described, wide: WideRule | None) -> tuple[Float, NDArray[np.bool_]]:
+    """Give the truth of a quantity on the scale of learning, and which runs its number is meant for."""
+    values, inside = known(quantity, runs)
+    if wide is not None and quantity.of_passages:
+        inside = inside & _is_learnt(runs.truth["width"], wide)
+    return values, inside
 
 
 def _truer(

@@ -20,6 +20,7 @@ ENTRY_AND_EXIT = 1.1e-3
 _LEAST_ROLLER = 15e-3  # of a roller for which that was found, [m]
 _DEVELOPED_FROM = 4e-3  # [m]
 _SEVERE_SHARE = 0.5  # of the distance of two rollers
+_WIDEST = 40e-3  # spall that may be there, twice the width at which a bearing is taken out, [m]
 # half of the 95 % interval: of the relation and the sampling, and of the way
 _DOUBT, _RELATIVE_DOUBT = 0.4e-3, 0.04
 _LOWEST, _HIGHEST_SHARE = 1500.0, 0.45  # of the band, [Hz] and of the sampling rate
@@ -97,6 +98,9 @@ def severity_of(
     other event lies before it. The event that follows the loudest one is either the exit of a spall whose
     entry is louder, or the entry of the next roller into a wide spall: then the least width alone is stated.
 
+    A spall wider than the distance of two rollers strikes as one that is narrower by this distance. Where
+    the wider one would be 40 mm wide or less, as on the cone of an axlebox, the least width alone is stated.
+
     A spall from 4 mm on is *developed*, one wider than half of the distance of two rollers *severe*. Both
     limits are assumed: which size a vehicle may run with is its keeper's to say.
 
@@ -131,6 +135,13 @@ def severity_of(
             f"{NOT_MEASURABLE}: at least {1e3 * least:.1f} mm wide; the second event follows the loudest "
             f"one, so that the spall is {1e3 * width:.1f} or {1e3 * wide:.1f} mm wide",
         )  # fmt: skip
+    if width - doubt + spacing <= _WIDEST:
+        least = width - doubt
+        return Severity(
+            NOT_MEASURABLE, nan, least, nan,
+            f"{NOT_MEASURABLE}: at least {1e3 * least:.1f} mm wide; a spall of {1e3 * width:.1f} mm and one "
+            f"wider by the distance of two rollers, {1e3 * spacing:.1f} mm, strike alike",
+        )  # fmt: skip
     severe = _SEVERE_SHARE * spacing
     grade = INCIPIENT if width < _DEVELOPED_FROM else DEVELOPED if width < severe else SEVERE
     low, high = width - doubt, width + doubt
@@ -140,6 +151,23 @@ def severity_of(
         f"{1e3 * way:.1f} mm apart; developed from {1e3 * _DEVELOPED_FROM:g} mm, severe from "
         f"{1e3 * severe:.0f} mm",
     )  # fmt: skip
+
+
+def narrow_width(
+    acceleration: Float, rate: float, shaft_angle: Float, fault: str, order: float, plate: NamePlate
+) -> float:
+    """Measure a spall as if it were narrower than half of the distance of two rollers, NaN without, [m].
+
+    Parameters are those of `severity_of`; a wide spall can give the same width.
+    """
+    if plate.roller_diameter < _LEAST_ROLLER:
+        return nan
+    spacing = spacing_of(fault, plate)
+    events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
+    way = nan if events is None else _clear_peak(events)
+    if events is None or not isfinite(way) or _follows(events, way / spacing):
+        return nan
+    return way + ENTRY_AND_EXIT
 
 
 def _unmeasured(reason: str) -> Severity:
