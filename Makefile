@@ -26,7 +26,7 @@ extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 help: ## what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-16s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
 
-demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: ARGS=--force)
+demo: $(VENV)/.ready ## set up, then the main job: wheel-rail load, spalled cup, recording, monitor, view (again: into demo_2, demo_3, ...)
 	@$(BIN)/python -m beardyn_ros demo $(ARGS)
 
 follow: $(VENV)/.ready-test ## set up, then a train played in full, followed from vibration and shaft alone: follow.png (again: ARGS=--force)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
+from beardyn_core.announcements import announced_on_stderr
 from beardyn_core.interrupts import sealed
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_of_run
@@ -85,4 +86,6 @@ def blocks(scene: Scene, duration: float | None = None, at_once: int = 1) -> Ite
     InputError, ValidityError
         See `start` and `Simulation.blocks`.
     """
-    yield from start(scene, duration).blocks(at_once)
+    with announced_on_stderr():
+        begun = start(scene, duration)
+    yield from begun.blocks(at_once)

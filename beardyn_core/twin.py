@@ -44,7 +44,7 @@ from beardyn_core.versions import versions
 
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 
-COMPILING = "compiling the kernels of these effects: once, about a minute"
+COMPILING = "compiling the kernels of this set of effects: about a minute, kept for later"
 
 log = logging.getLogger("beardyn")
 

@@ -75,7 +75,7 @@ def _demo(args: argparse.Namespace) -> int:
         scene = read_scene(
             args.scene, {key: value for key, value in wanted.items() if value is not None}
         ).scene
-    folder = demo_folder(args.output, inputs=inputs, force=args.force).resolve()
+    folder = demo_folder(args.output, say, inputs=inputs, force=args.force).resolve()
     logs = folder / "logs"
     logs.mkdir(exist_ok=True)
     recording = folder / RECORDING_NAME

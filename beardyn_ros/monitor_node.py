@@ -29,7 +29,7 @@ from beardyn_core.record.messages import (
     header_stamp,
 )
 from beardyn_core.record.topics import WRENCH
-from beardyn_core.study.monitored_recording import HOT_BOX, WAITING, Finding, Tally
+from beardyn_core.study.monitored_recording import HOT_BOX, UNEXPLAINED, WAITING, Finding, Tally
 from beardyn_ros.diagnostics import MONITOR, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.parameters import NodeParameter, ParameterValues
@@ -129,7 +129,7 @@ class MonitorNode(Node):
         self._tally.add(finding)
         self._publish(finding)
         if finding.verdict != earlier:
-            if finding.is_fault or finding.verdict == HOT_BOX:
+            if finding.is_fault or finding.verdict in (UNEXPLAINED, HOT_BOX):
                 self.get_logger().warning(finding.reason)
             else:
                 self.get_logger().info(finding.reason)

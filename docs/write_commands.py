@@ -29,6 +29,9 @@ compiles, and it says what it has kept.
 | 0 | done |
 | 2 | bad input, every mistake a sentence and nothing written; or a disk that is full |
 | 3 | the model left its range of validity; the recording up to there is closed and readable |
+| 10 | `beardyn monitor`: the worst bearing is not diagnosable |
+| 11 | `beardyn monitor`: the worst bearing has strikes that are unexplained |
+| 12 | `beardyn monitor`: the worst bearing has a faulty part, or a hot box |
 | 130 | interrupted |
 """
 

@@ -16,7 +16,8 @@ HEAD = """# Effects
 
 Written by `python docs/write_effects.py` from the catalogue in the code.
 
-A scene that names no effects has those that an accuracy of 5 % [needs](effects_auto.md). Or it names a preset
+A scene that names no effects has those that it [needs](effects_auto.md) to stay
+within 5 % of the full model. Or it names a preset
 (`effects: standard`) or switches effects itself:
 
 ```yaml

@@ -42,7 +42,8 @@ Written by `python docs/write_scenes.py` from the files in `config/scenes`.
 A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `beardyn simulate cup_spall`
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
 bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
-only the box that rings, so each is computed with those that an accuracy of 5 % [needs](effects_auto.md);
+only the box that rings, so each is computed with those that it [needs](effects_auto.md) to stay
+within 5 % of the full model;
 [the choices](choices.md). `bogie` names the tier `lumped`, so that its four boxes keep up: it misses 5 %,
 and says by how much.
 

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.announcements import announced_on_stderr
 from beardyn_core.api.making import scene as make_scene
 from beardyn_core.config.content import files_of
 from beardyn_core.effects import EffectSet
@@ -25,6 +26,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run, train_run
 
 
+@announced_on_stderr()
 def simulate(
     scene: str | Path | Mapping[str, Any] | Scene,
     *,
@@ -40,7 +42,8 @@ def simulate(
 ) -> Run:
     """Simulate a scene as fast as this machine can and keep the run in memory.
 
-    The first run of a set of effects compiles its kernels, about half a minute; they are kept on disk.
+    The first run of a set of effects compiles its kernels, about a minute, and prints a line on standard
+    error that says so; they are kept on disk.
 
     Parameters
     ----------
@@ -83,7 +86,7 @@ def simulate(
     if record is not None and (problems := recording_problems("", Path(record), inputs=inputs, force=force)):
         raise InputError(problems)
     for doubt in made.doubts:
-        warnings.warn(doubt, stacklevel=2)
+        warnings.warn(doubt, stacklevel=3)
     if made.axleboxes is not None:
         return _train(made, record, force, progress)
     memory = MemorySink()
@@ -93,12 +96,12 @@ def simulate(
     with _bar(made.duration, progress) as advance:
         summary = desk_run.run(made, sinks, advance, life=False)
     if not summary.complete:
-        warnings.warn(summary.status, RuntimeWarning, stacklevel=2)
+        warnings.warn(summary.status, RuntimeWarning, stacklevel=3)
     for sensor, count, total in summary.clipped:
         warnings.warn(
             f"the accelerometer {sensor} has clipped {count} of {total} samples; "
             "give it a larger range_m_per_s2",
-            stacklevel=2,
+            stacklevel=3,
         )
     load = None if memory.run is None else memory.run.load
     return memory.to_run(partial(_with_life, summary, made, load))
@@ -121,9 +124,9 @@ def _train(scene: Scene, record: Path | str | None, force: bool, progress: bool)
     for name, summary in done.summaries.items():
         one = next(each for each in boxes if each.name == name)
         if not summary.complete:
-            warnings.warn(f"{name}: {summary.status}", RuntimeWarning, stacklevel=3)
+            warnings.warn(f"{name}: {summary.status}", RuntimeWarning, stacklevel=4)
         whole_one = partial(_with_life, summary, one.scene, one.description.load)
-        runs[name] = Run.of_blocks(one.kept, one.description, summary.status, whole_one, runs)
+        runs[name] = Run.of_blocks(one.kept, one.description, summary.status, whole_one, runs, name)
     return runs[boxes[0].name]
 
 

@@ -81,7 +81,8 @@ class Decision:
     on: bool
     cost_share: A[float, "part of the step that it takes, [-]"]
     influence: A[
-        Influence, "expected error of each asked quantity by this decision: a fraction, of vibration in dB"
+        Influence,
+        "bound of the error of each quantity by this decision: a fraction, of vibration in dB",
     ]
 
     def sentence(self) -> str:
@@ -100,6 +101,12 @@ class Decision:
 def tolerance(quantity: str, accuracy: float) -> float:
     """Return the largest error that a quantity may have: a fraction, for vibration in dB."""
     return VIBRATION_TOLERANCE_DB if quantity == "vibration" else accuracy
+
+
+def _allowed(quantity: str, accuracy: float) -> str:
+    """Write the largest error that a quantity may have."""
+    limit = tolerance(quantity, accuracy)
+    return f"{limit:g} dB" if quantity == "vibration" else f"{100.0 * limit:.3g} %"
 
 
 def percent(value: float) -> str:
@@ -124,10 +131,13 @@ class Choice:
     laminae_reason: str
     steps_reason: str
     decisions: A[tuple[Decision, ...], "one for each effect, in the order of the catalogue"]
-    expected: A[Mapping[str, float], "expected error of each asked quantity: a fraction, of vibration in dB"]
+    expected: A[
+        Mapping[str, float],
+        "bound of the difference from the full model: a fraction, dB of vibration",
+    ]
     step_cost: A[float, "of a step, in steps of the standard set"]
     seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
-    within: A[bool, "whether the expected errors are within the accuracy"]
+    within: A[bool, "whether these bounds are within the accuracy"]
     vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
     told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
     rate: A[float | None, "of all sensors and the force waveform, [Hz]; ``None``: as the scene has them"] = (
@@ -159,11 +169,29 @@ class Choice:
     @property
     def summary(self) -> str:
         """Write in a sentence what was asked for, what is expected, and what is left out."""
-        errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in self.expected.items())
         off = ", ".join(each.effect for each in self.decisions if not each.on and each.left_out)
-        more = "" if self.within else ", more than asked for"
         left = f"; left out: {off}" if off else ""
-        return f"chosen for {self.asked}; expected errors {errors or 'unknown'}{more}{left}"
+        return f"chosen for {self.asked}; {self.difference}{left}"
+
+    @property
+    def difference(self) -> str:
+        """Write by how much the run may differ from the full model: bounds, not measured differences."""
+        known = {name: error for name, error in self.expected.items() if not math.isnan(error)}
+        unknown = ", ".join(name for name in self.expected if name not in known)
+        bounds = ", ".join(f"{name} {error_text(name, error)}" for name, error in known.items())
+        wide = [
+            f"{name} {_allowed(name, self.accuracy)}"
+            for name, error in known.items()
+            if error > tolerance(name, self.accuracy)
+        ]
+        parts = []
+        if bounds:
+            parts.append(f"differs from the full model by at most (bounds) {bounds}")
+        if unknown or not bounds:
+            parts.append(f"difference from the full model unknown{f' for {unknown}' if unknown else ''}")
+        if wide:
+            parts.append(f"the bound is wider than the wanted {', '.join(wide)}")
+        return "; ".join(parts)
 
     @property
     def reasons(self) -> tuple[str, ...]:
@@ -229,7 +257,7 @@ def _errors(errors: Mapping[str, float]) -> dict[str, dict[str, Any]]:
 
 
 def error_text(quantity: str, error: float) -> str:
-    """Write an expected error in words."""
+    """Write an error in words."""
     if math.isnan(error):
         return "unknown"
     return f"{error:.2g} dB" if quantity == "vibration" else percent(error)

@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
 
     with files_read() as inputs:
         scene = load_scene(args.scene, effects=args.effects, duration=args.duration)
-    folder = demo_folder(args.output, inputs=inputs, force=args.force)
+    folder = demo_folder(args.output, say, inputs=inputs, force=args.force)
     say(f"{scene.name}: {scene.purpose}")
     tell_doubts(scene)
     progress = Progress(scene.duration)

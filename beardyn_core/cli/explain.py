@@ -96,12 +96,9 @@ def _heard(explanation: Explanation) -> list[str]:
 
 def _lines(choice: Choice, title: str) -> list[str]:
     from beardyn_core.choice.costs import measured_costs
-    from beardyn_core.choice.rule import error_text
     from beardyn_core.model.build import WAVEFORM_RATE
 
     taken = sum(decision.cost_share for decision in choice.decisions if decision.on)
-    errors = ", ".join(f"{name} {error_text(name, error)}" for name, error in choice.expected.items())
-    verdict = "" if choice.within else "; more than asked for"
     rows = [
         ("tier", choice.tier, _share(1.0 - taken), choice.tier_reason),
         ("laminae", str(choice.laminae), "", choice.laminae_reason),
@@ -120,7 +117,7 @@ def _lines(choice: Choice, title: str) -> list[str]:
         f"{title}: tier {choice.tier}, {choice.laminae} laminae, "
         f"expected real-time factor {choice.real_time_factor:.2g}",
         f"asked for: {choice.asked}",
-        f"expected errors: {errors}{verdict}",
+        choice.difference,
         f"{'':20} {'':20} {'cost':>7}  why",
     ]
     for name, word, share, reason in rows:

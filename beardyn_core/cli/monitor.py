@@ -27,18 +27,28 @@ from beardyn_core.outputs import as_a_whole, file_problems
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.observe.chain import Algorithm, MonitorResult
+    from beardyn_core.observe.chain import Algorithm, MonitorResult, MonitorSettings
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
 
 _UNITS = {
     "s": ("time",),
-    "Hz": ("found_frequency", "expected_frequency", "shaft_frequency", "band_low", "band_high"),
+    "Hz": (
+        "found_frequency",
+        "expected_frequency",
+        "shaft_frequency",
+        "fitting_shaft_frequency",
+        "comb_frequency",
+        "band_low",
+        "band_high",
+    ),
     "dB": ("signal_to_background", "score", "threshold", "rms_rise"),
     "N": ("load",),
     "m_per_s2": ("rms",),
     "K": ("temperature",),
 }
+# of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
+_LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
 _KEYS = {name: f"{name}_{unit}" for unit, names in _UNITS.items() for name in names}
 
 
@@ -67,13 +77,63 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_force(parser, "replace the picture when it exists; default refuse")
     add_json(parser)
     add_plates(parser, "default that of the recording")
+    add_certainty(parser)
     add_trend(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
 
 
+def add_certainty(parser: argparse.ArgumentParser) -> None:
+    """Declare what the stated speed and bearing leave open."""
+    from beardyn_core.measured.stated_speed import UNCERTAINTY
+
+    group = parser.add_argument_group("certainty", "what the stated speed and bearing leave open")
+    group.add_argument(
+        "--speed-uncertainty",
+        metavar="PERCENT",
+        help="of the stated speed, searched over; default 0 with a tachometer, else "
+        f"{100 * UNCERTAINTY:g} %%, or what was found where the speed was sought in the vibration",
+    )
+    group.add_argument(
+        "--neighbour",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="another bearing on the same shaft, whose strikes reach the accelerometer; again for each; "
+        "default the others of --bearing",
+    )
+
+
+def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
+    """Make the settings of the monitor; raises `InputError` with every mistake."""
+    from beardyn_core.config import load_plate
+    from beardyn_core.observe.chain import MonitorSettings
+
+    problems: list[str] = []
+    if args.speed_uncertainty is not None:
+        try:
+            uncertainty = float(args.speed_uncertainty.rstrip(" %")) / 100.0
+        except ValueError:
+            uncertainty = -1.0
+        if not (uncertainty == 0.0 or _LEAST_UNCERTAINTY <= uncertainty <= _MOST_UNCERTAINTY):
+            problems.append(
+                f"--speed-uncertainty is {args.speed_uncertainty!r}; it must be 0, or a number from "
+                f"{100.0 * _LEAST_UNCERTAINTY:g} to {100.0 * _MOST_UNCERTAINTY:g} in per cent, such as 3 "
+                "for 3 %"
+            )
+    neighbours = []
+    for name in args.neighbour:
+        try:
+            neighbours.append(load_plate(name).frequencies)
+        except InputError as error:
+            problems += [f"--neighbour {name}: {each}" for each in error.problems]
+    if problems:
+        raise InputError(problems)
+    return MonitorSettings(speed_uncertainty=uncertainty, neighbours=tuple(neighbours))
+
+
 def run(args: argparse.Namespace) -> int:
-    """Run the command; gives the exit code."""
+    """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.observe.chain import algorithm_named
 
     if args.trend:
@@ -98,7 +158,7 @@ def run(args: argparse.Namespace) -> int:
         _draw(results, args.picture, replace=args.force)
     if args.json:
         print(json_text("monitor", json_object(args, heard)))
-        return 0
+        return _exit_code(heard)
     labelled = len(heard) > 1
     for mounted, findings in heard.items():
         if labelled:
@@ -107,7 +167,14 @@ def run(args: argparse.Namespace) -> int:
             print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
     for mounted, findings in heard.items():
         print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
-    return 0
+    return _exit_code(heard)
+
+
+def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
+    """Give the exit code of the worst bearing."""
+    from beardyn_core.study.monitored_recording import EXIT_CODES, conclude, worst
+
+    return EXIT_CODES[worst(conclude(findings).verdict for findings in heard.values())]
 
 
 class _Results:
@@ -170,11 +237,12 @@ def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> Non
 
 def _ending(findings: list[Finding]) -> str:
     """Sum up the findings of one bearing: a file that ends without an analysis is not diagnosable."""
-    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, UNEXPLAINED, WAITING, conclude
 
     conclusion = conclude(findings)
     if conclusion.finding is not None and conclusion.verdict != WAITING:
-        why = f"; {conclusion.finding.reason}" if conclusion.verdict == NOT_DIAGNOSABLE else ""
+        unclear = conclusion.verdict in (NOT_DIAGNOSABLE, UNEXPLAINED)
+        why = f"; {conclusion.finding.reason}" if unclear else ""
         return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason
@@ -203,7 +271,8 @@ def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
 def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.choice import scene_from_text
-    from beardyn_core.measured.about import Mounted, mounted_in
+    from beardyn_core.measured.about import Mounted, beside_others, mounted_in
+    from beardyn_core.measured.stated_speed import recorded_uncertainty
     from beardyn_core.study.measured_severity import severity_in
     from beardyn_core.study.monitored_recording import conclude, results_of
 
@@ -229,8 +298,10 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     if problems:
         raise InputError(problems)
     heard = {each: _Results() for each in bearings}
+    settings = _settings(args, recorded_uncertainty(recording.measured))
     for each, results in heard.items():
-        for result in results_of(recording, each.plate, algorithm, sensor=each.sensor):
+        own = beside_others(settings, each, bearings)
+        for result in results_of(recording, each.plate, algorithm, own, each.sensor):
             results.add(result)
         conclusion = conclude(results.findings)
         if (
@@ -245,6 +316,7 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
     """Let the monitor analyse measured files, block by block."""
     from beardyn_core.cli.import_ import sensor_problems
     from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.stated_speed import uncertainty_of
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.watching import watch
 
@@ -260,6 +332,10 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
     except InputError as error:
         problems += error.problems
     try:
+        _settings(args, 0.0)
+    except InputError as error:
+        problems += error.problems
+    try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
         measured = with_heard_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
@@ -272,7 +348,8 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
         print(f"beardyn: {sentence}", file=sys.stderr)
     found = {each: _Results() for each in bearings}
     warnings: list[str] = []
-    for mounted, result in watch(measured, bearings, algorithm, warnings=warnings):
+    settings = _settings(args, uncertainty_of(measured))
+    for mounted, result in watch(measured, bearings, algorithm, settings, warnings):
         found[mounted].add(result)
     for sentence in warnings:
         print(f"beardyn: warning: {sentence}", file=sys.stderr)
@@ -280,10 +357,10 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
 
 
 def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
-    """Gather what ``--json`` prints: the first bearing, and all of them."""
+    """Gather what ``--json`` prints: the worst bearing, and all of them."""
     from dataclasses import asdict
 
-    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude, worst
 
     every = []
     for mounted, findings in heard.items():
@@ -299,8 +376,10 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "findings": renamed([asdict(finding) for finding in findings], _KEYS),
             }
         )
-    first = {key: every[0][key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
-    return {"recording": args.files[0], "files": args.files, **first, "bearings": every}
+    verdict = worst(each["verdict"] for each in every)
+    decides = next(each for each in every if each["verdict"] == verdict)
+    top = {key: decides[key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
+    return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
 
 
 def other_bearing(given: Bearing | NamePlate, recorded: Bearing | NamePlate) -> str:

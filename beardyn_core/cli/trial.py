@@ -56,8 +56,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--effects",
         metavar="NAME",
-        help="set or file of effects, or auto; default the trial's or its scene's, or what an accuracy of "
-        "5 %% needs, the same in all runs of a tier",
+        help="set or file of effects, or auto; default the trial's or its scene's, or what it needs to be "
+        "within 5 %% of the full model, the same in all runs of a tier",
     )
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
     parser.add_argument(

@@ -59,6 +59,9 @@ def run(args: argparse.Namespace) -> int:
     recording = read_run(args.recording, args.box)
     if recording.problem:
         print(f"{recording.problem}; showing what is there", file=sys.stderr)
+    if recording.box:
+        others = ", ".join(name for name in recording.boxes if name != recording.box)
+        print(f"shows the axlebox {recording.box}; --box shows another: {others}", file=sys.stderr)
     if args.save:
         with last_words(lambda: "nothing has been written"):
             target = save(recording, args.save, replace=args.force)

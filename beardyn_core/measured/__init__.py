@@ -7,6 +7,10 @@ module        responsibility
 ============= ===========================================================================
 options       what a person says about the files: one declaration of every option
 units         units of acceleration, speed and time as people write them
+claimed_rate  every sampling rate that files claim, and the one function that decides
+moments       dates with times of other countries and zones
+claimed_start when tables begin, as files say it beside their samples
+time_column   columns of time: by their name, and ramps
 source        what a file has: channels, their samples block by block, its own words
 formats       which format a file is of: the registry
 text_table    separator, decimal sign, header and units of a table in text
@@ -23,9 +27,12 @@ parquet       Parquet
 other_mcap    MCAP of other tools
 clock         sampling rate and gaps from time stamps
 choice        which channels are axes, speed and time; unit and rate: told, or refused
+alignment     tables of a file and files of a measurement on one time
+tacho         level of a tachometer's pulses, and what they give
 survey        the first pass: rate, range and mistakes of every channel
 telling       how files were understood, in sentences; what is true of many files once
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
+stated_speed  how far the speed may be from the truth, by the way it is known
 about         what a recording says of where it comes from
 heard_speed   speed from the vibration itself, where no file says it
 stream        vibration and shaft of all files as parts in the order of time

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
+from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
+from beardyn_core.observe.chain import MonitorSettings
 
 
 @dataclass(frozen=True)
@@ -49,11 +51,22 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
             "from": speed.kind if survey.heard is None else "vibration",
             "channel": None if speed.channel is None else speed.channel.name,
             "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
+            "uncertainty": uncertainty_of(survey),
         },
         "bearings": {each.label: _written(each) for each in bearings},
         "understood": list(survey.told),
         "warnings": list(survey.warnings),
     }
+
+
+def beside_others(settings: MonitorSettings, one: Mounted, bearings: Sequence[Mounted]) -> MonitorSettings:
+    """Add the other bearings on the shaft to the settings of the monitor of one."""
+    others = tuple(
+        each.plate.frequencies
+        for each in bearings
+        if each.label != one.label and each.plate.frequencies != one.plate.frequencies
+    )
+    return replace(settings, neighbours=tuple(dict.fromkeys((*settings.neighbours, *others))))
 
 
 def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:

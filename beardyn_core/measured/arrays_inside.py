@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.measured.source import UNKNOWN, Channel
+from beardyn_core.measured.claimed_rate import claims_by_path, claims_on
+from beardyn_core.measured.claimed_start import Start, start_in
+from beardyn_core.measured.source import Channel
+from beardyn_core.measured.time_column import is_time_name
 from beardyn_core.measured.units import usual
 
-RATE_NAMES = (
-    *("fs", "sr", "f_s", "samplerate", "sample_rate", "samplingrate", "sampling_rate", "samplefrequency"),
-    *("sampling_frequency", "samplingfrequency", "sample_frequency", "rate_hz", "fs_hz", "fsamp", "fsample"),
-)
 _NOTHING: Mapping[str, Any] = {}
-STEP_NAMES = ("dt", "ts", "time_step", "wf_increment", "increment", "sample_interval")
 
 
 @dataclass(frozen=True)
@@ -81,40 +79,48 @@ def columns_in(name: str, array: Any) -> dict[str, Column]:
     return {f"{name}[{k}]": Column(array, k, lying) for k in range(across)}
 
 
-def claimed_rate(numbers: Mapping[str, float]) -> float:
-    """Find the sampling rate among the numbers of a file by its usual names; NaN without, [Hz]."""
-    last = {
-        name.lower().replace("/", ".").rpartition(".")[2].replace(" ", "_"): value
-        for name, value in numbers.items()
-    }
-    found = [last[name] for name in RATE_NAMES if name in last]
-    found += [1.0 / last[name] for name in STEP_NAMES if last.get(name, 0.0) > 0.0]
-    return float(found[0]) if found and found[0] > 0.0 else UNKNOWN
-
-
 def channels_of(
     columns: Mapping[str, Column],
-    rate: float,
-    rates: Mapping[str, float] = _NOTHING,
+    said: Mapping[str, Any],
+    paths: Mapping[str, str] = _NOTHING,
     units: Mapping[str, str] = _NOTHING,
-    groups: Mapping[str, str] = _NOTHING,
 ) -> tuple[Channel, ...]:
-    """List the channels of columns: those of a group and of the same length are sampled together.
+    """List the channels of columns: those of one length, rate, start and time are sampled together.
 
     Parameters
     ----------
-    rates, units, groups : mapping
-        What the file says of a column.
-    rate : float
-        What it says of all, [Hz].
+    said : mapping
+        Numbers and words of the file by path, ``vib.fs``.
+    paths, units : mapping
+        Path of the array of a column, by default its name without the number; unit that the file says.
     """
-    return tuple(
-        Channel(
-            name,
-            table=f"{groups.get(name, '')}, {len(column)} samples".removeprefix(", "),
-            count=len(column),
-            unit=usual(units.get(name, "")),
-            rate=rates.get(name, rate),
-        )
-        for name, column in columns.items()
-    )
+    claims = claims_by_path(said)
+    places = {name: tuple(paths.get(name, name.partition("[")[0]).split(".")) for name in columns}
+    timed = {(place[:-1], len(columns[name])) for name, place in places.items() if is_time_name(place[-1])}
+    starts = _starts_in(said)
+    found = []
+    for name, column in columns.items():
+        place = places[name]
+        own = claims_on(place, claims, places.values())
+        start = next((starts[place[:k]] for k in range(len(place), -1, -1) if place[:k] in starts), None)
+        table = f"{len(column)} samples"
+        if (place[:-1], len(column)) in timed:  # whatever else is claimed, its time is that of the samples
+            table = ", ".join((*place[:-1], table))
+        else:
+            near = sorted({claim.rates for claim in own if claim.distance == own[0].distance})
+            if near:
+                table += f" at {' or '.join(f'{rate:.9g} Hz' for rates in near for rate in rates)}"
+            if start is not None:
+                table += f" from {start.ns * 1e-9:.9g} s"
+        found.append(Channel(name, table, len(column), usual(units.get(name, "")), own, start))
+    return tuple(found)
+
+
+def _starts_in(said: Mapping[str, Any]) -> dict[tuple[str, ...], Start]:
+    """Find when structs and groups begin, by their place."""
+    places: dict[str, dict[str, Any]] = {}
+    for path, value in said.items():
+        above, _, name = path.rpartition(".")
+        places.setdefault(above, {})[name] = value
+    found = {tuple(above.split(".")) if above else (): start_in(names) for above, names in places.items()}
+    return {place: start for place, start in found.items() if start is not None}

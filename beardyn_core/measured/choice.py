@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
-from math import isfinite
+from math import nan
 from pathlib import Path
 from typing import Annotated as A
 
+import numpy as np
+
 from beardyn_core.errors import InputError
+from beardyn_core.measured.claimed_rate import is_plausible
 from beardyn_core.measured.formats import Format, opened
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Source
+from beardyn_core.measured.time_column import is_counter, is_ramp, is_time_name
 from beardyn_core.measured.units import ACCELERATION, ROTATION, TIME, TRAVEL, unit_in, usual
 
 AXES = ("x", "y", "z")
 USUAL_SENSOR = "accelerometer"
 NO_TIME = "none"
-_TIME_NAME = re.compile(
-    r"(?:.*\.)?(?:time|t|x_value|timestamp|timestamps|zeit|elapsed(?: time)?|seconds|sec)"
-    r"(?:[_ ](?:s|ms|us|ns|sec))?",
-    re.I,
-)
 _AXIS_NAME = re.compile(
     r"(?:^|[^a-z])(?:a|acc|accel|acceleration|vib|vibration)?[_ .\-]?([xyz])(?:$|[^a-z0-9])", re.I
 )
@@ -72,7 +72,8 @@ class Chosen:
     sensors: tuple[Sensor, ...]
     speed: Speed
     times: A[Mapping[str, Channel], "time stamps of a table, by its name"]
-    seconds: A[float, "in a unit of them"]
+    seconds: A[Mapping[str, float], "in a unit of them, by table"]
+    problems: A[tuple[str, ...], "what must be asked for; sensors may lack then"]
     told: A[tuple[str, ...], "how the file was understood, in sentences"]
     warnings: A[tuple[str, ...], "where what was said and what the file says differ"]
 
@@ -104,12 +105,12 @@ class _Choosing:
 
 
 def choose(path: Path, reading: Reading) -> Chosen:
-    """Open a file and decide what is taken of it.
+    """Open a file and decide what is taken of it; what is missing or contradicts is among its problems.
 
     Raises
     ------
     InputError
-        With everything that is missing or contradicts, and what the file has.
+        It cannot be opened.
     """
     source, kind = opened(path, reading)
     work = _Choosing(path, source, reading)
@@ -118,19 +119,67 @@ def choose(path: Path, reading: Reading) -> Chosen:
     stamps = {channel.name for channel in times.values()}
     speed = _speed(work)
     taken = stamps | ({speed.channel.name} if speed.channel is not None else set())
-    sensors = _sensors(
-        work, [each for each in source.channels if each.name not in taken and not each.is_time]
-    )
-    seconds = _seconds(work, list(times.values()))
+    candidates = [each for each in source.channels if each.name not in taken and not each.is_time]
+    ramps, empty = _ramps(work, candidates, times)
+    sensors = _sensors(work, [each for each in candidates if each.name not in ramps], empty)
+    _take_ramps_as_time(work, ramps, sensors, times)
+    seconds = {table: _seconds(work, channel) for table, channel in times.items()}
     if not sensors:
-        _complain_of_silence(work, times)
-    if work.problems:
-        raise InputError(list(dict.fromkeys(work.problems)))
+        _complain_of_silence(work, bool(times) or any(ramps.values()))
+    work.warnings += [f"{path}: {warning}" for warning in source.warnings if reading.rate is None]
     told = (f"{kind.name}: {'; '.join(source.notes)}" if source.notes else kind.name, *work.told)
-    return Chosen(path, kind, source, sensors, speed, times, seconds, told, tuple(work.warnings))
+    problems = tuple(dict.fromkeys(work.problems))
+    return Chosen(path, kind, source, sensors, speed, times, seconds, problems, told, tuple(work.warnings))
 
 
-def _complain_of_silence(work: _Choosing, times: Mapping[str, Channel]) -> None:
+def _ramps(
+    work: _Choosing, candidates: Sequence[Channel], times: Mapping[str, Channel]
+) -> tuple[dict[str, bool], set[str]]:
+    """Find channels that rise or fall evenly as time and counters do, and those that have no number at all.
+
+    Of the first, whether each may be the time.
+    """
+    tables: dict[str, list[Channel]] = {}
+    for each in candidates:
+        if each.table not in times or not times[each.table].is_time or each.count is not None:
+            tables.setdefault(each.table, []).append(each)
+    found: dict[str, bool] = {}
+    empty: set[str] = set()
+    for channels in tables.values():
+        try:
+            block = next(iter(work.source.blocks([each.name for each in channels])), None)
+        except InputError:  # the first pass says what is wrong
+            continue
+        for values, each in zip(() if block is None else block.T, channels, strict=False):
+            if np.isnan(values).all():
+                empty.add(each.name)
+            elif is_ramp(values):
+                found[each.name] = bool(values[-1] > values[0]) and not is_counter(values)
+    return found, empty
+
+
+def _take_ramps_as_time(
+    work: _Choosing, ramps: Mapping[str, bool], sensors: Sequence[Sensor], times: dict[str, Channel]
+) -> None:
+    """Take the only ramp beside an accelerometer as its time, where none is named."""
+    chosen = {axis.channel.name for sensor in sensors for axis in sensor.axes.values()}
+    for table in dict.fromkeys(sensor.table for sensor in sensors):
+        beside = [
+            each for each in work.source.channels
+            if each.table == table and each.name in ramps and each.name not in chosen
+        ]  # fmt: skip
+        for each in beside:
+            is_time = (
+                ramps[each.name] and table not in times and work.reading.time_channel != NO_TIME
+                and (not each.unit or bool(time_unit_in(each)))
+            )  # fmt: skip
+            if is_time:
+                times[table] = each
+            what = "is taken as the time" if is_time else "is left out, as a counter or time"
+            work.told.append(f"{each.name} rises or falls evenly and {what}")
+
+
+def _complain_of_silence(work: _Choosing, has_time: bool) -> None:
     """Name what else is missing where no channel could be chosen, so that all is said at once."""
     channels = work.source.channels
     units = {usual(each.unit) or unit_in(each.name, ACCELERATION) for each in channels}
@@ -138,7 +187,8 @@ def _complain_of_silence(work: _Choosing, times: Mapping[str, Channel]) -> None:
         work.complain(
             f"does not say the unit of the acceleration; give --unit, one of {', '.join(ACCELERATION)}"
         )
-    if work.reading.rate is None and not times and not any(isfinite(each.rate) for each in channels):
+    claimed = any(is_plausible(rate) for each in channels for claim in each.claims for rate in claim.rates)
+    if work.reading.rate is None and not has_time and not claimed:
         work.complain("does not say at which rate it was sampled; give --rate-hz or --time-channel")
 
 
@@ -168,21 +218,17 @@ def _times(work: _Choosing) -> dict[str, Channel]:
     wanted = work.reading.time_channel
     if wanted == NO_TIME:
         return {}
-    if wanted:
-        found = _found(work, "time_channel", wanted)
-        return {} if found is None else {found.table: found}
-    times: dict[str, Channel] = {}
+    found = _found(work, "time_channel", wanted) if wanted else None
+    times: dict[str, Channel] = {} if found is None else {found.table: found}
     for channel in work.source.channels:
-        named = _TIME_NAME.fullmatch(channel.name) and usual(channel.unit) not in ACCELERATION
-        if channel.is_time or (named and channel.table not in times):
+        named = is_time_name(channel.name) and usual(channel.unit) not in ACCELERATION
+        if (channel.is_time or named) and (channel.table not in times or (channel.is_time and not wanted)):
             times[channel.table] = channel
     return times
 
 
-def _seconds(work: _Choosing, channels: Sequence[Channel]) -> float:
-    if not channels:
-        return 1.0
-    channel, said = channels[0], work.reading.time_unit
+def _seconds(work: _Choosing, channel: Channel) -> float:
+    said = work.reading.time_unit
     if channel.is_time:
         return 1.0
     known = time_unit_in(channel)
@@ -286,8 +332,8 @@ def _speed_factor(work: _Choosing, name: str, unit: str) -> float:
     return TRAVEL[taken] * 2.0 / work.reading.wheel_diameter
 
 
-def _sensors(work: _Choosing, candidates: Sequence[Channel]) -> tuple[Sensor, ...]:
-    chosen = _asked(work) if work.reading.channels else _guessed(work, candidates)
+def _sensors(work: _Choosing, candidates: Sequence[Channel], empty: AbstractSet[str]) -> tuple[Sensor, ...]:
+    chosen = _asked(work) if work.reading.channels else _guessed(work, candidates, empty)
     sensors = []
     for name, axes in chosen.items():
         found = {axis: Axis(channel, _factor(work, channel)) for axis, channel in sorted(axes.items())}
@@ -332,9 +378,19 @@ def _asked(work: _Choosing) -> dict[str, dict[str, Channel]]:
     return chosen
 
 
-def _guessed(work: _Choosing, candidates: Sequence[Channel]) -> dict[str, dict[str, Channel]]:
-    """Take the only channel, or those that say their axis."""
+def _guessed(
+    work: _Choosing, candidates: Sequence[Channel], empty: AbstractSet[str]
+) -> dict[str, dict[str, Channel]]:
+    """Take the only channel, or those that say their axis; an axis without numbers was not measured."""
     candidates = [each for each in candidates if each.axis] or candidates
+    if any(usual(each.unit) in ACCELERATION for each in candidates):  # no volts, angles or temperatures
+        candidates = [each for each in candidates if not each.unit or usual(each.unit) in ACCELERATION]
+    if (columns := _columns_of_an_array(candidates)) and empty & set(columns):
+        work.told.append(
+            f"{', '.join(each for each in columns if each in empty)} has no number: not measured"
+        )
+        return {USUAL_SENSOR: {columns[each.name]: each for each in candidates if each.name not in empty}}
+    candidates = [each for each in candidates if each.name not in empty]
     if len(candidates) == 1:
         return {USUAL_SENSOR: {candidates[0].axis or "z": candidates[0]}}
     said = {each.name: each.axis or _axis_in(each.name) for each in candidates}
@@ -349,10 +405,10 @@ def _guessed(work: _Choosing, candidates: Sequence[Channel]) -> dict[str, dict[s
     ]
     if len(fitting) == 1 and len(tables) == 1:
         return {USUAL_SENSOR: {said[each.name]: each for each in fitting[0]}}
-    stems = {each.name.rpartition("[")[0] for each in candidates if each.name.endswith("]")}
-    if len(candidates) == len(AXES) and len(stems) == 1 and "" not in stems:
-        work.told.append(f"the three columns of {next(iter(stems))} are taken as x, y and z")
-        return {USUAL_SENSOR: dict(zip(AXES, candidates, strict=True))}
+    if columns := _columns_of_an_array(candidates):
+        stem = candidates[0].name.rpartition("[")[0]
+        work.told.append(f"the three columns of {stem} are taken as x, y and z")
+        return {USUAL_SENSOR: {columns[each.name]: each for each in candidates}}
     names = [each.name for each in candidates]
     if names:
         work.complain(
@@ -362,6 +418,14 @@ def _guessed(work: _Choosing, candidates: Sequence[Channel]) -> dict[str, dict[s
     else:
         work.complain("has no channel beside time and speed; give the file with the acceleration")
     return {}
+
+
+def _columns_of_an_array(candidates: Sequence[Channel]) -> dict[str, str]:
+    """Give the axes of the three columns of one array, by name; none when they are something else."""
+    stems = {each.name.rpartition("[")[0] for each in candidates if each.name.endswith("]")}
+    if len(candidates) != len(AXES) or len(stems) != 1 or "" in stems:
+        return {}
+    return {each.name: axis for axis, each in zip(AXES, candidates, strict=True)}
 
 
 def _axis_in(name: str) -> str:
@@ -383,7 +447,12 @@ def _factor(work: _Choosing, channel: Channel) -> float:
         work.complain(
             f"{what}; give --unit, one of {', '.join(ACCELERATION)}, with --scale for volts and the like"
         )
-        return scale
+        return nan
+    named = unit_in(channel.name, ACCELERATION)
+    if not said and named and named != known:
+        work.complain(
+            f"the unit of {channel.name} is {known} in the file and {named} in its name; give --unit"
+        )
     if said and (foreign or (known and known != said)):
         work.warnings.append(
             f"{work.path}: the unit of {channel.name} is {known or foreign} in the file; taken is "

@@ -9,14 +9,15 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
-from beardyn_core.measured.arrays_inside import claimed_rate
+from beardyn_core.measured.claimed_rate import claims_in
+from beardyn_core.measured.claimed_start import start_in
+from beardyn_core.measured.moments import moments_in_ns
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
 from beardyn_core.measured.text_table import (
     TextTable,
     has_no_value,
     is_comment,
-    moments_to_seconds,
     understood,
 )
 
@@ -33,7 +34,7 @@ class _Table(Held):
         """Give the samples of columns from the beginning, shape [sample, channel]; NaN where none is read."""
         table = self.table
         wanted = [table.names.index(name) for name in names]
-        first: dict[int, list[np.datetime64]] = {k: [] for k in table.moments}
+        self.origins.clear()
         self.problems.clear()
         bad: list[tuple[int, str]] = []
         empty = _EmptyLines()
@@ -44,7 +45,7 @@ class _Table(Held):
             if all(not row.strip() or is_comment(row) for row in rows):
                 continue
             quick = None if table.moments & set(wanted) else _quick(text, rows, table, wanted)
-            yield _slow(rows, line, table, wanted, first, bad) if quick is None else quick
+            yield _slow(rows, line, table, wanted, self.origins, bad) if quick is None else quick
         bad += [(line, "is empty, where a number belongs") for line in empty.lost]
         if bad:
             shown = "; ".join(f"line {line + 1}: {what}" for line, what in bad[:_SHOWN])
@@ -133,7 +134,7 @@ def _quick(text: str, rows: list[str], table: TextTable, wanted: list[int]) -> F
 
 
 def _slow(
-    rows: list[str], line: int, table: TextTable, wanted: list[int], first: dict[int, list[np.datetime64]],
+    rows: list[str], line: int, table: TextTable, wanted: list[int], origins: dict[str, int],
     bad: list[tuple[int, str]],
 ) -> Float:  # fmt: skip
     """Read rows one by one and note those that are wrong."""
@@ -164,7 +165,9 @@ def _slow(
     for k, cells in moments.items():
         try:
             if cells:
-                block[:, wanted.index(k)] = moments_to_seconds(cells, first[k])
+                stamps = moments_in_ns(cells)
+                origin = origins.setdefault(table.names[k], int(stamps[0]))
+                block[:, wanted.index(k)] = (stamps - origin) * 1e-9
         except ValueError:
             bad.append((line, f"{table.names[k]} has something that is no date with a time"))
     return block
@@ -179,9 +182,9 @@ def open_file(path: Path, reading: Reading) -> Held:
             numbers[key] = float(value.split()[0].replace(",", "."))
         except (ValueError, IndexError):
             continue
-    rate = claimed_rate(numbers)
+    claims, start = tuple(claims_in(table.facts)), start_in(table.facts)
     channels = tuple(
-        Channel(name, "", None, unit, rate, is_time=k in table.moments)
+        Channel(name, "", None, unit, claims, start, is_time=k in table.moments)
         for k, (name, unit) in enumerate(zip(table.names, table.units, strict=True))
     )
     found = _Table(channels, {}, numbers, table.facts, notes=(table.sentence(),))

@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.measured import source
-from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in, stretches
+from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in, stretches
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Held, broken, in_text
 from beardyn_core.optional import library
@@ -47,7 +47,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
     columns: dict[str, Column] = {}
     places: dict[str, str] = {}
     units: dict[str, str] = {}
-    rates: dict[str, float] = {}
+    paths: dict[str, str] = {}
 
     def take(place: str, item: Any) -> None:
         name = place.replace("/", ".")
@@ -59,25 +59,22 @@ def open_file(path: Path, _reading: Reading) -> Held:
             facts[name] = "".join(map(chr, np.asarray(item).reshape(-1).tolist()))[:500]
         elif item.shape is not None and int(np.prod(item.shape)) == 1 and item.dtype.kind in "fiu":
             numbers[name] = float(np.asarray(item).reshape(-1)[0])
+            if unit := next((in_text(said[key]) for key in _UNITS if key in said), None):
+                facts[f"{name}_unit"] = unit
         elif item.shape is not None and (found := columns_in(name, item)):
-            own = claimed_rate(_numbers(said))
-            rate = own if own == own else claimed_rate(_numbers(dict(item.parent.attrs)))
             for each, column in found.items():
                 columns[each] = Column(None, column.across, column.lying)
                 lengths[each], places[each] = len(column), place
-                groups[each] = place.rpartition("/")[0]
+                paths[each] = name
                 units[each] = next((in_text(said[key]) or "" for key in _UNITS if key in said), "")
-                if rate == rate:
-                    rates[each] = rate
 
     lengths: dict[str, int] = {}
-    groups: dict[str, str] = {}
     try:
         with h5py.File(path, "r") as file:
             take("", file)
             file.visititems(take)
             known = {name: Column(_Length(lengths[name])) for name in columns}
-            channels = channels_of(known, claimed_rate(numbers), rates, units, groups)
+            channels = channels_of(known, {**facts, **numbers}, paths, units)
     except (OSError, RuntimeError, ValueError, KeyError) as error:
         raise broken(path, "HDF5", error) from error
     found = _File(channels, {name: (places[name], columns[name]) for name in columns}, numbers, facts)

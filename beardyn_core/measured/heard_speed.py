@@ -37,11 +37,12 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
             "needs the bearing: "
             "give --bearing"
         )
-    orders = tuple(dict.fromkeys(each.plate.frequencies for each in bearings))
+    plates = {each.plate.frequencies: each.plate.name for each in bearings}
+    orders, names = tuple(plates), tuple(plates.values())
     rate, times, found = survey.rate(survey.sensors[0]), [], []
     for begin, acceleration in _pieces(survey, rate):
         low, high = (each / (2.0 * np.pi) for each in limits)
-        track = speed_from_vibration(acceleration, rate, low, high, orders)
+        track = speed_from_vibration(acceleration, rate, low, high, orders, names=names)
         if not track.certain:
             raise InputError(
                 f"{path}: the speed of the shaft is not known, and from {begin:.3g} s on "
@@ -60,9 +61,10 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
         min(track.share for track in found),
         True,
         found[0].reason,
+        max(track.spread for track in found),
     )
     slowest, fastest = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
-    doubt = _RPM * 1.96 * float(whole.deviation.max())
+    doubt = whole.uncertainty * fastest
     told = (
         f"{path}: the vibration says that the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
         f"give or take {doubt:.3g}"

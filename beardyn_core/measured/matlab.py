@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in
+from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Held, broken, in_text
 
@@ -31,7 +31,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
             columns |= found
         elif (text := in_text(value)) is not None:
             facts[name.strip("_")] = text
-    channels = channels_of(columns, claimed_rate(numbers))
+    channels = channels_of(columns, {**facts, **numbers})
     return Held(channels, columns, numbers, facts)
 
 

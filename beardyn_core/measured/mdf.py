@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.measured.claimed_start import Start
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
@@ -30,11 +31,13 @@ class _Mdf(Held):
             with _opened(self.path, self.asammdf) as file:
                 group = self.columns[names[0]][0]
                 count = file.groups[group].channel_group.cycles_nr
+                self.flagged = dict.fromkeys(names, 0)
                 for begin in range(0, count, BLOCK):
                     part = {"record_offset": begin, "record_count": min(BLOCK, count - begin)}
-                    yield np.stack(
-                        [_samples(file, group, self.columns[name][1], part) for name in names], axis=1
-                    )
+                    found = [_samples(file, group, self.columns[name][1], part) for name in names]
+                    for name, values in zip(names, found, strict=True):
+                        self.flagged[name] += int(np.isnan(values).sum())
+                    yield np.stack(found, axis=1)
         except Exception as error:  # the reader breaks in any way on bytes that are not what they should be
             raise broken(self.path, "MDF", error) from error
 
@@ -61,10 +64,16 @@ def _let_go(trace: TracebackType | None) -> None:
 
 
 def _samples(file: Any, group: int, index: int | None, part: dict[str, int]) -> Float:
+    """Give the samples of a channel, NaN where the file marks one as invalid."""
     if index is None:
         return np.asarray(file.get_master(group, **part), np.float64)
-    values, _ = file.get(group=group, index=index, samples_only=True, **part)
-    return np.asarray(values, np.float64)
+    values, invalid = file.get(
+        group=group, index=index, samples_only=True, ignore_invalidation_bits=True, **part
+    )
+    found = np.array(values, np.float64)
+    if invalid is not None and len(invalid) == len(found):
+        found[np.asarray(invalid, bool)] = np.nan
+    return found
 
 
 def open_file(path: Path, _reading: Reading) -> Held:
@@ -73,10 +82,13 @@ def open_file(path: Path, _reading: Reading) -> Held:
     channels: list[Channel] = []
     places: dict[str, tuple[int, int | None]] = {}
     facts: dict[str, str] = {}
+    origins: dict[str, int] = {}
+    origin = Start(0, False)
     try:
         with _opened(path, asammdf) as file:
             if (start := in_text(file.header.start_time)) is not None:
                 facts["start"] = start
+                origin = Start(round(file.header.start_time.timestamp() * 1e9), True)
             masters = file.masters_db
             names = Counter(
                 channel.name
@@ -92,6 +104,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
                 if group in masters:
                     channels.append(Channel(f"{_TIME} (group {group})", table, count, "s", is_time=True))
                     places[channels[-1].name] = (group, None)
+                    origins[channels[-1].name] = origin.ns
                 for index, channel in enumerate(each.channels):
                     if masters.get(group) == index:
                         continue
@@ -105,6 +118,6 @@ def open_file(path: Path, _reading: Reading) -> Held:
                     places[name] = (group, index)
     except Exception as error:
         raise broken(path, "MDF", error) from error
-    found = _Mdf(tuple(channels), places, {}, facts)
+    found = _Mdf(tuple(channels), places, {}, facts, origins=origins)
     found.path, found.asammdf = path, asammdf
     return found

@@ -13,7 +13,7 @@ from numpy.lib import format as npy
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
-from beardyn_core.measured.arrays_inside import Column, channels_of, claimed_rate, columns_in
+from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Held, broken, in_text
 
@@ -102,7 +102,9 @@ def open_file(path: Path, _reading: Reading) -> Held:
                 columns |= columns_in(name, head)
     except _DAMAGE as error:
         raise broken(path, "NumPy", error) from error
-    found = _Archive(channels_of(columns, claimed_rate(numbers)), columns, numbers, facts)
+    units = {name: facts.get(f"{_member(name)}.unit", "") for name in columns}
+    channels = channels_of(columns, {**facts, **numbers}, units=units)
+    found = _Archive(channels, columns, numbers, facts)
     found.path = path
     return found
 

@@ -38,7 +38,7 @@ class Reading:
         "the numbers times this are in that unit: 10 for volts of a sensor of 100 mV/g in g, the range for a "
         "WAV file of whole numbers",
     ] = 1.0
-    rate: A[float | None, At("Hz", gt=0.0, le=1e8), "sampling rate; default that of the file"] = None
+    rate: A[float | None, At("Hz", gt=0.0, ge=1.0, le=1e8), "sampling rate; default that of the file"] = None
     speed: A[float | None, At("rpm", gt=0.0, le=1e6), "constant speed of the shaft"] = None
     vehicle_speed: A[
         float | None,
@@ -66,7 +66,8 @@ class Reading:
     tacho_level: A[
         float | None,
         At(ge=-1e12, le=1e12),
-        "a pulse begins where its channel rises through this; default the middle of its range",
+        "a pulse begins where its channel rises through this; default the middle between the "
+        "levels of its pulses",
     ] = None
     time_channel: A[
         str, At(), "channel with the time stamps; default one called time; none: there is none"

@@ -11,6 +11,8 @@ from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
 from beardyn_core.record.other_messages import TIME, Topics, is_recording
 
+_LATENCY_NS = 500_000_000  # from a sample to its message in the log, beside the length of one
+
 
 class _Topics(Held):
     topics: Topics
@@ -37,6 +39,9 @@ def open_file(path: Path, reading: Reading) -> Held:
         )
     topics = Topics(path)
     channels, columns = [], {}
+    origins: dict[str, int] = {}
+    delays: dict[str, int] = {}
+    notes: list[str] = []
     for topic, found in topics.found.items():
         for member in (TIME, *found.members):
             name = f"{topic}.{member}"
@@ -44,7 +49,18 @@ def open_file(path: Path, reading: Reading) -> Held:
             axis = found.axis(member)
             channels.append(Channel(name, topic, None, unit, is_time=member == TIME, axis=axis))
             columns[name] = (topic, member)
-    made = _Topics(tuple(channels), columns, {}, {}, notes=topics.notes)
+        origins[f"{topic}.{TIME}"] = found.first_ns
+        delays[topic] = found.log_delay_ns
+        notes += [
+            f"each message of {topic} has {count} numbers in {member}, and no layout: they are taken as "
+            "samples"
+            for member, count in found.lists.items()
+        ]
+    spans = [found.span_ns for found in topics.found.values() if found.has_blocks]
+    made = _Topics(
+        tuple(channels), columns, {}, {}, (*topics.notes, *notes), origins=origins, log_delays=delays,
+        longest_delay=max(spans, default=0) + _LATENCY_NS,
+    )  # fmt: skip
     made.topics = topics
     made.problems += topics.problems
     return made

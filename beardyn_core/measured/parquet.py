@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from beardyn_core.arrays import Float
-from beardyn_core.measured.arrays_inside import claimed_rate
+from beardyn_core.measured.claimed_rate import claims_by_path, claims_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken
 from beardyn_core.measured.units import split_unit, usual
@@ -24,7 +25,8 @@ class _Parquet(Held):
 
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
-        first: dict[str, int] = {}
+        first = self.origins
+        first.clear()
         try:
             # by default whole groups of rows are read ahead
             with self.parquet.ParquetFile(self.path, pre_buffer=False, buffer_size=_READ_BYTES) as file:
@@ -63,6 +65,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
         for key, value in said.items()
         if key not in numbers and not key.startswith(("ARROW", "pandas"))
     }
+    whole = [replace(claim, place=(), distance=1) for claim in claims_by_path({**facts, **numbers})]
     channels, columns = [], {}
     for each in schema:
         kind = str(each.type)
@@ -72,9 +75,8 @@ def open_file(path: Path, _reading: Reading) -> Held:
         own = {key.decode().lower(): value.decode() for key, value in (each.metadata or {}).items()}
         unit = unit or own.get("unit", own.get("units", ""))
         moment = kind.startswith("timestamp")
-        channels.append(
-            Channel(name, "", count, "s" if moment else usual(unit), claimed_rate(numbers), is_time=moment)
-        )
+        claims = (*claims_in(own, (each.name,), f"{name}: "), *whole)
+        channels.append(Channel(name, "", count, "s" if moment else usual(unit), claims, is_time=moment))
         columns[name] = each.name
     found = _Parquet(tuple(channels), columns, numbers, facts)
     found.path, found.parquet = path, parquet

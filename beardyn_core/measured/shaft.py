@@ -18,6 +18,9 @@ _SLOWEST_GRID = 50.0  # [Hz]
 _USUAL_GRID = 400.0  # [Hz], that of a simulated tachometer
 _HYSTERESIS = 0.1  # of the range of the pulses
 _IRREGULAR = 0.6  # share of an interval by which the next one may differ
+_SPIKE = 0.5  # of the range of the pulses, beyond which a value is no pulse
+_LATEST = 4  # intervals of which the longest is the usual one
+_LOST = 3.5  # times an interval, from which the next one is a hole: the pulses are lost, or the shaft stands
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,7 @@ class Constant:
         The first ones of all begin with one at ``begin_ns``.
         """
         if self._last is not None and end_ns <= self._last:  # another accelerometer has been there
-            return _NOTHING
+            return NOTHING
         begin = begin_ns if self._last is None else self._last
         span = (end_ns - begin) * 1e-9
         count = int(np.ceil(span * max(_SLOWEST_GRID, _POINTS_PER_TURN * self._speed / (2.0 * np.pi)) - 1e-9))
@@ -104,7 +107,7 @@ class Measured:
             self._next = int(time[0])
         if len(time) < 2 or self._next is None:
             self._time, self._speed = time, speed
-            return _NOTHING
+            return NOTHING
         step = np.diff(time) * 1e-9
         angle = self._angle + np.concatenate(([0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * step)))
         grid = np.arange(self._next, time[-1] + 1, self._grid_ns, dtype=np.int64)
@@ -130,55 +133,98 @@ class Pulses:
     ----------
     count, irregular : int
         Pulses so far; intervals that differ by far from the one before, as missing or doubled pulses have.
+    slowest, fastest : float
+        Over the intervals that do not, [rad/s].
+    known_ns : int
+        Between pulses, without the holes, [ns].
+    first_ns, last_ns : int
+        Of the first and last pulse, [ns].
+    holes : list of (int, int)
+        From the last pulse before to the first one after, [ns]; within them nothing is given.
     """
 
     def __init__(self, low: float, high: float, level: float | None, per_turn: int) -> None:
         middle = 0.5 * (low + high) if level is None else level
         half = 0.5 * _HYSTERESIS * (high - low)
         self._rise, self._fall = middle + half, middle - half
+        self._lowest, self._highest = low - _SPIKE * (high - low), high + _SPIKE * (high - low)
         self._per_turn = per_turn
         self._above = True  # a channel that begins high has no pulse there
         self._last: tuple[int, float] | None = None
         self._pulse: int | None = None
         self._interval = 0.0
+        self._latest: Float = np.empty(0)
         self._even: int | None = None
         self.count = 0
         self.irregular = 0
+        self.slowest, self.fastest = np.inf, 0.0
+        self.known_ns = 0
+        self.first_ns = self.last_ns = 0
+        self.holes: list[tuple[int, int]] = []
 
     def restart(self) -> None:
         """Begin anew behind a gap."""
         self._above, self._last, self._pulse, self._interval, self._even = True, None, None, 0.0, None
+        self._latest = np.empty(0)
 
     def take(self, time_ns: Int, values: Float) -> Turned:
         """Add samples of the channel and give the angle up to the last pulse."""
         pulses = self._rises(time_ns, values)
+        if len(pulses):
+            self.first_ns = self.first_ns if self.count else int(pulses[0])
+            self.last_ns = int(pulses[-1])
         self.count += len(pulses)
         before = [] if self._pulse is None else [self._pulse]
         every = np.array([*before, *pulses.tolist()], np.int64)
         if len(every) < 2:
             self._pulse = int(every[-1]) if len(every) else self._pulse
-            return _NOTHING
+            return NOTHING
         intervals = np.diff(every).astype(np.float64)
         earlier = np.concatenate(([self._interval or intervals[0]], intervals[:-1]))
-        self.irregular += int(np.count_nonzero(np.abs(intervals / earlier - 1.0) > _IRREGULAR))
-        self._interval = float(intervals[-1])
+        usual = self._usual_before(intervals)
+        lost = intervals > _LOST * usual
+        uneven = (
+            (np.abs(intervals / earlier - 1.0) > _IRREGULAR) & ~lost & ~np.concatenate(([False], lost[:-1]))
+        )
+        self.irregular += int(np.count_nonzero(uneven))
+        self._interval = float(usual[-1] if lost[-1] else intervals[-1])
+        self._latest = np.where(lost, usual, intervals)[-_LATEST:]
+        self.known_ns += int(intervals[~lost].sum())
+        self.holes += [(int(every[k]), int(every[k + 1])) for k in np.flatnonzero(lost)]
         first = self.count - len(pulses) - len(before)
         angle = 2.0 * np.pi / self._per_turn * (first + np.arange(len(every)))
         speed = 2.0 * np.pi / self._per_turn / (intervals * 1e-9)
+        if (even := speed[~uneven & ~lost & (np.abs(intervals / usual - 1.0) <= _IRREGULAR)]).size:
+            self.slowest, self.fastest = (
+                min(self.slowest, float(even.min())),
+                max(self.fastest, float(even.max())),
+            )
         step_ns = round(1e9 / max(_USUAL_GRID, _POINTS_PER_TURN * float(speed.max()) / (2.0 * np.pi)))
         begin = int(every[0]) if self._even is None else self._even
-        grid = np.arange(begin, every[-1], step_ns, dtype=np.int64)
+        grid = np.arange(begin, every[-1], max(step_ns, 1), dtype=np.int64)
         place = np.clip(np.searchsorted(every, grid, side="right") - 1, 0, len(intervals) - 1)
         self._even = int(grid[-1]) + step_ns if len(grid) else begin
         self._pulse = int(every[-1])
+        grid, place = grid[~lost[place]], place[~lost[place]]
         return Turned(grid, angle[place] + speed[place] * (grid - every[place]) * 1e-9, speed[place])
+
+    def _usual_before(self, intervals: Float) -> Float:
+        """Give for each interval the longest of those right before it, none of which was a hole."""
+        latest = list(self._latest)
+        usual = np.empty(len(intervals))
+        for k, interval in enumerate(intervals.tolist()):
+            usual[k] = max(latest, default=interval)
+            latest = [*latest, usual[k] if interval > _LOST * usual[k] else interval][-_LATEST:]
+        return usual
 
     def _rises(self, time_ns: Int, values: Float) -> Int:
         """Find the moments at which the channel rises through the level, interpolated between samples."""
         if self._last is not None:
             time_ns = np.concatenate(([self._last[0]], time_ns))
             values = np.concatenate(([self._last[1]], values))
+        is_spike = (values < self._lowest) | (values > self._highest)
         state = np.where(values >= self._rise, 1, np.where(values <= self._fall, 0, -1))
+        state[is_spike] = -1
         known = np.where(state >= 0, np.arange(len(state)), 0)
         np.maximum.accumulate(known, out=known)
         above = np.where(state[known] >= 0, state[known] == 1, self._above)
@@ -194,4 +240,4 @@ class Pulses:
         )
 
 
-_NOTHING = Turned(np.empty(0, np.int64), np.empty(0), np.empty(0))
+NOTHING = Turned(np.empty(0, np.int64), np.empty(0), np.empty(0))

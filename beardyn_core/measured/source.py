@@ -12,10 +12,11 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.measured.claimed_rate import Claim
+from beardyn_core.measured.claimed_start import Start
 
 BLOCK = 65_536
 """Samples that are in memory at a time of a format that is read in blocks."""
-UNKNOWN = float("nan")
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,8 @@ class Channel:
     table: A[str, "channels of one table are sampled together"] = ""
     count: A[int | None, "samples; None: known at the end of the file"] = None
     unit: A[str, "as the file has it; empty when it says none"] = ""
-    rate: A[float, "that the file claims, NaN when it says none, [Hz]"] = UNKNOWN
+    claims: A[tuple[Claim, ...], "on its sampling rate, the nearest first"] = ()
+    start: A[Start | None, "of its first sample, where the file says it beside the samples"] = None
     is_time: A[bool, "the format itself says that this is the time, in seconds"] = False
     axis: A[str, "``x``, ``y`` or ``z`` where the format itself says so"] = ""
 
@@ -41,8 +43,18 @@ class Source(Protocol):
     """What else the file says about itself."""
     notes: tuple[str, ...]
     """How the file was understood, in sentences."""
+    warnings: tuple[str, ...]
+    """What of it may be wrong, in sentences without the file."""
     problems: list[str]
     """Mistakes found in the samples so far."""
+    origins: dict[str, int]
+    """Zero of time stamps that are given from their first one on, by channel, [ns]; known after reading."""
+    flagged: dict[str, int]
+    """Samples that the file itself marks as invalid, by channel; they are given as NaN."""
+    log_delays: Mapping[str, int]
+    """Of messages that have stamps of their own, by table: from the stamp of the first to the log, [ns]."""
+    longest_delay: int
+    """By which these may differ where all stamps are of one clock, [ns]."""
 
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
@@ -58,6 +70,11 @@ class Held:
     facts: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     problems: list[str] = field(default_factory=list)
+    origins: dict[str, int] = field(default_factory=dict)
+    flagged: dict[str, int] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    log_delays: Mapping[str, int] = field(default_factory=dict)
+    longest_delay: int = 0
 
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""

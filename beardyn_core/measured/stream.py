@@ -12,8 +12,8 @@ import numpy as np
 from beardyn_core.arrays import Float, Int
 from beardyn_core.errors import InputError
 from beardyn_core.measured.choice import AXES, Chosen
-from beardyn_core.measured.shaft import Constant, Found, Measured, Pulses, Turned
-from beardyn_core.measured.survey import Survey, Surveyed
+from beardyn_core.measured.shaft import NOTHING, Constant, Found, Measured, Pulses, Turned
+from beardyn_core.measured.survey import LONGEST_STEP, Survey, Surveyed
 
 PART_S = 0.02
 
@@ -43,21 +43,15 @@ class Stream:
 
     survey: Survey
     warnings: A[list[str], "what was found on the way"] = field(default_factory=list)
+    _last_turned: A[int | None, "last sample of the speed, [ns]"] = None
 
     def __iter__(self) -> Iterator[Part]:
         """Give the parts in the order of time."""
         self.warnings.clear()
+        self._last_turned = None
         shaft = _shaft_of(self.survey)
-        for number, each in enumerate(self.survey.files):
-            if (
-                number
-                and self.survey.reading.file_interval is not None
-                and not isinstance(shaft, Constant | None)
-            ):
-                shaft.restart()
+        for each in self.survey.files:
             yield from self._file(each, shaft)
-        if isinstance(shaft, Pulses):
-            self._judge(shaft)
 
     def _file(self, each: Surveyed, shaft: Constant | Measured | Pulses | None) -> Iterator[Part]:
         if isinstance(shaft, Constant):
@@ -75,57 +69,114 @@ class Stream:
         chosen, rate = each.chosen, each.tables[name].rate
         names = [channel.name for channel in chosen.tables[name]]
         sensors = [(s.name, *_columns(s.axes, names)) for s in chosen.sensors if s.table == name]
-        speed = chosen.speed
-        turning = speed.channel is not None and speed.channel.table == name
-        column = names.index(speed.channel.name) if turning and speed.channel is not None else 0
+        speed, turning = chosen.speed, None
+        if speed.channel is not None and speed.channel.table == name:
+            assert isinstance(shaft, Measured | Pulses)
+            factor = speed.factor if isinstance(shaft, Measured) else 1.0
+            turning = _Turning(shaft, names.index(speed.channel.name), factor, each, rate, self._last_turned)
         length, done = max(1, round(PART_S * rate)), 0
-        first = round(each.begin_ns * 1e-9 * rate)
+        begin_ns = each.begin_ns + each.tables[name].begin_ns
+        first = round(begin_ns * 1e-9 * rate)
         rest = np.empty((0, len(names)))
+
+        def parts(rows: Float) -> Iterator[Part]:
+            time = begin_ns + np.round((done + np.arange(len(rows))) * (1e9 / rate)).astype(np.int64)
+            yield from _heard(rows, first + done, time, sensors, bool(chosen.source.flagged))
+            if turning is not None:
+                turned = turning.take(time, rows)
+                if len(turned.time_ns):
+                    yield turned
+
         for block in chosen.source.blocks(names):
             block = np.concatenate((rest, block)) if len(rest) else block
             whole = len(block) - len(block) % length
             for begin in range(0, whole, length):
-                yield from self._parts(
-                    block[begin : begin + length], done, first, each.begin_ns, rate, sensors,
-                    (column, speed.factor, shaft) if turning else None,
-                )  # fmt: skip
+                yield from parts(block[begin : begin + length])
                 done += length
             rest = block[whole:]
         if len(rest):
-            yield from self._parts(
-                rest, done, first, each.begin_ns, rate, sensors,
-                (column, speed.factor, shaft) if turning else None,
-            )  # fmt: skip
+            yield from parts(rest)
+        if turning is not None:
+            self._last_turned = turning.last_ns
         if chosen.source.problems:
             raise InputError(chosen.source.problems)
 
-    def _parts(
-        self, rows: Float, done: int, first: int, begin_ns: int, rate: float,
-        sensors: list[tuple[str, list[int], list[int], Float]],
-        turning: tuple[int, float, Constant | Measured | Pulses | None] | None,
-    ) -> Iterator[Part]:  # fmt: skip
-        time = begin_ns + np.round((done + np.arange(len(rows))) * (1e9 / rate)).astype(np.int64)
-        for name, axes, columns, factors in sensors:
-            acceleration = np.full((len(rows), len(AXES)), np.nan)
-            acceleration[:, axes] = rows[:, columns] * factors
-            yield Heard(name, first + done, time, acceleration)
-        if turning is not None:
-            column, factor, shaft = turning
-            assert isinstance(shaft, Measured | Pulses)
-            turned = shaft.take(time, rows[:, column] * (factor if isinstance(shaft, Measured) else 1.0))
-            if len(turned.time_ns):
-                yield turned
 
-    def _judge(self, pulses: Pulses) -> None:
-        if pulses.count < 2:
-            self.warnings.append(
-                f"the tachometer has {pulses.count} pulses; the speed of the shaft is not known"
+def _heard(
+    rows: Float, first: int, time: Int, sensors: list[tuple[str, list[int], list[int], Float]], has_gaps: bool
+) -> Iterator[Heard]:
+    """Give what accelerometers measured in a short time, in several parts where samples are invalid."""
+    for name, axes, columns, factors in sensors:
+        acceleration = np.full((len(rows), len(AXES)), np.nan)
+        acceleration[:, axes] = rows[:, columns] * factors
+        if not has_gaps:
+            yield Heard(name, first, time, acceleration)
+            continue
+        good = np.isfinite(acceleration[:, axes]).all(axis=1)
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], good, [False]))))
+        for begin, end in edges.reshape(-1, 2).tolist():
+            yield Heard(name, first + begin, time[begin:end], acceleration[begin:end])
+
+
+class _Turning:
+    """Passes the channel with the speed to the shaft, as far as there is vibration."""
+
+    def __init__(
+        self,
+        shaft: Measured | Pulses,
+        column: int,
+        factor: float,
+        each: Surveyed,
+        rate: float,
+        last_ns: int | None,
+    ) -> None:
+        self._shaft, self._column, self._factor = shaft, column, factor
+        self._begin_ns, self._end_ns = each.begin_ns, each.end_ns
+        self._longest_ns = LONGEST_STEP * 1e9 / rate
+        self._outside: tuple[int, float] | None = None  # the last sample before the vibration
+        self._ended = False
+        self.last_ns = last_ns
+
+    def take(self, time: Int, rows: Float) -> Turned:
+        """Add samples of the table."""
+        values = rows[:, self._column] * self._factor
+        good = np.isfinite(values)
+        time, values = time[good], values[good]
+        early = int(np.searchsorted(time, self._begin_ns))
+        late = int(np.searchsorted(time, self._end_ns))
+        if early:
+            self._outside = (int(time[early - 1]), float(values[early - 1]))
+        inside, its = time[early:late], values[early:late]
+        if isinstance(self._shaft, Measured):
+            inside, its = self._with_edges(inside, its, time[late:], values[late:])
+        if not len(inside):
+            return NOTHING
+        if self.last_ns is not None and inside[0] - self.last_ns > self._longest_ns:
+            self._shaft.restart()
+        self.last_ns = int(inside[-1])
+        return self._shaft.take(inside, its)
+
+    def _with_edges(self, inside: Int, its: Float, after: Int, values: Float) -> tuple[Int, Float]:
+        """Add the speed at the beginning and the end of the vibration, between samples on both sides."""
+        known = (list(inside[:1]) or list(after[:1]), list(its[:1]) or list(values[:1]))
+        if self._outside is not None and known[0] and known[0][0] > self._begin_ns:
+            begin = np.interp(
+                self._begin_ns, [self._outside[0], known[0][0]], [self._outside[1], known[1][0]]
             )
-        elif pulses.irregular:
-            self.warnings.append(
-                f"{pulses.irregular} of {pulses.count - 1} intervals between tacho pulses differ by "
-                "more than 60 % from the one before; check --tacho-level"
-            )
+            inside, its = np.concatenate(([self._begin_ns], inside)), np.concatenate(([begin], its))
+        if len(inside):
+            self._outside = None
+        if not self._ended and len(after):
+            last = (int(inside[-1]), float(its[-1])) if len(inside) else self._before_end
+            self._ended = True
+            if last is not None and last[0] < self._end_ns - 1 and after[0] - last[0] <= self._longest_ns:
+                end = np.interp(self._end_ns - 1, [last[0], after[0]], [last[1], values[0]])
+                inside, its = np.append(inside, self._end_ns - 1), np.append(its, end)
+        if len(inside):
+            self._before_end = (int(inside[-1]), float(its[-1]))
+        return inside, its
+
+    _before_end: tuple[int, float] | None = None
 
 
 def _begin(part: Part) -> int:
@@ -154,6 +205,8 @@ def _shaft_of(survey: Survey) -> Constant | Measured | Pulses | None:
     ranges = [each.tables[_speed_table(each)].ranges[_speed_name(each)] for each in survey.files]
     low, high = min(each.low for each in ranges), max(each.high for each in ranges)
     if speed.kind == "tacho":
+        if survey.tacho is not None:
+            low, high = survey.tacho.low, survey.tacho.high
         return Pulses(low, high, reading.tacho_level, reading.pulses_per_turn)
     return Measured(max(abs(low), abs(high)) * abs(speed.factor))
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import isfinite, isnan, nan
 from pathlib import Path
 from typing import Annotated as A
@@ -12,18 +12,22 @@ import numpy as np
 
 from beardyn_core.arrays import Float
 from beardyn_core.errors import InputError
+from beardyn_core.measured.alignment import Begun, align_files, align_tables, used_delays
 from beardyn_core.measured.choice import Chosen, choose, speeds_in, time_unit_in
+from beardyn_core.measured.claimed_rate import SAME, Stamps, decide_rate
+from beardyn_core.measured.claimed_start import Start, seconds_as_start
 from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
+from beardyn_core.measured.tacho import PulseLevels, Tacho, judge_pulses
 from beardyn_core.measured.telling import gathered, told
-from beardyn_core.measured.units import TIME
+from beardyn_core.measured.time_column import is_ramp
+from beardyn_core.measured.units import ROTATION
 from beardyn_core.observe.speed import SpeedTrack
 
-_SAME_RATE = 1e-3  # within which two rates are one
-_CONTRADICTS = 1e-2  # beyond which a file that says two rates is refused
-_SLOWEST = 200.0  # [Hz], below which stamps without a unit are no seconds: 100 kHz in ms would be 100 Hz
 LEAST_SAMPLES = 16
+FASTEST_RPM = 1e6
+LONGEST_STEP = 3.0  # times the usual one, from which samples of the speed are a gap
 LARGEST = 1e6  # [m/s^2]; beyond it the unit or the scale is wrong
 
 
@@ -39,6 +43,7 @@ class Range:
     power: A[float, "sum of the squares about the first number"] = 0.0
     total: A[float, "sum about the first number"] = 0.0
     origin: float = nan
+    is_ramp: A[bool, "whether its first numbers are those of a time or a counter"] = False
 
     def take(self, values: Float) -> None:
         """Add the next numbers."""
@@ -53,6 +58,7 @@ class Range:
             return
         if isnan(self.origin):
             self.origin = float(values[0])
+            self.is_ramp = is_ramp(values)
         self.low, self.high = min(self.low, float(values.min())), max(self.high, float(values.max()))
         with np.errstate(over="ignore", invalid="ignore"):  # of a damaged file; its range is refused
             about = values - self.origin
@@ -73,6 +79,13 @@ class Table:
     count: int
     rate: A[float, "[Hz]"]
     ranges: Mapping[str, Range]
+    start: A[Start | None, "of its first sample, on the clock of the file"] = None
+    begin_ns: A[int, "from the beginning of the file, [ns]"] = 0
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasts."""
+        return self.count / self.rate if self.rate > 0.0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -83,6 +96,7 @@ class Surveyed:
     tables: Mapping[str, Table]
     begin_ns: A[int, "of its first sample, [ns]"]
     end_ns: A[int, "of where the next sample would be, [ns]"]
+    start: A[Start | None, "of its first sample, by its own clock"] = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +108,7 @@ class Survey:
     told: tuple[str, ...]
     warnings: tuple[str, ...]
     heard: A[SpeedTrack | None, "speed found in the vibration itself"] = None
+    tacho: A[Tacho | None, "what the pulses of the tachometer give"] = None
 
     @property
     def sensors(self) -> tuple[str, ...]:
@@ -120,6 +135,7 @@ class Survey:
 class _Found:
     problems: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    levels: PulseLevels = field(default_factory=PulseLevels)
 
 
 def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = False) -> Survey:
@@ -135,55 +151,155 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
     Raises
     ------
     InputError
-        With every mistake in all of them.
+        With every mistake in all of them, and everything that must be asked for.
     """
     found, chosen = _Found(), []
     for path in paths:
         try:
             chosen.append(choose(Path(path), reading))
+            found.problems += chosen[-1].problems
         except InputError as error:
             found.problems += error.problems
     if not paths:
         found.problems.append("no measured file is given")
     files: list[Surveyed] = []
-    begin = 0
     for each in chosen:
         try:
-            tables = {
-                name: _table(each, name, channels, reading, found) for name, channels in each.tables.items()
-            }
+            if each.sensors:
+                files.append(_surveyed(each, reading, found))
         except InputError as error:
             found.problems += error.problems
-            continue
-        table = tables[each.sensors[0].table]
-        seconds = table.count / table.rate if table.rate > 0.0 else 0.0
-        if reading.file_interval is not None:
-            begin = round(len(files) * reading.file_interval * 1e9)
-            if seconds > reading.file_interval * (1.0 + _SAME_RATE):
-                found.problems.append(
-                    f"{each.path}: lasts {seconds:.6g} s, longer than "
-                    f"file_interval_s {reading.file_interval:g}"
-                )
-        files.append(Surveyed(each, tables, begin, begin + round(seconds * 1e9)))
-        begin = files[-1].end_ns
+    files = _in_time(files, reading, found)
     _compare(files, found)
-    if (
-        needs_speed
-        and reading.speed_range is None
-        and files
-        and all(each.chosen.speed.kind == "none" for each in files)
-    ):
-        has = ", ".join(speeds_in(files[0].chosen.source))
-        found.problems.append(
-            f"{files[0].chosen.path}: the speed of the shaft is not known, and a monitor needs it; give "
-            "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel"
-            f"{f' (the file has {has})' if has else ''}, --tacho-channel, or "
-            "--speed-range-rpm to find it in the vibration"
-        )
+    if needs_speed and reading.speed_range is None:
+        _need_speed(chosen, reading, found)
+    tacho = None
+    if files and not found.problems and files[0].chosen.speed.kind == "tacho":
+        tacho = _tacho(files, reading, found, needs_speed)
     if found.problems:
         raise InputError(gathered(found.problems, map(Path, paths)))
     warnings = [*(w for each in files for w in each.chosen.warnings), *found.warnings]
-    return Survey(tuple(files), reading, told(files), tuple(gathered(warnings, map(Path, paths))))
+    return Survey(
+        tuple(files), reading, told(files, tacho), tuple(gathered(warnings, map(Path, paths))), None, tacho
+    )
+
+
+def _surveyed(chosen: Chosen, reading: Reading, found: _Found) -> Surveyed:
+    """Read one file to its end and place its tables in time."""
+    tables = {
+        name: _table(chosen, name, channels, reading, found) for name, channels in chosen.tables.items()
+    }
+    own = {sensor.table for sensor in chosen.sensors}
+    begun = [
+        Begun(chosen.tables[name][0].name, table.start, table.seconds, name in own)
+        for name, table in tables.items()
+    ]
+    delays = used_delays(list(tables), chosen.source.log_delays)
+    aligned = align_tables(begun, delays, chosen.source.longest_delay)
+    found.problems += [f"{chosen.path}: {each}" for each in aligned.problems]
+    found.warnings += [f"{chosen.path}: {each}" for each in aligned.warnings]
+    tables = {
+        name: replace(table, begin_ns=begin)
+        for (name, table), begin in zip(tables.items(), aligned.begin_ns, strict=True)
+    }
+    end = max(table.begin_ns + round(table.seconds * 1e9) for name, table in tables.items() if name in own)
+    made = Surveyed(chosen, tables, 0, end, aligned.start)
+    if chosen.speed.kind == "channel":
+        _report_lack_of_speed(made, found)
+    return made
+
+
+def _report_lack_of_speed(each: Surveyed, found: _Found) -> None:
+    """Warn of vibration without a speed."""
+    channel = each.chosen.speed.channel
+    assert channel is not None
+    table = each.tables[channel.table]
+    begin, end = max(table.begin_ns, 0), min(table.begin_ns + round(table.seconds * 1e9), each.end_ns)
+    lacking = (each.end_ns - max(end - begin, 0)) * 1e-9
+    if table.rate > 0.0 and lacking > max(2.5 / table.rate, 0.01 * each.end_ns * 1e-9):
+        found.warnings.append(
+            f"{each.chosen.path}: {channel.name} gives a speed for {max(end - begin, 0) * 1e-9:.6g} of "
+            f"{each.end_ns * 1e-9:.6g} s, from {begin * 1e-9:.6g} to {end * 1e-9:.6g} s"
+        )
+
+
+def _in_time(files: Sequence[Surveyed], reading: Reading, found: _Found) -> list[Surveyed]:
+    """Place files one after the other."""
+    if not files:
+        return []
+    first = files[0]
+    rate = first.tables[first.chosen.sensors[0].table].rate
+    begun = [
+        (each.chosen.path, Begun(str(each.chosen.path), each.start, each.end_ns * 1e-9)) for each in files
+    ]
+    begins, warnings = align_files(begun, reading.file_interval, 1.5 / rate if rate > 0.0 else 0.0)
+    found.warnings += warnings
+    for each in files:
+        if reading.file_interval is not None and each.end_ns * 1e-9 > reading.file_interval * (1.0 + SAME):
+            found.problems.append(
+                f"{each.chosen.path}: lasts {each.end_ns * 1e-9:.6g} s, longer than "
+                f"file_interval_s {reading.file_interval:g}"
+            )
+    return [
+        replace(each, begin_ns=begin, end_ns=begin + each.end_ns)
+        for each, begin in zip(files, begins, strict=True)
+    ]
+
+
+def _need_speed(chosen: Sequence[Chosen], reading: Reading, found: _Found) -> None:
+    """Ask for the speed where no file says it."""
+    if (
+        not chosen
+        or reading.speed_channel
+        or reading.tacho_channel
+        or any(each.speed.kind != "none" for each in chosen)
+    ):
+        return
+    has = ", ".join(speeds_in(chosen[0].source))
+    found.problems.append(
+        f"{chosen[0].path}: the speed of the shaft is not known, and a monitor needs it; give "
+        "one of --speed-rpm, --speed-kmh with --wheel-diameter-mm, --speed-channel"
+        f"{f' (the file has {has})' if has else ''}, --tacho-channel, or "
+        "--speed-range-rpm to find it in the vibration"
+    )
+
+
+def _tacho(files: Sequence[Surveyed], reading: Reading, found: _Found, needs_speed: bool) -> Tacho | None:
+    """Find the level of the tacho's pulses, and what they give."""
+    channel = files[0].chosen.speed.channel
+    assert channel is not None
+
+    def feed(take: Callable[..., None]) -> None:
+        last: int | None = None
+        for each in files:
+            channel = each.chosen.speed.channel
+            assert channel is not None
+            table = each.tables[channel.table]
+            done = 0
+            for block in each.chosen.source.blocks([channel.name]):
+                time = (
+                    each.begin_ns + table.begin_ns
+                    + np.round((done + np.arange(len(block))) * (1e9 / table.rate)).astype(np.int64)
+                )  # fmt: skip
+                done += len(block)
+                kept = (time >= each.begin_ns) & (time < each.end_ns) & np.isfinite(block[:, 0])
+                time, values = time[kept], block[kept, 0]
+                if not len(time):
+                    continue
+                if last is not None and time[0] - last > LONGEST_STEP * 1e9 / table.rate:
+                    take(None, None)
+                take(time, values)
+                last = int(time[-1])
+
+    made = judge_pulses(found.levels, reading.tacho_level, reading.pulses_per_turn, feed)
+    if made is None:
+        return None
+    path = files[0].chosen.path
+    sentences = [f"{path}: {each}" for each in made.warnings(channel.name, 0, files[-1].end_ns)]
+    if made.pulses.count < 2 and needs_speed:
+        found.problems += [f"{each}, and a monitor needs it; check --tacho-level" for each in sentences]
+    found.warnings += sentences
+    return made
 
 
 def _table(chosen: Chosen, name: str, channels: list[Channel], reading: Reading, found: _Found) -> Table:
@@ -191,11 +307,14 @@ def _table(chosen: Chosen, name: str, channels: list[Channel], reading: Reading,
     names = [channel.name for channel in channels]
     ranges = {channel: Range() for channel in names}
     time = chosen.times.get(name)
-    clock = Clock(chosen.seconds)
+    clock = Clock(chosen.seconds.get(name, 1.0))
+    speed = chosen.speed.channel if chosen.speed.kind == "tacho" else None
     chosen.source.problems.clear()
     for block in chosen.source.blocks(names):
         for column, channel in zip(block.T, names, strict=True):
             ranges[channel].take(column)
+            if speed is not None and channel == speed.name:
+                found.levels.take(column)
         if time is not None:
             clock.take(block[:, names.index(time.name)])
     clock.end()
@@ -207,36 +326,14 @@ def _table(chosen: Chosen, name: str, channels: list[Channel], reading: Reading,
             f"{where}: has {count} samples of {names[0]}; at least {LEAST_SAMPLES} are needed"
         )
     elif not chosen.source.problems:
-        found.problems += _mistakes(chosen, ranges, time)
+        _judge_numbers(chosen, ranges, time, reading, found)
     if time is not None:
         found.problems += clock.problems(f"{where}, {time.name}")
-    rate = _rate(chosen, channels, time, clock, reading, found)
-    return Table(count, rate, ranges)
-
-
-def _mistakes(chosen: Chosen, ranges: Mapping[str, Range], time: Channel | None) -> list[str]:
-    """Find what is wrong with the numbers of channels."""
-    problems = []
-    factors = {axis.channel.name: axis.factor for sensor in chosen.sensors for axis in sensor.axes.values()}
-    for name, each in ranges.items():
-        where = f"{chosen.path}, {name}"
-        if each.lost:
-            problems.append(
-                f"{where}: {each.lost} of {each.count} samples are no finite number, the first is sample "
-                f"{each.first_lost}; every sample must be one"
-            )
-        elif time is not None and name == time.name:
-            continue
-        elif each.low == each.high and (name in factors or chosen.speed.kind == "tacho"):
-            what = "the sensor is dead or not connected" if name in factors else "it has no pulses"
-            problems.append(f"{where}: every sample is {each.low:g}; {what}")
-        elif name in factors and max(abs(each.low), abs(each.high)) * abs(factors[name]) > LARGEST:
-            largest = max(abs(each.low), abs(each.high))
-            problems.append(
-                f"{where}: reaches {largest:g}, which is {largest * abs(factors[name]):.3g} m/s2; allowed is "
-                f"up to {LARGEST:g} m/s2: check unit and scale"
-            )
-    return problems
+    rate, seconds = _rate(chosen, channels, time, clock, reading, found)
+    start = next((each.start for each in channels if each.start is not None), None)
+    if time is not None and isfinite(clock.first):
+        start = seconds_as_start(clock.first * seconds, chosen.source.origins.get(time.name, 0))
+    return Table(count, rate, ranges, start)
 
 
 def _rate(
@@ -246,51 +343,68 @@ def _rate(
     clock: Clock,
     reading: Reading,
     found: _Found,
-) -> float:
-    """Decide on the sampling rate: what was said, else what the file says, if it says one thing."""
-    claims = {f"the file says of {c.name}": c.rate for c in channels if isfinite(c.rate)}
+) -> tuple[float, float]:
+    """Give the sampling rate [Hz] and what the seconds of the time stamps are to be multiplied by."""
+    stamps = None
     if time is not None and isfinite(clock.rate):
-        claims[f"the time stamps {time.name} say"] = clock.rate
-    own = {sensor.table for sensor in chosen.sensors}
-    if reading.rate is not None and channels[0].table in own:
-        for what, rate in claims.items():
-            if abs(rate - reading.rate) > _SAME_RATE * reading.rate:
-                found.warnings.append(
-                    f"{chosen.path}: {what} {rate:.6g} Hz; taken are {reading.rate:.6g} Hz, as asked"
-                )
-        return reading.rate
-    if not claims:
-        if time is None or not clock.problems(""):
-            found.problems.append(
-                f"{chosen.path}: does not say at which rate {channels[0].name} was sampled; give "
-                "--rate-hz or --time-channel"
-            )
-        return nan
-    (what, rate), *others = claims.items()
-    for other, its in others:
-        if abs(its - rate) > _CONTRADICTS * rate:
-            found.problems.append(
-                f"{chosen.path}: {what} {rate:.6g} Hz and {other} {its:.6g} Hz; "
-                "give --rate-hz with the right one"
-            )
-    if time is not None and clock.uncertainty > _SAME_RATE and len(claims) == 1:
-        found.warnings.append(
-            f"{chosen.path}: the time stamps {time.name} are so coarse that the rate, {rate:.6g} Hz, may be "
-            f"wrong by {100.0 * clock.uncertainty:.2g} %; give --rate-hz if it is known"
+        stamps = Stamps(
+            f"the time stamps {time.name} say",
+            clock.rate,
+            bool(time.is_time or reading.time_unit or time_unit_in(time)),
+            bool(reading.time_unit and not time.is_time),
+            clock.uncertainty,
         )
-    slow = channels[0].table in own and len(claims) == 1 and rate < _SLOWEST
-    if slow and time is not None and not _says_unit(time, reading):
-        found.problems.append(
-            f"{chosen.path}: the time stamps {time.name} say {rate:.6g} Hz if they are in s, too slow for a "
-            f"vibration; give --time-unit, one of {', '.join(TIME)}, or --rate-hz"
-        )
-    best = clock.rate if time is not None and isfinite(clock.rate) and not others else rate
-    nearest = round(best)
-    return float(nearest) if nearest and abs(best - nearest) < 1e-6 * best else best
+    is_vibration = channels[0].table in {sensor.table for sensor in chosen.sensors}
+    claims = [claim for channel in channels for claim in channel.claims]
+    asked = reading.rate if is_vibration else None
+    decision = decide_rate(claims, stamps, asked, name=channels[0].name, is_vibration=is_vibration)
+    if time is None or not clock.problems("") or claims:
+        found.problems += [f"{chosen.path}: {each}" for each in decision.problems]
+    found.warnings += [f"{chosen.path}: {each}" for each in decision.warnings]
+    return decision.rate, decision.seconds
 
 
-def _says_unit(time: Channel, reading: Reading) -> bool:
-    return bool(time.is_time or reading.time_unit or time_unit_in(time))
+def _judge_numbers(
+    chosen: Chosen, ranges: Mapping[str, Range], time: Channel | None, reading: Reading, found: _Found
+) -> None:
+    """Find what is wrong with the numbers of channels."""
+    factors = {axis.channel.name: axis.factor for sensor in chosen.sensors for axis in sensor.axes.values()}
+    speed = chosen.speed
+    for name, each in ranges.items():
+        where = f"{chosen.path}, {name}"
+        largest = max(abs(each.low), abs(each.high))
+        turning = speed.kind == "channel" and speed.channel is not None and name == speed.channel.name
+        if each.lost and each.lost == chosen.source.flagged.get(name, 0) and each.lost < each.count:
+            found.warnings.append(
+                f"{where}: the file marks {each.lost} of {each.count} samples as invalid, the first is "
+                f"sample {each.first_lost}; they are left out as gaps"
+            )
+        elif each.lost:
+            found.problems.append(
+                f"{where}: {each.lost} of {each.count} samples are no finite number, the first is sample "
+                f"{each.first_lost}; every sample must be one"
+            )
+        elif time is not None and name == time.name:
+            continue
+        elif each.low == each.high and (name in factors or speed.kind == "tacho"):
+            what = "the sensor is dead or not connected" if name in factors else "it has no pulses"
+            found.problems.append(f"{where}: every sample is {each.low:g}; {what}")
+        elif name in factors and each.is_ramp:
+            what = "rises or falls evenly from sample to sample, as a time or a counter does"
+            if reading.channels:
+                found.warnings.append(f"{where}: {what}; taken is it as a vibration, as asked")
+            else:
+                found.problems.append(f"{where}: {what}; give --channels with a vibration")
+        elif name in factors and largest * abs(factors[name]) > LARGEST:
+            found.problems.append(
+                f"{where}: reaches {largest:g}, which is {largest * abs(factors[name]):.3g} m/s2; allowed is "
+                f"up to {LARGEST:g} m/s2: check unit and scale"
+            )
+        elif turning and largest * abs(speed.factor) / ROTATION["rpm"] > FASTEST_RPM:
+            found.problems.append(
+                f"{where}: reaches {largest:g}, which is {largest * abs(speed.factor) / ROTATION['rpm']:.3g} "
+                f"rpm; allowed is up to {FASTEST_RPM:g} rpm: check --speed-unit"
+            )
 
 
 def _compare(files: Sequence[Surveyed], found: _Found) -> None:
@@ -301,7 +415,7 @@ def _compare(files: Sequence[Surveyed], found: _Found) -> None:
     for each in files[1:]:
         for sensor, other in zip(first.chosen.sensors, each.chosen.sensors, strict=False):
             one, its = first.tables[sensor.table].rate, each.tables[other.table].rate
-            if abs(one - its) > _SAME_RATE * one:
+            if abs(one - its) > SAME * one:
                 found.problems.append(
                     f"{each.chosen.path}: is sampled at {its:.6g} Hz and {first.chosen.path} at {one:.6g} "
                     "Hz; files of one recording must have one rate"

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.arrays import Float
+from beardyn_core.measured.claimed_rate import claims_in, claims_on
+from beardyn_core.measured.claimed_start import start_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken, in_text
+from beardyn_core.measured.source import Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
 from beardyn_core.optional import library
 
@@ -38,30 +40,42 @@ def open_file(path: Path, _reading: Reading) -> Held:
     nptdms = library("nptdms", f"{path}: reading TDMS", "measured")
     facts: dict[str, str] = {}
     numbers: dict[str, float] = {}
-    channels, places, starts = [], {}, set()
+    channels, places = [], {}
+    dates: set[str] = set()
     try:
         with nptdms.TdmsFile.open(path) as file:
             every = [channel for group in file.groups() for channel in group.channels()]
             names = Counter(channel.name for channel in every)
             for key, value in file.properties.items():
                 _note(str(key), value, numbers, facts)
+            claims = claims_in(dict(file.properties))
+            for group in file.groups():
+                claims += claims_in(dict(group.properties), (group.name,), f"{group.name}: ")
+            for channel in every:
+                claims += claims_in(
+                    dict(channel.properties), (channel.group_name, channel.name), f"{channel.name}: "
+                )
+            paths = [(channel.group_name, channel.name) for channel in every]
             for channel in every:
                 name = channel.name if names[channel.name] == 1 else f"{channel.group_name}/{channel.name}"
                 if channel.dtype is None or channel.dtype.kind not in "fiu" or not len(channel):
                     continue
-                said = channel.properties
-                step = said.get("wf_increment") or 0.0
-                rate = 1.0 / step if step > 0.0 else UNKNOWN
+                said = dict(channel.properties)
+                start = start_in(said) or start_in(dict(file[channel.group_name].properties))
+                own = claims_on((channel.group_name, channel.name), claims, paths)
+                rate = next((rate for claim in own for rate in claim.rates), float("nan"))
                 unit = next((str(said[key]) for key in _UNITS if said.get(key)), "")
                 table = f"{channel.group_name}, {len(channel)} samples at {rate:g} Hz"
-                channels.append(Channel(name, table, len(channel), usual(unit), rate))
+                if start is not None and start.ns:
+                    table += f" from {start.ns * 1e-9:.9g} s"
+                channels.append(Channel(name, table, len(channel), usual(unit), own, start))
                 places[name] = (channel.group_name, channel.name)
                 if said.get("wf_start_time") is not None:
-                    starts.add(str(said["wf_start_time"]))
+                    dates.add(str(said["wf_start_time"]))
     except Exception as error:
         raise broken(path, "TDMS", error) from error
-    if len(starts) == 1:
-        facts["start"] = starts.pop()
+    if len(dates) == 1:
+        facts["start"] = dates.pop()
     found = _Tdms(tuple(channels), places, numbers, facts)
     found.path, found.nptdms = path, nptdms
     return found

@@ -11,18 +11,22 @@ import numpy as np
 
 if TYPE_CHECKING:
     from beardyn_core.measured.survey import Surveyed
+    from beardyn_core.measured.tacho import Tacho
 
 _APART = 3
 _RPM = 30.0 / np.pi
 
 
-def told(files: Sequence[Surveyed]) -> tuple[str, ...]:
+def told(files: Sequence[Surveyed], tacho: Tacho | None = None) -> tuple[str, ...]:
     """Say how files were understood."""
     paths = [each.chosen.path for each in files]
     sentences = [f"{each.chosen.path}: {line}" for each in files for line in _lines(each)]
     if files:
         sentences += [f"{files[0].chosen.path}{_others(len(files))}: {line}" for line in _levels(files)]
-    sentences += [f"{each.chosen.path}: {_speed(each)}" for each in files]
+    sentences += [f"{each.chosen.path}: {_speed(each)}" for each in files if tacho is None]
+    if tacho is not None and (channel := files[0].chosen.speed.channel) is not None:
+        turning = tacho.told(channel.name, files[-1].end_ns * 1e-9)
+        sentences.append(f"{files[0].chosen.path}{_others(len(files))}: {turning}")
     return tuple(gathered(sentences, paths, apart=1))
 
 
@@ -76,8 +80,6 @@ def _speed(each: Surveyed) -> str:
         return f"the shaft turns with {speed.value * _RPM:.6g} rpm"
     if speed.channel is None:
         return "the speed of the shaft is not known"
-    if speed.kind == "tacho":
-        return f"the shaft turns as the pulses of {speed.channel.name} say"
     found = each.tables[speed.channel.table].ranges[speed.channel.name]
     low, high = (value * speed.factor * _RPM for value in (found.low, found.high))
     return f"the shaft turns with {low:.6g} to {high:.6g} rpm, from {speed.channel.name}"

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-import numpy as np
-
 from beardyn_core.errors import InputError
+from beardyn_core.measured.claimed_rate import claims_in
+from beardyn_core.measured.moments import is_moment
 from beardyn_core.measured.options import DECIMALS, SEPARATORS, Reading
-from beardyn_core.measured.units import ACCELERATION, split_unit, usual
+from beardyn_core.measured.units import ACCELERATION, ROTATION, TIME, TRAVEL, split_unit, usual
 
 HEAD_BYTES = 1 << 16
 _COMMENT = "#%"
@@ -29,7 +29,6 @@ _NO_VALUE = re.compile(
     r"""\s*"?\#(?:N/[A-Z]|NV|NA|¡?(?:DIV/0|VALUE|WERT|VALEUR|VALORE?|REF|BEZUG|NUM|ZAHL|NOMBRE|NULL?|NULO|SPILL"""
     r"""|CALC)!|¿?(?:NAME|NOM|NOMBRE|NOME)\?)(?![^\s,;|"])"""
 )
-_MOMENT = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d+)?)?Z?")
 
 
 @dataclass(frozen=True)
@@ -158,7 +157,7 @@ def _kind(cell: str, decimal: str) -> str:
     plain = cell.replace(",", ".") if decimal == "," and "." not in cell else cell
     if _NUMBER.fullmatch(plain) and (decimal == "." or "." not in cell):
         return "number"
-    return "moment" if _MOMENT.fullmatch(cell) else ""
+    return "moment" if is_moment(cell) else ""
 
 
 def _fit(lines: list[str], separator: str | None, decimal: str) -> _Fit | None:
@@ -227,8 +226,11 @@ def _table(lines: list[str], fit: _Fit, encoding: str) -> TextTable:
     facts = {}
     for n, line in above:
         key, sign, value = line.partition(":") if ":" in line else line.partition("=")
+        if not sign and (mark := next((mark for mark in (";", "\t", ",") if mark in line), "")):
+            key, sign, value = line.partition(mark)
+            sign = sign if claims_in({key.strip(' "'): 1.0}) else ""  # ``Abtastrate;51200;Hz``
         if n not in used and sign and key.strip() and len(key) < 60:
-            facts[key.strip()] = value.strip().strip(";,\t")[:500]
+            facts[key.strip(' "')] = value.strip().strip(";,\t")[:500]
     return TextTable(
         encoding, fit.separator, fit.decimal, tuple(names), tuple(units), fit.moments, fit.first, facts, named
     )
@@ -262,10 +264,8 @@ def _heading_cells(line: str, separator: str | None, width: int) -> list[str]:
 
 def _are_units(cells: list[str]) -> bool:
     bracketed = all(c.startswith(("[", "(")) for c in cells if c)
-    known = [
-        usual(c.strip("[]() ")) in ("s", "ms", "us", "g", "mg", "m/s2", "mm/s2", "rpm", "Hz", "V", "-")
-        for c in cells
-    ]
+    units = {*ACCELERATION, *TIME, *ROTATION, *TRAVEL, "V", "-"}
+    known = [usual(c.strip("[]() ")) in units for c in cells]
     return bracketed or sum(known) * 2 >= len(cells)
 
 
@@ -276,13 +276,3 @@ def _distinct(names: list[str]) -> list[str]:
         seen[name] += 1
         out.append(name if seen[name] == 1 else f"{name} ({seen[name]})")
     return out
-
-
-def moments_to_seconds(cells: list[str], first: list[np.datetime64]) -> np.ndarray:
-    """Convert dates with times to seconds from the first, which is kept in a list, exact to a nanosecond."""
-    stamps = np.array(
-        [cell.replace(" ", "T").replace(",", ".").rstrip("Z") for cell in cells], "datetime64[ns]"
-    )
-    if not first:
-        first.append(stamps[0])
-    return (stamps - first[0]).astype(np.int64) * 1e-9

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.measured.claimed_rate import claims_in
+from beardyn_core.measured.claimed_start import seconds_as_start
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import UNKNOWN, Channel, Held, broken
+from beardyn_core.measured.source import Channel, Held, broken
 from beardyn_core.measured.units import usual
 from beardyn_core.optional import library
 
@@ -31,17 +33,27 @@ def open_file(path: Path, _reading: Reading) -> Held:
     doubled = Counter(labels)
     channels, columns = [], {}
     facts: dict[str, str] = {}
+    notes: list[str] = []
     for number, (label, each) in enumerate(zip(labels, signals, strict=True)):
         name = label if doubled[label] == 1 else f"{label} ({number + 1})"
         values = np.asarray(each["data"])
         if np.iscomplexobj(values):
             continue
         step, even = float(each.get("abscissa_inc", 0.0) or 0.0), bool(each.get("abscissa_spacing", 1))
-        rate = 1.0 / step if even and step > 0.0 else UNKNOWN
-        table = f"{len(values)} samples at {rate:g} Hz"
+        claims = tuple(claims_in({"increment": step}, shown=f"{name}: ")) if even and step > 0.0 else ()
+        begin = float(each.get("abscissa_min", 0.0) or 0.0)
+        start = seconds_as_start(begin) if even else None
+        table = f"{len(values)} samples at {1.0 / step if claims else float('nan'):g} Hz"
+        table += f" from {begin:.9g} s" if begin else ""
         unit = usual(str(each.get("ordinate_axis_units_lab", "") or "").replace("NONE", ""))
-        axis = _DIRECTIONS.get(abs(int(each.get("rsp_dir", 0) or 0)), "")
-        channels.append(Channel(name, table, len(values), unit, rate, axis=axis))
+        direction = int(each.get("rsp_dir", 0) or 0)
+        axis = _DIRECTIONS.get(abs(direction), "")
+        if direction < 0:
+            values = -values
+            notes.append(
+                f"{name} points along -{axis or '?'}: its sign is turned, so that it is along +{axis}"
+            )
+        channels.append(Channel(name, table, len(values), unit, claims, start, axis=axis))
         columns[name] = values
         if not even:
             time = f"time of {name}"
@@ -54,7 +66,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
     problems += (
         [] if channels else [f"{path}: has no time response (data set 58, function type 1), has {kinds}"]
     )
-    return Held(tuple(channels), columns, {}, facts, problems=problems)
+    return Held(tuple(channels), columns, {}, facts, tuple(notes), problems)
 
 
 def _label(each: dict[str, Any]) -> str:

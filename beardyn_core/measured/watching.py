@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from beardyn_core.measured.about import Mounted
+from beardyn_core.measured.about import Mounted, beside_others
+from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
@@ -24,15 +25,17 @@ def watch(
 ) -> Iterator[tuple[Mounted, MonitorResult]]:
     """Give the results of all bearings as they become due, in one pass over the files.
 
+    By default the speed is as uncertain as the way it is known. The bearings are neighbours of each other.
     What was found on the way is added to the ``warnings`` at the end.
     """
     first = survey.sensors[0]
+    settings = settings or MonitorSettings(speed_uncertainty=uncertainty_of(survey))
     monitors = {
         each.label: Monitor(
             each.plate.frequencies,
             each.plate.roller_count,
             survey.rate(each.sensor or first),
-            settings,
+            beside_others(settings, each, bearings),
             algorithm,
         )
         for each in bearings

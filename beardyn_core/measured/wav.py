@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.arrays import Float
+from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken
 from beardyn_core.optional import library
 
+_USUAL_STEP = 25.0  # [Hz], of which rates that were not rounded are multiples: 11025, 25600, 44100
 _FLOATS = ("FLOAT", "DOUBLE")
 
 
@@ -41,11 +43,17 @@ def open_file(path: Path, _reading: Reading) -> Held:
             subtype, facts = file.subtype, file.copy_metadata()
     except soundfile.LibsndfileError as error:
         raise broken(path, "WAV", error) from error
-    channels = tuple(Channel(f"channel_{k + 1}", "", count, "", rate) for k in range(names))
+    claims = tuple(claims_in({"sample rate": rate}))
+    channels = tuple(Channel(f"channel_{k + 1}", "", count, "", claims) for k in range(names))
     whole = subtype not in _FLOATS
+    notes = [f"numbers are shares of full scale, 1 is the largest ({subtype})"] if whole else []
     found = _Sound(
         channels, {}, {}, {str(key): str(value) for key, value in facts.items()},
-        notes=(f"numbers are shares of full scale, 1 is the largest ({subtype})",) if whole else (),
+        notes=tuple(notes),
+        warnings=() if rate % _USUAL_STEP == 0.0 else (
+            f"the head of a WAV file has whole hertz only, and {rate:.0f} Hz may be rounded by half of one "
+            f"({50.0 / rate:.2g} %); give --rate-hz if the rate is known",
+        ),
     )  # fmt: skip
     found.path, found.soundfile = path, soundfile
     missing = _missing_bytes(path)

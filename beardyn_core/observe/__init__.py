@@ -16,6 +16,8 @@ stage_clock   wall time of a run by stage
 features      envelope, order tracking, spectrum, line search
 chain         the reference monitoring algorithm: a stretch of signal to a verdict
 legs          times in which the shaft turns one way, put together
+speed_lines   what lines of a vibration say of a speed
+speed_rivals  other speeds that the same lines fit
 speed         speed of the shaft from the vibration itself
 trend         levels of many records against the bearing's own baseline
 passage_order the order at which a fault is passed, near the nominal one

@@ -19,6 +19,7 @@ from beardyn_core.observe.legs import turning_legs
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
+_BELIEVED_AFTER = 5  # blocks of a stream in a row behind its last one, after which its time has jumped back
 _WINDOWS_KEPT = 2  # of the longest, of a stream that the others do not follow
 
 
@@ -145,6 +146,9 @@ class Monitor:
         Gaps found in the vibration; the signal before a gap is dropped.
     refused : int
         Blocks with NaN, time that does not increase, or another number of axes.
+    restarts : int
+        Times at which the time of a stream jumped back, as after one block that was stamped too late: after
+        some blocks behind it the monitor begins anew.
     """
 
     def __init__(
@@ -162,6 +166,8 @@ class Monitor:
         self.algorithm = algorithm
         self.lost = 0
         self.refused = 0
+        self.restarts = 0
+        self._behind = {"vibration": 0, "shaft": 0}  # blocks in a row behind the last one of the stream
         longest_ns = round(self.settings.longest_window * 1e9)
         self._vibration = _Samples((3,), longest_ns)
         self._shaft = _Samples((), longest_ns)
@@ -201,10 +207,12 @@ class Monitor:
         elif acceleration.shape[1:] != self._vibration.axes:
             self.refused += 1
             return
-        behind = known and time_ns[0] <= self._vibration.last_ns
-        if behind or not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
+        if not np.isfinite(acceleration).all() or (np.diff(time_ns) <= 0).any():
             self.refused += 1
             return
+        if self._is_behind("vibration", self._vibration, time_ns):
+            return
+        known = len(self._vibration) > 0
         if self.rate is None and len(time_ns) > 1:
             self.rate = (len(time_ns) - 1) * 1e9 / float(time_ns[-1] - time_ns[0])
         if known and self.rate and (time_ns[0] - self._vibration.last_ns) * 1e-9 * self.rate > 1.5:
@@ -223,12 +231,35 @@ class Monitor:
         """
         if not len(time_ns):
             return
-        behind = len(self._shaft) > 0 and time_ns[0] <= self._shaft.last_ns
-        if behind or (np.diff(time_ns) <= 0).any() or not np.isfinite(angle).all():
+        if (np.diff(time_ns) <= 0).any() or not np.isfinite(angle).all():
             self.refused += 1
+            return
+        if self._is_behind("shaft", self._shaft, time_ns):
             return
         before = self._shaft.joined()[1][-1:]
         self._shaft.append(time_ns, np.unwrap(np.concatenate((before, angle)))[len(before) :])
+
+    def _is_behind(self, name: str, stream: _Samples, time_ns: Int) -> bool:
+        """Tell whether a block is behind the last one of its stream, which refuses it; several begin anew."""
+        if not len(stream) or time_ns[0] > stream.last_ns:
+            self._behind[name] = 0
+            return False
+        self._behind[name] += 1
+        if self._behind[name] < _BELIEVED_AFTER:
+            self.refused += 1
+            return True
+        self._begin_anew(int(time_ns[0]))
+        return False
+
+    def _begin_anew(self, from_ns: int) -> None:
+        """Drop what is later than the present time, [ns], because the clock has jumped back."""
+        self.restarts += 1
+        for name, stream in (("vibration", self._vibration), ("shaft", self._shaft), ("load", self._load)):
+            if len(stream) and stream.last_ns >= from_ns:
+                stream.clear()
+                self._behind[name] = 0
+        self._temperatures = [each for each in self._temperatures if each[0] < from_ns]
+        self._next_ns, self._analysed_ns = None, -1
 
     def push_load(self, time_ns: Int, vertical: Float) -> None:
         """Add samples of the vertical load, [N]."""
@@ -303,9 +334,12 @@ class Monitor:
 
     def _refusals(self) -> str:
         """Say how many blocks were refused, empty when none was."""
-        if not self.refused:
-            return ""
-        return f"; {self.refused} blocks with NaN, other axes or time that does not increase were refused"
+        told = ""
+        if self.refused:
+            told = f"; {self.refused} blocks with NaN, other axes or time that does not increase were refused"
+        if self.restarts:
+            told += f"; the time jumped back {self.restarts} times, and the monitor began anew"
+        return told
 
     def _heating(self) -> float:
         """Fit the rise of the temperature over the last minute, NaN with less than ten seconds, [K/s]."""

@@ -106,26 +106,47 @@ def _usual(run: Run, kind: str) -> tuple[str, ...]:
 def _write_parquet(run: Run, path: Path, name: str) -> None:
     pyarrow = library("pyarrow", "Parquet", "data")
     parquet = library("pyarrow.parquet", "Parquet", "data")
-    table = pyarrow.table(tables.columns_of(run, name))
+    columns, units = _measured_columns(run, name), tables.units_of(run, name)
+    schema = pyarrow.schema(
+        pyarrow.field(
+            key, pyarrow.array(values[:0]).type, metadata={"unit": units[key]} if key in units else None
+        )
+        for key, values in columns.items()
+    )
+    table = pyarrow.table(columns, schema=schema)
     labels = {key: str(value) for key, value in tables.labels_of(run).items() if key != "truth"}
     found = {"beardyn": json.dumps({"signal": name, "truth": run.truth}), **labels}
     parquet.write_table(table.replace_schema_metadata(found), path)
 
 
 def _write_csv(run: Run, path: Path, name: str) -> None:
-    columns = tables.columns_of(run, name)
+    columns, units = _measured_columns(run, name), tables.units_of(run, name)
     formats = ["%s" if values.dtype.kind in "US" else "%.12g" for values in columns.values()]
     rows = np.empty(len(columns["time"]), [(key, values.dtype) for key, values in columns.items()])
     for key, values in columns.items():
         rows[key] = values
-    np.savetxt(path, rows, fmt=formats, delimiter=",", header=",".join(columns), comments="")
+    heading = ",".join(f"{key} [{units[key]}]" if key in units else key for key in columns)
+    np.savetxt(path, rows, fmt=formats, delimiter=",", header=heading, comments="", encoding="utf-8")
+
+
+def _measured_columns(run: Run, name: str) -> dict[str, Any]:
+    """Give the columns of a signal without the axes that were not measured, NaN from end to end."""
+    columns = tables.columns_of(run, name)
+    if not name.startswith(tables.VIBRATION):
+        return columns
+    absent = [key for key, values in columns.items() if len(values) and np.isnan(values).all()]
+    return (
+        columns if len(absent) == len(columns) - 1 else {k: v for k, v in columns.items() if k not in absent}
+    )
 
 
 def _write_npz(run: Run, path: Path, names: Sequence[str]) -> None:
     arrays: dict[str, Any] = {"truth": json.dumps(run.truth)}
     for name in names:
         arrays[f"{name}.time"] = tables.signal_of(run, name).time
-        arrays |= {f"{name}.{part}": array.values for part, array in tables.parts_of(run, name).items()}
+        for part, array in tables.parts_of(run, name).items():
+            arrays[f"{name}.{part}"] = array.values
+            arrays[f"{name}.{part}.unit"] = array.unit
     with path.open("wb") as file:  # NumPy would add an ending of its own
         np.savez_compressed(file, **arrays)
 

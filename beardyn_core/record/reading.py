@@ -155,7 +155,7 @@ def run_of_messages(
     axlebox of several tells which diagnostics are its own.
     """
     sensors = tuple((facts.get("measured") or {}).get("sensors", ()))
-    return Run(MessageSource(cdrs, description, sensors, box), description, **facts)
+    return Run(MessageSource(cdrs, description, sensors, box), description, box=box, **facts)
 
 
 def _description(

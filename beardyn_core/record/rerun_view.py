@@ -133,10 +133,11 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
     stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
 
 
-def title(run: RunDescription) -> str:
-    """Say in a line what is shown."""
+def title(run: RunDescription, box: str = "") -> str:
+    """Say in a line what is shown; ``box`` names the axlebox where a recording has several."""
     faults = ", ".join(each.described() for each in run.defects) or "no fault"
-    return f"{run.scene}: bearing {run.shape.name}, {faults}"
+    where = f", axlebox {box}" if box else ""
+    return f"{run.scene}{where}: bearing {run.shape.name}, {faults}"
 
 
 def blueprint(
@@ -145,16 +146,18 @@ def blueprint(
     follow: bool = False,
     ranges: Mapping[str, tuple[float, float]] | None = None,
     estimates: tuple[str, ...] = (),
+    box: str = "",
 ) -> rrb.Blueprint:
     """Lay out the view: a page of the bearing and its curves, and one of what a follower says.
 
     ``run`` is `None` where the bearing is not known. The curves show a window of time [s], by default all
     there is, and the newest data of a running twin with ``follow``; else the time stands at the beginning.
-    ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says.
+    ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says,
+    ``box`` the name of the axlebox where there are several.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
     close = _window(rr.TimeRangeBoundary.cursor_relative, *(LIVE_WINDOW if follow else CLOSE_WINDOW))
-    pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {})]
+    pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {}, box)]
     pages += [follower_view(estimates)] if estimates else []
     play: dict[str, Any] = {"play_state": "following"}
     if not follow:
@@ -173,6 +176,7 @@ def _bearing_view(
     whole: rrb.archetypes.TimeAxis | None,
     close: rrb.archetypes.TimeAxis,
     ranges: Mapping[str, tuple[float, float]],
+    box: str,
 ) -> rrb.Container:
     """Lay out the bearing with the scale of its colours on the left, curves on the right."""
     outer_diameter, sensors = run.shape.outer_diameter, run.sensor_names
@@ -194,7 +198,7 @@ def _bearing_view(
     bearing = rrb.Spatial3DView(
         origin="/",
         contents=[f"{ROOT}/**"],
-        name=title(run),
+        name=title(run, box),
         background=BACKGROUND,
         line_grid=False,
         eye_controls=eye,
@@ -230,7 +234,9 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     """Make the blueprint of a recording, with its time window."""
     times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
-    return blueprint(run.described(), span, ranges=ranges_of(run), estimates=quantities_of(run.followed))
+    return blueprint(
+        run.described(), span, ranges=ranges_of(run), estimates=quantities_of(run.followed), box=run.box
+    )
 
 
 def save(run: Run, target: Path | str, *, replace: bool = True) -> Path:
@@ -262,6 +268,8 @@ def about(run: Run) -> str:
         f"Bearing **{description.shape.name}**, {description.truth.get('rows', 2)} x "
         f"{description.roller_count} rollers.",
     ]
+    if run.box:
+        lines.append(f"Axlebox **{run.box}** of {', '.join(run.boxes)}.")
     if run.problem:
         lines.append(f"**The file was cut off:** {run.problem}")
     if run.status not in (None, COMPLETE):

@@ -59,6 +59,8 @@ class Run:
         docs/measured.md. Empty for a simulated one.
     boxes : mapping, optional
         Of a run of several axleboxes: every one by its name.
+    box : str
+        Name of this one among them; empty where it is alone.
     """
 
     def __init__(
@@ -75,6 +77,7 @@ class Run:
         malformed: Mapping[str, int] | None = None,
         measured: Mapping[str, Any] | None = None,
         boxes: Mapping[str, Run] | None = None,
+        box: str = "",
     ) -> None:
         self._source = source
         self.description = description
@@ -87,6 +90,7 @@ class Run:
         self.measured = dict(measured or {})
         self._summary = summary
         self._boxes = boxes
+        self.box = box
 
     @property
     def boxes(self) -> Mapping[str, Run]:
@@ -101,6 +105,7 @@ class Run:
         status: str | None = None,
         summary: Callable[[], RunSummary] | None = None,
         boxes: Mapping[str, Run] | None = None,
+        box: str = "",
     ) -> Run:
         """Make a run of blocks, such as `beardyn_core.blocks` or a live twin gives.
 
@@ -117,7 +122,7 @@ class Run:
             How the run ended.
         summary : callable, optional
             Gives the summary of the simulation.
-        boxes : mapping, optional
+        boxes, box : optional
             See `Run`.
         """
         from beardyn_core.record.collecting import BlockSource
@@ -126,7 +131,7 @@ class Run:
         given = tuple(blocks)
         source = BlockSource(given, description) if given else MessageSource({}, description)
         text = "" if description is None else description.scene_text
-        return cls(source, description, status=status, scene_text=text, summary=summary, boxes=boxes)
+        return cls(source, description, status=status, scene_text=text, summary=summary, boxes=boxes, box=box)
 
     @cached_property
     def force(self) -> arrays.Signal:

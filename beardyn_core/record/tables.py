@@ -116,17 +116,38 @@ def columns_of(run: Run, name: str) -> dict[str, NDArray[Any]]:
     if name == "contacts":
         return _contact_columns(signal)
     columns: dict[str, NDArray[Any]] = {"time": signal.time}
-    labels = coordinates_of(run)
-    own = getattr(signal, "components", ())
     for part, array in parts_of(run, name).items():
-        axes = [own] if len(array.dims) == 1 and len(own) == array.values.shape[1] else None
-        axes = axes or [labels[dim] for dim in array.dims]
-        for place in np.ndindex(array.values.shape[1:]):
-            words = [str(axis[k]) for axis, k in zip(axes, place, strict=True)]
-            stem = [part] if part in ("angle", "speed", "bogie", "shaft_speed") else []
-            stem = [name] if part == "values" and not words else stem
-            columns["_".join((*stem, *words))] = np.moveaxis(array.values, 0, -1)[place]
+        places = np.ndindex(array.values.shape[1:])
+        for column, place in zip(_column_names(run, name, part, array), places, strict=True):
+            columns[column] = np.moveaxis(array.values, 0, -1)[place]
     return columns
+
+
+def units_of(run: Run, name: str) -> dict[str, str]:
+    """Give the units of the columns of `columns_of`, where each array of the signal has one unit."""
+    if name == "contacts":
+        return {}
+    units = {"time": "s"}
+    for part, array in parts_of(run, name).items():
+        for column in _column_names(run, name, part, array):
+            if array.unit and "," not in array.unit:
+                units[column] = array.unit
+    return units
+
+
+def _column_names(run: Run, name: str, part: str, array: Part) -> list[str]:
+    """Name the columns of one array of a signal, in the order of its places."""
+    labels = coordinates_of(run)
+    own = getattr(signal_of(run, name), "components", ())
+    axes = [own] if len(array.dims) == 1 and len(own) == array.values.shape[1] else None
+    axes = axes or [labels[dim] for dim in array.dims]
+    found = []
+    for place in np.ndindex(array.values.shape[1:]):
+        words = [str(axis[k]) for axis, k in zip(axes, place, strict=True)]
+        stem = [part] if part in ("angle", "speed", "bogie", "shaft_speed") else []
+        stem = [name] if part == "values" and not words else stem
+        found.append("_".join((*stem, *words)))
+    return found
 
 
 def _contact_columns(contacts: Any) -> dict[str, NDArray[Any]]:

@@ -17,13 +17,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--output",
         metavar="DIR",
         type=Path,
-        default=Path("demo"),
-        help="folder for the results; default demo",
+        help="folder for the results; default demo, or the next free one: demo_2, demo_3, ...",
     )
     parser.add_argument(
         "--effects",
         metavar="NAME",
-        help="set or file of effects, or auto; default the scene's, or what an accuracy of 5 %% needs",
+        help="set or file of effects, or auto; default the scene's, or what it needs to be "
+        "within 5 %% of the full model",
     )
     parser.add_argument("--duration", type=float, metavar="S", help="simulated time, s; default the scene's")
     parser.add_argument("--force", action="store_true", help="replace the results of an earlier demo")
@@ -52,7 +52,8 @@ class Progress:
         self._monitor = {
             "waiting": "listening",
             "healthy": "no fault",
-            "not_diagnosable": "hears nothing",
+            "not_diagnosable": "cannot tell",
+            "unexplained": "strikes that fit no part",
         }.get(verdict, f"{verdict} fault")
 
     def show(self, simulated: float, real_time_factor: float) -> None:

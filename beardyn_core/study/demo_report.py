@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
 from typing import Annotated as A
 
@@ -24,6 +26,7 @@ RERUN_NAME = "run.rrd"
 SUMMARY_NAME = "summary.png"
 VIEW_NAME = "view.png"
 FILES = (RECORDING_NAME, RERUN_NAME, SUMMARY_NAME, VIEW_NAME)
+USUAL_FOLDER = Path("demo")
 HIGHEST_HARMONIC = 5.0
 LABEL_WIDTH = 22
 
@@ -39,14 +42,28 @@ class Pace:
     overall: A[float | None, "simulated time over wall time with all running; ``None``: not measured"] = None
 
 
-def demo_folder(folder: Path, *, inputs: Sequence[Path] = (), force: bool = False) -> Path:
+def demo_folder(given: Path | None, say: Say, *, inputs: Sequence[Path] = (), force: bool = False) -> Path:
     """Make the folder for the results when it is missing; ``force`` replaces earlier ones, never an input.
+
+    Parameters
+    ----------
+    given : Path or None
+        Of ``--output``. ``None``: ``demo``, or ``demo_2``, ``demo_3`` and so on where a folder holds
+        results already.
+    say : callable
+        Prints one line, when another folder than ``demo`` is taken.
 
     Raises
     ------
     InputError
         It cannot be made or written, or it holds results already.
     """
+    folder = _free_folder(force) if given is None else given
+    if given is None and folder != USUAL_FOLDER:
+        say(
+            f"{USUAL_FOLDER} holds the results of an earlier run: these go to {folder} "
+            f"(--force replaces those in {USUAL_FOLDER})"
+        )
     if folder.exists() and (
         problems := folder_problems("--output", folder, FILES, inputs=inputs, force=force)
     ):
@@ -58,6 +75,21 @@ def demo_folder(folder: Path, *, inputs: Sequence[Path] = (), force: bool = Fals
             f"--output {folder}: cannot be written ({error.strerror}); choose another"
         ) from error
     return folder
+
+
+def _free_folder(force: bool) -> Path:
+    """Find the first folder that holds no results, of ``demo``, ``demo_2``, ``demo_3`` and so on."""
+    if force:
+        return USUAL_FOLDER
+    numbered = (USUAL_FOLDER.with_name(f"{USUAL_FOLDER}_{number}") for number in count(2))
+    return next(each for each in chain((USUAL_FOLDER,), numbered) if not _taken(each))
+
+
+def _taken(folder: Path) -> bool:
+    """Whether there is a file of this name, or a folder with results in it."""
+    if not folder.is_dir():
+        return os.path.lexists(folder)
+    return any(os.path.lexists(folder / name) for name in FILES)
 
 
 def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> Conclusion:

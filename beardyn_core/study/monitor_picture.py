@@ -14,6 +14,7 @@ from beardyn_core.observe.chain import MonitorResult
 
 WIDTH_PX, HEIGHT_PX, DPI = 1200, 420, 100
 _PARTS = (("cup", "BPFO", "#4C72B0"), ("cone", "BPFI", "#DD8452"), ("roller", "2 BSF", "#55A868"))
+_COMB = "#C44E52"
 _FLOOR = -5.0  # below which the spectrum is not drawn, [dB]
 
 
@@ -33,7 +34,7 @@ def monitor_figure(heard: Mapping[str, tuple[MonitorResult, FaultFrequencies]]) 
 
 
 def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencies) -> None:
-    axes.set_title(f"{label}: {result.reason}", fontsize=9, wrap=True)
+    axes.set_title(f"{label}: {result.verdict}: {result.reason}", fontsize=9, wrap=True)
     axes.set(xlabel="order, cycles per shaft revolution", ylabel="envelope over background, dB")
     if result.spectrum is None:
         return
@@ -44,6 +45,10 @@ def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencie
         for harmonic in range(1, int(order[-1] / step) + 1):
             name = f"{part}, {symbol}" if harmonic == 1 else None
             axes.axvline(harmonic * step, color=colour, linewidth=0.9, alpha=0.6, label=name)
+    if np.isfinite(result.comb_order):
+        for harmonic in range(1, int(order[-1] / result.comb_order) + 1):
+            name = f"fits no part: order {result.comb_order:.3f}" if harmonic == 1 else None
+            axes.axvline(harmonic * result.comb_order, color=_COMB, linestyle="--", linewidth=0.9, label=name)
     axes.plot(order, level, color="0.15", linewidth=0.7)
     axes.set(xlim=(0.0, float(order[-1])), ylim=(_FLOOR, float(level.max()) + 3.0))
     axes.legend(loc="upper right", fontsize=8)

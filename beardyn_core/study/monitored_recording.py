@@ -12,6 +12,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
+from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
 from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
@@ -22,8 +23,13 @@ from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME
 
 WAITING, HEALTHY, NOT_DIAGNOSABLE = "waiting", "healthy", "not_diagnosable"
-HOT_BOX = "hot_box"
+UNEXPLAINED, HOT_BOX = "unexplained", "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
+# from the best to the worst
+_ORDER = (HEALTHY, WAITING, NOT_DIAGNOSABLE, UNEXPLAINED, *FAULT_SYMBOLS, HOT_BOX)
+EXIT_CODES = {HEALTHY: 0, WAITING: 10, NOT_DIAGNOSABLE: 10, UNEXPLAINED: 11} | dict.fromkeys(
+    (*FAULT_SYMBOLS, HOT_BOX), 12
+)
 
 
 @dataclass(frozen=True)
@@ -38,6 +44,12 @@ class Finding:
     found_order: A[float, "line found, per shaft revolution, [-]"] = nan
     expected_order: A[float, "the same from geometry, [-]"] = nan
     signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
+    fitting_shaft_frequency: A[
+        float, "speed at which the line or the comb found is that of a part without slip, [Hz]"
+    ] = nan
+    comb_frequency: A[float, "of strikes that fit no part at the stated speed, [Hz]"] = nan
+    comb_order: A[float, "the same per shaft revolution, [-]"] = nan
+    comb_strikes: A[float, "what these strikes make of the mean power, [-]"] = nan
     score: A[float, "what the alarm threshold is compared with, [dB]"] = 0.0
     shaft_frequency: A[float, "[Hz]"] = nan
     load: A[float, "mean vertical load, [N]"] = nan
@@ -81,12 +93,12 @@ class Finding:
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
-        """Write as a status of ``monitor/result``: a fault, or deafness, is a warning, a hot box an error."""
+        """Write as a status of ``monitor/result``: a hot box is an error, all but healthy a warning."""
         values = [("verdict", self.verdict)]
         for member in fields(self)[2:]:
             number = float(getattr(self, member.name))
             values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
-        level = 2 if self.verdict == HOT_BOX else int(self.is_fault or self.verdict == NOT_DIAGNOSABLE)
+        level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
     @classmethod
@@ -140,15 +152,24 @@ class Tally:
             self._last[finding.verdict] = finding
 
     def conclusion(self) -> Conclusion:
-        """Find the most frequent verdict, of equally frequent ones the later, which has heard more.
+        """Find the most frequent verdict, of equally frequent ones the later, which has seen more.
 
-        Results before there was enough signal do not count.
+        Results before there was enough signal do not count. Healthy is said only where at least half of the
+        results are: a comb that strikes in more of them is there, whatever it was called each time.
         """
         if not self._counts:
             return Conclusion(None, 0, 0)
-        agreeing = max(self._counts.values())
-        verdict = [name for name in self._last if self._counts[name] == agreeing][-1]
-        return Conclusion(self._last[verdict], agreeing, self._counts.total())
+        total = self._counts.total()
+        others = {name: count for name, count in self._counts.items() if name != HEALTHY}
+        counts = self._counts if 2 * self._counts[HEALTHY] >= total else others
+        agreeing = max(counts.values())
+        verdict = [name for name in self._last if counts.get(name) == agreeing][-1]
+        return Conclusion(self._last[verdict], agreeing, total)
+
+
+def worst(verdicts: Iterable[str]) -> str:
+    """Choose the worst of several verdicts: a hot box, a faulty part, unexplained strikes, none at all."""
+    return max(verdicts, key=_ORDER.index)
 
 
 def conclude(findings: Iterable[Finding]) -> Conclusion:
@@ -219,7 +240,8 @@ def results_of(
 ) -> Iterator[MonitorResult]:
     """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
-    The bearing is what the name plate says; the sensor is the first one by default.
+    The bearing is what the name plate says; the sensor is the first one by default. By default the speed is
+    as uncertain as a measured run says.
 
     Raises
     ------
@@ -228,6 +250,7 @@ def results_of(
     """
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
+    settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
     monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
     yield from listen(monitor, run.monitor_inputs(sensor))
 

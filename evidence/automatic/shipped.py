@@ -32,7 +32,7 @@ the one that its file names (`bogie`: `lumped`, hence errors beyond what is aske
 taken with `tier: auto` only. The last two columns are of the same scene with the effects that its file names,
 else with `standard`.
 
-| scene | chosen | expected errors | times real time | named, else `standard`: errors | times real time |
+| scene | chosen | largest difference | times real time | named, else `standard`: errors | times real time |
 |---|---|---|--:|---|--:|
 """
 

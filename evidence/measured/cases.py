@@ -28,6 +28,8 @@ SENSORS = {DRIVE: "DE", FAN: "FE"}
 NOMINAL_RPM = (1797.0, 1772.0, 1750.0, 1730.0)  # at 0 to 3 horsepower, of files that do not say it
 SETS = ("CWRU 12 kHz, drive end", "CWRU 12 kHz, fan end", "CWRU 48 kHz, drive end", "CWRU sound", "MFPT")
 CWRU_12_DRIVE, CWRU_12_FAN, CWRU_48_DRIVE, CWRU_SOUND, MFPT = SETS
+HIT = "HIT-SM"  # two rigs of the Harbin Institute of Technology, 6205, 51.2 kHz, one axis
+_HIT_PARTS = {"IR": "cone", "OR": "cup", "No": ""}
 
 # part, diameter in thousandths of an inch, place of a fault of the cup on the clock, numbers at 0 to 3 hp
 _TABLE: dict[str, tuple[tuple[str, int, int, tuple[int, ...]], ...]] = {
@@ -86,7 +88,7 @@ _TABLE: dict[str, tuple[tuple[str, int, int, tuple[int, ...]], ...]] = {
 class Record:
     """One file of measured vibration, and what is known of it."""
 
-    group: A[str, "one of `SETS`"]
+    group: A[str, "one of `SETS`, or `HIT`"]
     name: A[str, "number of the record, or name of the file"]
     path: Path
     part: A[str, "faulty part, '' when sound"]
@@ -126,7 +128,7 @@ def cwru_known() -> dict[int, tuple[str, str, int, int, int]]:
     }
 
 
-def records(cwru: Path | None = None, mfpt: Path | None = None) -> list[Record]:
+def records(cwru: Path | None = None, mfpt: Path | None = None, hit_sm: Path | None = None) -> list[Record]:
     """Find the records below the folders, in the order of the tables."""
     found = []
     if cwru is not None:
@@ -142,6 +144,10 @@ def records(cwru: Path | None = None, mfpt: Path | None = None) -> list[Record]:
             for word, part in parts.items():
                 if path.name.startswith(word):
                     found.append(Record(MFPT, path.stem, path, part))
+    for path in sorted(hit_sm.rglob("*.mat")) if hit_sm is not None else ():
+        named = re.search(r"(IR|OR|Normal)\d*_(600|900|1200)$", path.stem)
+        if named:
+            found.append(Record(HIT, f"{path.parent.name}/{path.stem}", path, _HIT_PARTS[named[1][:2]]))
     return found
 
 
@@ -155,6 +161,13 @@ def listenings(record: Record) -> Iterator[Listening]:
         signal = np.asarray(bearing["gs"].item(), float).ravel() * G
         rate, turns = float(bearing["sr"].item()), float(bearing["rate"].item())
         yield Listening(record, "", load_plate("NICE"), record.part, rate, turns, signal)
+        return
+    if record.group == HIT:
+        signal = next(np.ravel(value) for key, value in content.items() if not key.startswith("__"))
+        rpm = float(record.name.rpartition("_")[2])
+        yield Listening(
+            record, "", load_plate(PLATES[DRIVE]), record.part, 51.2e3, rpm / 60.0, G * signal.astype(float)
+        )
         return
     rate = 12e3 if record.group in (CWRU_12_DRIVE, CWRU_12_FAN) else 48e3
     rpm = next((float(content[key]) for key in content if key.endswith("RPM")), NOMINAL_RPM[record.load])

@@ -1,6 +1,6 @@
 """How often the speed heard in a vibration is in its interval: ``python -m evidence.measured.speed``.
 
-The interval was fitted on 25 records of CWRU; those of MFPT had no part in it. The speed is sought from three
+The interval was fitted on records of CWRU; those of MFPT had no part in it. The speed is sought from three
 quarters of the stated one to four thirds, so that its place in the range tells nothing.
 """
 

@@ -124,11 +124,12 @@ def test_no_false_alarm_on_much_noise(situation):
     assert_no_false_alarm(situation, range(1000, 1060))
 
 
-def test_impulses_that_match_no_fault_frequency_raise_no_alarm():
+def test_impulses_that_match_no_fault_frequency_are_unexplained():
     _, angle, acceleration = _signal("cup", 7, slip=0.12)
     result = REFERENCE(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
     assert result.strongest_level > 20.0
-    assert result.verdict == "healthy"
+    assert result.verdict == "unexplained"
+    assert result.comb_order == pytest.approx(1.12 * ORDERS.bpfo, rel=2e-3)
 
 
 def _feed(monitor, signal, block=512, skip=()):
@@ -185,6 +186,39 @@ def test_nan_and_time_that_runs_back_are_refused():
     monitor.push_shaft(time_ns[::64], np.arange(8.0))
     monitor.push_shaft(time_ns[::64], np.arange(8.0))
     assert monitor.refused == 3
+
+
+@pytest.mark.parametrize("late", ["vibration", "shaft", "both"])
+@pytest.mark.parametrize("jump", [3600.0, -3600.0])
+def test_after_one_block_that_was_stamped_wrong_the_monitor_begins_anew(late, jump):
+    monitor = Monitor(ORDERS, ROLLERS)
+    time, angle, acceleration = _signal("cup", 1, duration=8.0)
+    stamps = 7_200_000_000_000 + np.round(time * 1e9).astype(np.int64)
+    verdicts = []
+    for number, part in enumerate(np.array_split(np.arange(len(time)), 400)):
+        vibration, shaft = stamps[part], stamps[part][::64]
+        shift = round(jump * 1e9) if number == 200 else 0
+        monitor.push_vibration(vibration + (shift if late != "shaft" else 0), acceleration[part])
+        monitor.push_shaft(shaft + (shift if late != "vibration" else 0), angle[part][::64])
+        result = monitor.update()
+        if result is not None and number > 210:
+            verdicts.append(result)
+    assert verdicts[-1].verdict == "cup"
+    assert verdicts[-1].end_ns > stamps[int(0.9 * len(stamps))]
+    assert monitor.restarts == (1 if jump > 0.0 and late != "both" else monitor.restarts)
+    assert monitor.restarts <= 2
+    assert monitor.refused <= 10
+    assert (monitor.restarts > 0) == (jump > 0.0)
+
+
+def test_a_monitor_says_that_the_time_jumped_back():
+    monitor = Monitor(ORDERS, ROLLERS)
+    time_ns = np.arange(512, dtype=np.int64) * 39_062
+    monitor.push_vibration(time_ns + 10**12, np.zeros((512, 3)))
+    for number in range(6):
+        monitor.push_vibration(time_ns + 20_000_000 * number, np.zeros((512, 3)))
+    assert monitor.restarts == 1
+    assert "the time jumped back 1 times, and the monitor began anew" in monitor.result().reason
 
 
 def test_standstill_keeps_waiting_with_bounded_memory():

@@ -235,8 +235,8 @@ def test_lines_that_another_bearing_explains_better_are_no_fault() -> None:
         cup = found.candidates[0]
         assert cup.score > cup.threshold
         verdicts.append(strongest_pattern(found, _stretch(None, 46), SETTINGS))
-    assert [verdict.name for verdict in verdicts] == ["cup", "healthy"]
-    assert verdicts[1].reason.endswith("but multiples of order 4.100 are surer")
+    assert [verdict.name for verdict in verdicts] == ["cup", "unexplained"]
+    assert "a comb of order 4.100" in verdicts[1].reason
 
 
 def test_a_roller_that_strikes_one_race_only_is_its_own_and_no_rival() -> None:

@@ -70,7 +70,7 @@ def test_fast_tiers_get_what_they_can_have(name: str, tier: str, beyond: bool) -
     assert scene.effects.film is not None, (
         "it starves the rolling resistance: else the torque is three times as large"
     )
-    assert ("more than asked for" in scene.chosen[0]) == beyond
+    assert ("the bound is wider than the wanted" in scene.chosen[0]) == beyond
     assert scene.numerics.laminae <= 12, "no fineness is bought for what the tier misses anyway"
 
 

@@ -19,7 +19,7 @@ from beardyn_core.record.sinks import MemorySink
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
-from beardyn_core.study.monitored_recording import HOT_BOX, MonitoredRecording, findings_of
+from beardyn_core.study.monitored_recording import EXIT_CODES, HOT_BOX, MonitoredRecording, findings_of
 from beardyn_core.study.trial import results_over
 from test.face.test_one_run import hot, spalled
 
@@ -42,7 +42,7 @@ def test_a_hot_box_is_called_beside_the_run_over_its_recording_and_in_a_trial(
     for found in (beside.findings, recorded, in_trial):
         assert found[-1].verdict == HOT_BOX, found[-1].reason
         assert found[-1].temperature > 400.0
-    assert main(["monitor", str(path), "--json"]) == 0
+    assert main(["monitor", str(path), "--json"]) == EXIT_CODES[HOT_BOX]
     said = json.loads(capsys.readouterr().out)
     assert said["verdict"] == HOT_BOX
     assert bd.monitor(bd.read(path)).verdict == HOT_BOX

@@ -49,7 +49,9 @@ def test_parquet_holds_the_columns_and_the_truth(run: Run, tmp_path: Path) -> No
 def test_csv_holds_the_columns_and_its_neighbour_the_truth(run: Run, tmp_path: Path) -> None:
     for name in ("vibration", "rollers", "contacts", "shaft"):
         path, beside = run.to_csv(tmp_path / f"{name}.csv", [name])
-        table = np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="utf-8")
+        headings = path.read_text(encoding="utf-8").splitlines()[0].split(",")
+        names = [heading.partition(" [")[0] for heading in headings]  # without units
+        table = np.genfromtxt(path, delimiter=",", names=names, skip_header=1, dtype=None, encoding="utf-8")
         for key, values in columns_of(run, name).items():
             if values.dtype.kind == "U":
                 assert table[key].tolist() == values.tolist()
@@ -149,7 +151,10 @@ def test_the_command_refuses_what_exists_and_what_is_the_input(
     target = tmp_path / "run.npz"
     assert main(["export", str(recording), "-o", str(target), "--signals", "vibration,force"]) == 0
     with np.load(target) as arrays:
-        assert set(arrays) == {"truth", "vibration.time", "vibration.values", "force.time", "force.values"}
+        signals = {f"{name}.{part}" for name in ("vibration", "force") for part in ("time", "values")}
+        units = {"vibration.values.unit": "m/s^2", "force.values.unit": "N, N m"}
+        assert set(arrays) == {"truth"} | signals | set(units)
+        assert {name: str(arrays[name]) for name in units} == units  # by which an import knows them
     before = target.read_bytes()
     assert main(["export", str(recording), "-o", str(target)]) == 2
     assert "the file exists; --force replaces it (in Python force=True)" in capsys.readouterr().err

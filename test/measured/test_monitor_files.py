@@ -18,6 +18,7 @@ from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.config import load_bearing, load_plate, shipped_names
 from beardyn_core.observe.chain import REFERENCE, MonitorSettings, Stretch
 from beardyn_core.observe.monitoring import Monitor, measured_axes
+from beardyn_core.study.monitored_recording import EXIT_CODES
 from test.measured.files import RATE, G, frequencies, struck, table
 
 PAGE = (Path(__file__).parents[2] / "docs" / "measured.md").read_text(encoding="utf-8")
@@ -61,7 +62,7 @@ def test_the_page_leads_from_a_csv_file_to_a_verdict_in_three_commands(
     assert "measured motor.csv: 48000 samples at 12000 Hz, 4 s, time in time_s" in report
     assert "bearing  6205: 9 rolling elements of 7.94 mm on a circle of 39.04 mm" in report
     assert "no samples missing" in report
-    assert main(three[2]) == DONE
+    assert main(three[2]) == EXIT_CODES["cup"]
     assert capsys.readouterr().out.splitlines()[-1] == "cup: 7 of 7 analyses"
     assert "cup: 7 of 7 analyses" in PAGE
 
@@ -79,13 +80,13 @@ def test_the_programs_and_other_commands_of_the_page_do_what_it_says(
     both(tmp_path)
     inline = re.search(r"`beardyn (monitor motor\.csv [^`]*)`", PAGE)
     assert inline is not None
-    assert main(shlex.split(inline[1])) == DONE
+    assert main(shlex.split(inline[1])) == EXIT_CODES["cup"]
     assert capsys.readouterr().out.splitlines()[-1] == "cup: 7 of 7 analyses"
     (program,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     exec(compile(program, "page", "exec"), {"bd": bd})
     assert "cup" in capsys.readouterr().out.splitlines()
     two = next(words for words in commands(PAGE) if "both.csv" in words)
-    assert main(two) == DONE
+    assert main(two) == EXIT_CODES["cone"]  # the worst decides
     assert capsys.readouterr().out.splitlines()[-2:] == [
         "drive_end healthy: 7 of 7 analyses",
         "fan_end cone: 7 of 7 analyses",
@@ -103,13 +104,13 @@ def test_a_recording_names_its_bearings_and_their_sensors(
     words = ["--channels", "drive:z=de_g", "--channels", "fan:z=fe_g", "--speed-rpm", "1800"]
     names = ["--bearing", "drive_end=6205@drive", "--bearing", "fan_end=6203@fan"]
     assert main(["import", str(both(tmp_path)), "-o", out, *words, *names]) == DONE
-    assert main(["monitor", out, "--json"]) == DONE
+    assert main(["monitor", out, "--json"]) == EXIT_CODES["cone"]
     found = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert [(b["label"], b["bearing"], b["sensor"], b["verdict"]) for b in found["bearings"]] == [
         ("drive_end", "6205", "drive", "healthy"),
         ("fan_end", "6203", "fan", "cone"),
     ]
-    assert found["verdict"] == "healthy"
+    assert found["verdict"] == "cone"  # the worst
     run = bd.read(out)
     assert list(run.sensors) == ["drive", "fan"]
     assert bd.monitor(run, bearing=bd.name_plate("6203"), sensor="fan").verdict == "cone"
@@ -132,7 +133,7 @@ def test_direct_and_recorded_verdicts_are_the_same(
     capsys.readouterr()
     told = []
     for each in ([str(path), *words], [str(out)]):
-        assert main(["monitor", *each, "--json"]) == DONE
+        assert main(["monitor", *each, "--json"]) == EXIT_CODES["cup"]
         told.append(json.loads(capsys.readouterr().out)["findings"])
     assert [f["verdict"] for f in told[0]] == [f["verdict"] for f in told[1]] == ["cup"] * 7
     for one, other in zip(*told, strict=True):
@@ -176,7 +177,8 @@ def test_a_low_rate_is_answered_with_a_sentence_and_not_with_healthy(
     path = table(
         tmp_path / "a.csv", {"time_s": np.arange(12_000) / 4000, "az_g": np.sin(np.arange(12_000.0) ** 2)}
     )
-    assert main(["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]) == DONE
+    words = ["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]
+    assert main(words) == EXIT_CODES["not_diagnosable"]
     ending = capsys.readouterr().out.splitlines()[-1]
     assert ending == (
         "not_diagnosable: 5 of 5 analyses; the sampling rate is 4000 Hz; at least 6000 Hz are "
@@ -188,7 +190,8 @@ def test_a_record_shorter_than_an_analysis_says_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = measured(tmp_path, az_g=struck(3.58, 0.3)[:, 0])
-    assert main(["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]) == DONE
+    words = ["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205"]
+    assert main(words) == EXIT_CODES["not_diagnosable"]
     assert "not_diagnosable: no analysis; the signal is shorter than the first" in capsys.readouterr().out
 
 
@@ -254,3 +257,36 @@ def test_a_name_plate_that_cannot_be_is_refused_with_every_mistake(tmp_path: Pat
         load_plate("6206")
     changed = bd.name_plate("6205", contact_angle_deg=15)
     assert changed.frequencies.bpfo > bd.name_plate("6205").frequencies.bpfo
+
+
+def test_a_wrong_speed_is_unexplained_in_text_json_and_exit_code(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--speed-rpm", "1690", "--bearing", "6205"]
+    assert main(words) == EXIT_CODES["unexplained"]
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last.startswith("unexplained: ")
+    assert "the outer ring (cup) of this bearing at 1" in last
+    assert main([*words, "--json"]) == EXIT_CODES["unexplained"]
+    found = json.loads(capsys.readouterr().out)
+    assert found["verdict"] == found["bearings"][0]["verdict"] == "unexplained"
+    assert found["findings"][-1]["fitting_shaft_frequency_Hz"] == pytest.approx(30.0, rel=0.01)
+
+
+def test_a_wider_speed_uncertainty_names_the_part_that_a_narrow_one_leaves_unexplained(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--speed-rpm", "1690", "--bearing", "6205"]
+    assert main([*words, "--speed-uncertainty", "7 %"]) == EXIT_CODES["cup"]
+    assert main([*words, "--speed-uncertainty", "0"]) == EXIT_CODES["unexplained"]
+
+
+def test_mistakes_of_certainty_and_of_the_file_are_reported_at_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--bearing", "6205"]
+    assert main([*words, "--speed-uncertainty", "0.03", "--neighbour", "6999"]) == BAD_INPUT
+    told = capsys.readouterr().err
+    assert "--speed-uncertainty is '0.03'; it must be 0, or a number from 0.1 to 10 in per cent" in told
+    assert "--neighbour 6999: " in told
+    assert "--speed-rpm" in told  # no speed is given either

@@ -18,6 +18,7 @@ from beardyn_core.record.reading import namespaces_in
 from beardyn_core.record.run import Run
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
+from beardyn_core.study.monitored_recording import EXIT_CODES
 from test.train.test_boxes import train
 
 SECONDS = 0.72  # three rounds of 16 blocks of 20 ms, the last of them shorter
@@ -92,7 +93,7 @@ def test_commands_take_a_box(
     target = tmp_path / "one.npz"
     assert main(["export", str(recording), "--box", "axle_2_right", "-o", str(target)]) == 0
     assert len(np.load(target, allow_pickle=False)["force_waveform.values"]) == len(in_memory.force_waveform)
-    assert main(["monitor", str(recording)]) == 0
+    assert main(["monitor", str(recording)]) == EXIT_CODES["not_diagnosable"]
     assert capsys.readouterr().out.count("not_diagnosable") >= 4
     assert main(["view", str(recording), "--box", "axle_1_right", "--save", str(tmp_path / "v.rrd")]) == 0
 
@@ -121,7 +122,7 @@ def test_a_monitor_finds_the_spall_of_the_shipped_bogie_in_its_box_alone(
     assert main(["warmup", "bogie"]) == 0  # two sorts of kernels: sound and faulty
     assert main(["simulate", "bogie", "-o", str(path)]) == 0
     capsys.readouterr()
-    assert main(["monitor", str(path)]) == 0
+    assert main(["monitor", str(path)]) == EXIT_CODES["cup"]
     told = capsys.readouterr().out.splitlines()[-4:]
     assert [line.split(":")[0] for line in told] == [
         "axle_1_left healthy",

@@ -1,28 +1,30 @@
 """The reference monitoring chain: plain functions, each of which can be replaced.
 
-=========== ========================================================================
-module      responsibility
-=========== ========================================================================
-inputs      what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
-diagnosable tells what no fault can be heard in
-kurtogram   another select_band: where the spectral kurtosis is largest
-whitening   select_band and whiten: all that is usable, every frequency with the same weight
-wheel       takes out what turns with the wheel (flats, polygons)
-tracking    track: over the angle of the shaft, as logarithm
-surprise    how often noise has such lines: evidence, and the threshold of a stated rate
-rivals      evenly spaced lines that no pattern explains
-fault_lines score: power on the lines of each fault against noise
-strikes     how much of the power as measured comes in short strikes
-levels      RMS, kurtosis, crest factor and their trend
-verdict     decide: which fault is called, and why; the temperature rule
-result      what an algorithm answers
-chain       `Chain`: the steps put together, each replaceable
-patience    waits for a function, but not for ever
-named       finds an algorithm by its name ``module:function``, and checks its answer
-=========== ========================================================================
+============ ========================================================================
+module       responsibility
+============ ========================================================================
+inputs       what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
+diagnosable  tells what no fault can be heard in
+kurtogram    another select_band: where the spectral kurtosis is largest
+whitening    select_band and whiten: all that is usable, every frequency with the same weight
+wheel        takes out what turns with the wheel (flats, polygons)
+tracking     track: over the angle of the shaft, as logarithm
+surprise     how often noise has such lines: evidence, and the threshold of a stated rate
+rivals       evenly spaced lines that no pattern explains
+explanations what would explain such lines: another speed, another bearing
+fault_lines  score: power on the lines of each fault against noise
+strikes      how much of the power as measured comes in short strikes
+levels       RMS, kurtosis, crest factor and their trend
+verdict      decide: which fault is called, and why; the temperature rule
+result       what an algorithm answers
+chain        `Chain`: the steps put together, each replaceable
+patience     waits for a function, but not for ever
+named        finds an algorithm by its name ``module:function``, and checks its answer
+============ ========================================================================
 """
 
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain
+from beardyn_core.observe.chain.explanations import Explanation
 from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, Line
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band
@@ -30,5 +32,14 @@ from beardyn_core.observe.chain.named import algorithm_named, answer_of
 from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
 from beardyn_core.observe.chain.verdict import Verdict
 
-__all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "FaultLines", "Line"]
-__all__ += ["MonitorResult", "MonitorSettings", "Stretch", "Verdict", "algorithm_named", "answer_of"]
+__all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "Explanation"]
+__all__ += [
+    "FaultLines",
+    "Line",
+    "MonitorResult",
+    "MonitorSettings",
+    "Stretch",
+    "Verdict",
+    "algorithm_named",
+    "answer_of",
+]

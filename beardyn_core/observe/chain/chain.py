@@ -18,7 +18,7 @@ from beardyn_core.observe.chain.levels import levels_of, rise
 from beardyn_core.observe.chain.result import MonitorResult
 from beardyn_core.observe.chain.strikes import with_strikes
 from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
-from beardyn_core.observe.chain.verdict import HEALTHY, HOT_BOX, Verdict, strongest_pattern
+from beardyn_core.observe.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 
 
@@ -94,7 +94,7 @@ class Chain:
         found = self.score(tracked, orders, roller_count, speed, settings)
         found = with_strikes(found, stretch, band, settings)
         verdict = self.decide(found, stretch, settings)
-        if verdict.name in (HEALTHY, HOT_BOX) and found.deepest >= settings.clockwork_depth:
+        if verdict.name not in (*FAULTS, UNEXPLAINED) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is heard as measured
             measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
@@ -103,13 +103,16 @@ class Chain:
             never = (np.inf, np.inf, np.inf)
             deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
             heard = self.decide(clockwork, stretch, deep)
-            if heard.name not in (HEALTHY, HOT_BOX):
+            if heard.name in (*FAULTS, UNEXPLAINED):
                 found, verdict = clockwork, heard
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         cup, cone, roller = found.candidates
-        best, called = verdict.best, verdict.name in FAULTS
+        best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
+        own = [each.speed for each in verdict.fits if not each.bearing]
+        if called:
+            own = [speed * best.order / best.pattern.order]
         return MonitorResult(
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
@@ -118,6 +121,11 @@ class Chain:
             fault_frequency=best.order * speed if called else np.nan,
             expected_order=best.pattern.order if called else np.nan,
             expected_frequency=best.pattern.order * speed if called else np.nan,
+            fitting_shaft_frequency=own[0] if own else np.nan,
+            comb_order=comb.order if comb else np.nan,
+            comb_frequency=comb.order * speed if comb else np.nan,
+            comb_strikes=max(comb.strikes, comb.sharpest) if comb else np.nan,
+            fits=verdict.fits,
             score=best.score,
             threshold=best.threshold,
             scores=(cup.score, cone.score, roller.score),

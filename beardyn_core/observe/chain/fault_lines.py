@@ -10,7 +10,9 @@ among all independent places.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated as A
 
 import numpy as np
@@ -18,14 +20,21 @@ import numpy as np
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.inputs import MonitorSettings
-from beardyn_core.observe.chain.rivals import Rival, explained, reach, strongest_rival
+from beardyn_core.observe.chain.rivals import LOWEST_COMB, Rival, explained, reach, shaft_of, strongest_rival
 from beardyn_core.observe.chain.surprise import PLACES_PER_RESOLUTION, evidence, threshold
 from beardyn_core.observe.features import OrderSpectrum, line_at, order_spectrum
 
-FAULTS = ("cup", "cone", "roller")
+CUP, CONE, ROLLER = FAULTS = ("cup", "cone", "roller")
+COMB = "comb"  # evenly spaced lines of any order
 LINE_LEVEL = 9.0  # over the median background, from which a single line is listed, [dB]
 # of the search for the strongest line, in multiples of the roller count: above the cage's own orders
 _LOWEST_ORDER = 0.3
+_SLIP = 0.01  # of rollers at a speed that is not the stated one, [-]
+_FOREIGN = 0.3  # combs are sought up to this share beyond the last line of the bearing's own parts
+_ODD = (1.0, 3.0, 5.0, 7.0)  # harmonics that are those of no comb of twice the order
+_OF_SHAFT = 0.05  # parts of a comb that near twice the shaft are lines of the shaft, [-]
+_MOST_SHAFTS = 3  # combs near whole orders that are taken out
+_PARTS_OF_A_COMB = (1, 2, 3)  # every second or third line of a comb may be stronger than those between
 _NOTHING = -300.0  # [dB]
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
@@ -53,6 +62,7 @@ class Pattern:
     sidebands: A[int, "how many on each side are added up"]
     explained: A[int, "how many on each side may belong to the fault"]
     divided: A[int, "lines at this part of the order belong to the fault as well"] = 1
+    other_sideband: A[float, "of a fault of another part, which this one has not, [-]"] = 0.0
 
     def lines(self, harmonics: int) -> list[tuple[int, int]]:
         """List harmonic and sideband number of each line."""
@@ -74,6 +84,13 @@ class Candidate:
     strikes: A[
         float, "what its harmonics but the loudest make of the mean power, NaN when not measured, [-]"
     ] = np.nan
+    alone: A[float, "evidence of its harmonics without sidebands, [nat]"] = -np.inf
+    odd: A[float, "evidence of its odd harmonics, [nat]"] = -np.inf
+    otherwise: A[
+        float,
+        "evidence of the same comb with the sidebands of another part, or of one of its sidebands as the "
+        "comb and the others next to it, [nat]",
+    ] = -np.inf
     sharpest: A[float, "the same in the octave where it is most, 0 when not measured, [-]"] = 0.0
 
     def places(self, harmonics: int) -> Float:
@@ -88,10 +105,28 @@ class FaultLines:
     """Lines of faults in a spectrum, with their scores."""
 
     spectrum: OrderSpectrum
-    candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`"]
+    candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`, at the stated speed"]
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     deepest: A[float, "strongest line as measured over the mean power, [-]"] = 0.0
+    elsewhere: A[tuple[Candidate, ...], "one for each of `FAULTS`, at other speeds than the stated one"] = ()
+    neighbours: A[tuple[Candidate, ...], "faults of other bearings on the shaft"] = ()
+    combs: A[tuple[Candidate, ...], "evenly spaced lines of any order, and parts of that order"] = ()
+
+    @property
+    def every(self) -> tuple[Candidate, ...]:
+        """All of them."""
+        return (*self.candidates, *self.elsewhere, *self.neighbours, *self.combs)
+
+    def with_each(self, change: Callable[[Candidate], Candidate]) -> FaultLines:
+        """Change every candidate in the same way."""
+        return replace(
+            self,
+            candidates=tuple(map(change, self.candidates)),
+            elsewhere=tuple(map(change, self.elsewhere)),
+            neighbours=tuple(map(change, self.neighbours)),
+            combs=tuple(map(change, self.combs)),
+        )
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
@@ -104,8 +139,8 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
     """
     return (
         Pattern("cup", "BPFO", orders.bpfo, 1.0, "shaft", 0, 1),
-        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4),
-        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2),
+        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4, other_sideband=orders.ftf),
+        Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2, other_sideband=1.0),
     )
 
 
@@ -130,65 +165,183 @@ def comb_score(
     patterns = fault_patterns(orders)
     rate = settings.false_alarm_rate / len(patterns)
     low = _LOWEST_ORDER * roller_count
-    high = max(
-        p.order * settings.harmonics * (1.0 + settings.tolerance) + p.explained * p.sideband for p in patterns
-    )
-    spectrum = order_spectrum(tracked, settings.samples_per_revolution, high, settings.background_width)
-    beside = _beside_wheel(spectrum)
+    known = settings.tolerance + settings.speed_uncertainty
+    doubt = settings.speed_doubt
+    slowest, fastest = (1.0 - _SLIP) / (1.0 + doubt) - 1.0, (1.0 + _SLIP) / (1.0 - doubt) - 1.0
+    high = max(_highest(each, known, settings) for each in patterns)
+    others = [each for orders in settings.neighbours for each in fault_patterns(orders)]
+    highest = max(_highest(each, _FOREIGN, settings) for each in (*patterns, *others))
+    wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
+    beside = _beside_shaft(_beside_wheel(wide), settings)
     strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))
+    inside = ((-known, known),)
+    outside = tuple(each for each in ((slowest, -known), (known, fastest)) if each[0] < each[1])
+    lay = partial(_lay, spectrum=beside, shaft_frequency=shaft_frequency, rate=rate, settings=settings)
+    neighbours = tuple(lay(each, inside, settings.speed_uncertainty) for each in others)
     return FaultLines(
-        spectrum=spectrum,
-        candidates=tuple(_lay(pattern, beside, shaft_frequency, rate, settings) for pattern in patterns),
+        spectrum=_up_to(wide, high),
+        candidates=tuple(lay(each, inside, settings.speed_uncertainty, with_rival=True) for each in patterns),
         strongest_order=strongest[0],
         strongest_level=strongest[1],
+        elsewhere=tuple(lay(each, outside, settings.speed_doubt) for each in patterns) if outside else (),
+        neighbours=neighbours,
+        combs=_combs(beside, neighbours, settings),
     )
+
+
+def _highest(pattern: Pattern, tolerance: float, settings: MonitorSettings) -> float:
+    """Compute the last order that lines of a pattern may have."""
+    return pattern.order * settings.harmonics * (1.0 + tolerance) + pattern.explained * pattern.sideband
+
+
+def _up_to(spectrum: OrderSpectrum, highest: float) -> OrderSpectrum:
+    """Cut a spectrum off above an order."""
+    last = int(np.searchsorted(spectrum.order, highest, side="right"))
+    return replace(
+        spectrum,
+        order=spectrum.order[:last],
+        amplitude=spectrum.amplitude[:last],
+        level=spectrum.level[:last],
+    )
+
+
+def _combs(
+    spectrum: OrderSpectrum, neighbours: tuple[Candidate, ...], settings: MonitorSettings
+) -> tuple[Candidate, ...]:
+    """Find the strongest comb that no neighbour explains, and those of which it may be a multiple."""
+    known = np.zeros(len(spectrum.order), dtype=bool)
+    for each in neighbours:
+        if each.evidence > -np.log(settings.false_alarm_rate):
+            own = each.pattern
+            known |= explained(
+                spectrum.order, each.order / own.divided, own.sideband, own.explained, spectrum.resolution
+            )
+    best = strongest_rival(spectrum, _over_noise(spectrum), known, settings.harmonics)
+    if not best.own > -np.log(settings.false_alarm_rate):
+        return ()
+    return tuple(
+        Candidate(
+            pattern=Pattern(COMB, "order", best.order / part, 0.0, "", 0, 1),
+            order=best.order / part,
+            score=0.0,
+            threshold=np.inf,
+            evidence=best.own,
+            rival=Rival(),
+            lines=(),
+        )
+        for part in _PARTS_OF_A_COMB
+        if part == 1 or (best.order / part >= LOWEST_COMB and abs(best.order / part - 2.0) > _OF_SHAFT)
+    )
+
+
+def _over_noise(spectrum: OrderSpectrum) -> Float:
+    """Compute the power of every line over the mean of noise, shape [line]."""
+    return np.asarray(_MEDIAN_OVER_MEAN * 10.0 ** (0.1 * spectrum.level), np.float64)
 
 
 def _lay(
-    pattern: Pattern, spectrum: OrderSpectrum, shaft_frequency: float, rate: float, settings: MonitorSettings
+    pattern: Pattern,
+    ranges: tuple[tuple[float, float], ...],
+    speed_error: float,
+    spectrum: OrderSpectrum,
+    shaft_frequency: float,
+    rate: float,
+    settings: MonitorSettings,
+    *,
+    with_rival: bool = False,
 ) -> Candidate:
-    """Slide the pattern over the tolerance, keep the best place and list its lines."""
+    """Slide the pattern over ranges about its order, keep the best place and list its lines.
+
+    Sidebands are multiples of the shaft or the cage; where the speed is in error [-] they may shift with it.
+    """
     harmonics, resolution = settings.harmonics, spectrum.resolution
     places = np.array(pattern.lines(harmonics))
-    half = settings.tolerance * pattern.order
-    trial = np.arange(pattern.order - half, pattern.order + half, 0.25 * resolution / harmonics)
-    wanted = trial[:, None] * places[:, 0] + pattern.sideband * places[:, 1]
-    index = np.rint(wanted / spectrum.order[1]).astype(int)
-    power = _MEDIAN_OVER_MEAN * 10.0 ** (0.1 * spectrum.level)
-    laid = power[np.minimum(index, len(power) - 1)]
-    summed = laid.sum(axis=1) - laid.max(axis=1)
-    best = int(np.argmax(summed))
-    order = float(trial[best])
+    step = 0.25 * resolution / harmonics
+    deviation = np.concatenate([np.arange(low, high, step / pattern.order) for low, high in ranges])
+    trial = pattern.order * (1.0 + deviation)
+    power = _over_noise(spectrum)
+    scales = [np.zeros(len(trial))]
+    if speed_error > 0.0 and pattern.sidebands:
+        scales.append(np.clip(deviation, -speed_error, speed_error))
+    sums = []
+    for scale in scales:
+        sideband = pattern.sideband * (1.0 + scale)
+        wanted = trial[:, None] * places[:, 0] + sideband[:, None] * places[:, 1]
+        index = np.rint(wanted / spectrum.order[1]).astype(int)
+        laid = power[np.minimum(index, len(power) - 1)]
+        sums.append(laid.sum(axis=1) - laid.max(axis=1))
+    summed = np.array(sums)
+    which, best = np.unravel_index(int(np.argmax(summed)), summed.shape)
+    order, total = float(trial[best]), float(summed[which, best])
+    fitted = replace(pattern, sideband=float(pattern.sideband * (1.0 + scales[which][best])))
     count = len(places)
-    independent = max(1.0, PLACES_PER_RESOLUTION * 2.0 * half * harmonics / resolution)
-    sure = evidence(float(summed[best]), count, independent * len(FAULTS))
-    known = explained(
-        spectrum.order, order / pattern.divided, pattern.sideband, pattern.explained, resolution
-    )
+    width = pattern.order * len(scales) * sum(high - low for low, high in ranges)
+    independent = max(1.0, PLACES_PER_RESOLUTION * width * harmonics / resolution)
+    sure = evidence(total, count, independent * len(FAULTS))
+    weigh = partial(_evidence_of, power, spectrum, independent)
+    alone, otherwise = sure, -np.inf
+    if pattern.sidebands:
+        alone = weigh(order * np.arange(1.0, harmonics + 1.0))
+        rivals = [(order, pattern.other_sideband)]
+        rivals += [(order + side * fitted.sideband, fitted.sideband) for side in (-1.0, 1.0)]
+        otherwise = max(weigh(each * places[:, 0] + side * places[:, 1]) for each, side in rivals)
+    known = explained(spectrum.order, order / pattern.divided, fitted.sideband, pattern.explained, resolution)
     lines = []
     for h, k in places.tolist():
-        where = h * order + k * pattern.sideband
+        where = h * order + k * fitted.sideband
         found, level = line_at(spectrum, where, float(reach(where, resolution)))
         expected = h * pattern.order + k * pattern.sideband
         lines.append(Line(_name(pattern, h, k), found, expected, found * shaft_frequency, level))
     return Candidate(
-        pattern=pattern,
+        pattern=fitted,
         order=order,
-        score=float(10.0 * np.log10(max(1.0, summed[best] / (count - 1)))),
+        score=float(10.0 * np.log10(max(1.0, total / (count - 1)))),
         threshold=threshold(count, round(independent, 1), rate),
         evidence=sure,
-        rival=strongest_rival(spectrum, power, known, harmonics) if sure > 0.0 else Rival(),
+        alone=alone,
+        odd=weigh(order * np.array(_ODD)),
+        otherwise=otherwise,
+        rival=strongest_rival(spectrum, power, known, harmonics) if sure > 0.0 and with_rival else Rival(),
         lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
     )
 
 
+def _beside_shaft(spectrum: OrderSpectrum, settings: MonitorSettings) -> OrderSpectrum:
+    """Remove the lines of the shaft near whole orders, where they lie at a speed that is a little off."""
+    chance = -np.log(settings.false_alarm_rate)
+    for _ in range(_MOST_SHAFTS):
+        nothing = np.zeros(len(spectrum.order), dtype=bool)
+        power = _over_noise(spectrum)
+        best = strongest_rival(spectrum, power, nothing, settings.harmonics)
+        if not best.evidence > chance:
+            break
+        turns = shaft_of(best.order, spectrum, power, settings.speed_doubt, chance)
+        if np.isnan(turns):
+            break
+        spectrum = _without(spectrum, turns)
+    return spectrum
+
+
+def _evidence_of(power: Float, spectrum: OrderSpectrum, independent: float, orders: Float) -> float:
+    """Compute the evidence of lines at some orders, found within one of several independent places."""
+    index = np.minimum(np.rint(orders / spectrum.order[1]).astype(int), len(power) - 1)
+    laid = power[index]
+    return evidence(float(laid.sum() - laid.max()), len(laid), independent * len(FAULTS))
+
+
 def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
     """Remove the whole orders from a spectrum, where a wheel of varying strikes leaves a residue."""
-    whole = np.abs(spectrum.order - np.round(spectrum.order)) <= 2.0 * spectrum.resolution
+    return _without(spectrum, 1.0)
+
+
+def _without(spectrum: OrderSpectrum, turns: float) -> OrderSpectrum:
+    """Remove the multiples of an order from a spectrum."""
+    away = np.abs(spectrum.order - turns * np.round(spectrum.order / turns))
+    near = away <= 2.0 * spectrum.resolution
     return replace(
         spectrum,
-        level=np.where(whole, _NOTHING, spectrum.level),
-        amplitude=np.where(whole, 0.0, spectrum.amplitude),
+        level=np.where(near, _NOTHING, spectrum.level),
+        amplitude=np.where(near, 0.0, spectrum.amplitude),
     )
 
 

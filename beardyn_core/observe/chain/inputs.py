@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.fft import rfft
 
 from beardyn_core.arrays import Float
+from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.levels import Levels
 from beardyn_core.observe.features import analytic_part, real_part, squared_magnitude
 
@@ -130,6 +131,17 @@ class MonitorSettings:
     samples_per_revolution: A[int, "angular grid of the order tracking"] = 1024
     background_width: A[float, "of the neighbourhood whose median is the background, [shaft orders]"] = 3.0
     tolerance: A[float, "of a fault frequency against geometry, for rollers slip by 1 to 2 %, [-]"] = 0.02
+    speed_uncertainty: A[
+        float, "of the stated speed, 0 where a tachometer counts the revolutions; searched over, [-]"
+    ] = 0.0
+    speed_doubt: A[
+        float,
+        "error of the speed up to which a comb that fits nothing at the stated speed is compared with the "
+        "parts of the bearing: a wheel worn from 920 to 850 mm, [-]",
+    ] = 0.08
+    neighbours: A[
+        tuple[FaultFrequencies, ...], "other bearings on the same shaft, whose combs are explained by them"
+    ] = ()
     harmonics: A[int, "multiples of a fault frequency that are added up, the fundamental included"] = 5
     false_alarm_rate: A[float, "probability that noise alone passes the threshold of an analysis, [-]"] = 1e-4
     strike_harmonics: A[int, "multiples of a fault frequency by which strikes are told from a hum"] = 8
@@ -137,6 +149,11 @@ class MonitorSettings:
     least_sharpest: A[
         tuple[float, float, float], "or what they must make in one of `strike_bands`: cup, cone, roller, [-]"
     ] = (1.0, 0.5, 0.5)
+    foreign_strikes: A[
+        float,
+        "and what those of a comb that no part explains at any speed must make, for it may come from a "
+        "bearing next to this one, [-]",
+    ] = 1.0
     clockwork_depth: A[
         float, "line over the mean power from which the signal is heard as measured, too, [-]"
     ] = 0.25

@@ -7,10 +7,11 @@ from typing import Annotated as A
 
 import numpy as np
 
+from beardyn_core.observe.chain.explanations import Explanation
 from beardyn_core.observe.chain.fault_lines import Line
 from beardyn_core.observe.features import OrderSpectrum
 
-VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "hot_box", "not_diagnosable")
+VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "unexplained", "hot_box", "not_diagnosable")
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class MonitorResult:
     verdict: A[
         str,
         "one of `VERDICTS`: ``waiting`` where there is not enough signal yet, ``not_diagnosable`` where "
-        "more of it would not help",
+        "more of it would not help, ``unexplained`` where strikes fit no part at the stated speed",
     ]
     reason: A[str, "the verdict in a sentence"]
     end_ns: A[int, "simulated time of the last sample analysed, [ns]"]
@@ -28,6 +29,13 @@ class MonitorResult:
     fault_frequency: A[float, "the same, [Hz]"] = np.nan
     expected_order: A[float, "of that fault from geometry, [-]"] = np.nan
     expected_frequency: A[float, "of that fault from geometry, [Hz]"] = np.nan
+    fitting_shaft_frequency: A[
+        float, "speed at which a fault has its order without slip, or a comb that of a part; else NaN, [Hz]"
+    ] = np.nan
+    comb_order: A[float, "of strikes that fit no part at the stated speed, NaN without, [-]"] = np.nan
+    comb_frequency: A[float, "of these strikes, [Hz]"] = np.nan
+    comb_strikes: A[float, "what they make of the mean power, [-]"] = np.nan
+    fits: A[tuple[Explanation, ...], "what would explain them"] = ()
     score: A[float, "of the strongest candidate, [dB]"] = 0.0
     threshold: A[float, "score from which it is called, [dB]"] = np.nan
     scores: A[tuple[float, float, float], "for cup, cone and roller, [dB]"] = (0.0, 0.0, 0.0)

@@ -29,20 +29,19 @@ def with_strikes(found: FaultLines, stretch: Stretch, band: Band, settings: Moni
     A loud tone or track fills the whole band, but not every octave.
     """
     found = _measured_in(found, stretch, (band.low, band.high), settings)
-    sure = any(each.score >= each.threshold for each in found.candidates)
-    octaves = settings.strike_bands if sure else ()
+    sure = any(each.score >= each.threshold for each in (*found.candidates, *found.elsewhere))
+    octaves = settings.strike_bands if sure or found.combs else ()
     for low, high in octaves:
         high = min(high, settings.usable_share * stretch.rate)
         if high - low >= settings.orders_in_band * stretch.shaft_frequency:
-            here = _measured_in(found, stretch, (low, high), settings)
-            found = replace(
-                found,
-                candidates=tuple(
-                    replace(each, sharpest=max(each.sharpest, one.strikes))
-                    for each, one in zip(found.candidates, here.candidates, strict=True)
-                ),
-            )
+            found = _sharper(found, _measured_in(found, stretch, (low, high), settings))
     return found
+
+
+def _sharper(found: FaultLines, here: FaultLines) -> FaultLines:
+    """Keep for each candidate the octave where it strikes most."""
+    strikes = iter([each.strikes for each in here.every])
+    return found.with_each(lambda each: replace(each, sharpest=max(each.sharpest, next(strikes))))
 
 
 def _measured_in(
@@ -53,14 +52,14 @@ def _measured_in(
     mean = float(np.mean(np.where(quiet_samples(stretch, settings), power, 0.0)[stretch.inner]))
     if not mean > 0.0:
         return found
-    highest = max(each.places(settings.strike_harmonics).max() for each in found.candidates) + 1.0
+    highest = max(each.places(settings.strike_harmonics).max() for each in found.every) + 1.0
     tracked = by_angle(power, stretch, settings)
     spectrum = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
     noise = local_background(spectrum.amplitude, settings.background_width / spectrum.order[1])
-    candidates = tuple(
-        replace(each, strikes=_strikes(each, spectrum, noise, settings) / mean) for each in found.candidates
+    measured = found.with_each(
+        lambda each: replace(each, strikes=_strikes(each, spectrum, noise, settings) / mean)
     )
-    return replace(found, candidates=candidates, deepest=float(spectrum.amplitude.max()) / mean)
+    return replace(measured, deepest=float(spectrum.amplitude.max()) / mean)
 
 
 def _strikes(candidate: Candidate, spectrum: OrderSpectrum, noise: Float, settings: MonitorSettings) -> float:

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isnan, log
 from typing import Annotated as A
 
-from beardyn_core.observe.chain.fault_lines import FAULTS, Candidate, FaultLines
+from beardyn_core.observe.chain.diagnosable import NOT_DIAGNOSABLE
+from beardyn_core.observe.chain.explanations import Explanation, explanations
+from beardyn_core.observe.chain.fault_lines import COMB, FAULTS, ROLLER, Candidate, FaultLines
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.observe.chain.rivals import related
 
-HEALTHY, HOT_BOX = "healthy", "hot_box"
+HEALTHY, UNEXPLAINED, HOT_BOX = "healthy", "unexplained", "hot_box"
 UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
 _ZERO_CELSIUS = 273.15
+_RPM = 60.0  # of a hertz
+NEIGHBOUR = "another bearing on this shaft explains more"
+_SURER = 1.6  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
+_MULTIPLE = 1.5  # over which an order is a multiple of another, [-]
+_NO_DOUBT = 0.01  # of an order against geometry, [-]
 
 
 @dataclass(frozen=True)
@@ -22,29 +30,141 @@ class Verdict:
     reason: A[str, "in a sentence"]
     best: A[Candidate, "the strongest candidate, or the one that is called"]
     temperature_state: A[str, "``unknown``, ``normal``, ``warm`` or ``hot``"] = UNKNOWN
+    comb: A[Candidate | None, "what strikes and belongs to no part at the stated speed"] = None
+    fits: A[tuple[Explanation, ...], "what would explain that comb"] = ()
 
 
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
-    """Report the fault with most evidence if that passes its threshold, unless a rival explains more.
+    """Report the fault with most evidence if that passes its threshold, unless something else explains more.
 
     What is below `least_strikes` is a hum and no fault, however sure it is that it is there.
-    A rival are evenly spaced lines of another bearing, a gear or a fan, no chance where the fault does not
-    explain them: some of them always lie near those of a fault. A hot box is called whatever the lines say;
-    it leaves a fault its name.
+    A comb of another bearing, a gear or a fan, or of this bearing at another speed, always has some lines
+    near those of a fault: where it explains more, the fault is not named. A comb that strikes and fits no
+    part at this speed is reported as what it is. A hot box is called whatever the lines say; it leaves a
+    fault its name.
     """
-    heard = [each for each in found.candidates if strikes(each, settings)]
-    best = max(heard or found.candidates, key=lambda candidate: candidate.evidence)
-    chance = -log(settings.false_alarm_rate)
-    contradicted = best.rival.own > chance and best.rival.evidence > best.evidence
-    state = temperature_state(stretch.temperature, stretch.heating, settings)
-    if heard and best.score >= best.threshold and not contradicted:
-        name, reason = best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency)
+    striking = [each for each in found.candidates if strikes(each, settings)]
+    best = max(striking or found.candidates, key=lambda candidate: candidate.evidence)
+    passed = bool(striking) and best.score >= best.threshold
+    stranger = _stranger(found, settings)
+    contradiction = _contradiction(found, best, stranger, settings)
+    if passed and not contradiction:
+        verdict = Verdict(best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency, settings), best)
+    elif passed and stranger is None and contradiction != NEIGHBOUR:
+        verdict = _verdict_on(best, found, best, stretch, settings, contradiction)
+    elif stranger is not None:
+        verdict = _verdict_on(stranger, found, best, stretch, settings)
     else:
-        name, reason = HEALTHY, _healthy_sentence(best, contradicted)
+        verdict = Verdict(HEALTHY, _healthy_sentence(best, contradiction), best)
+    state = temperature_state(stretch.temperature, stretch.heating, settings)
     if state == HOT:
-        name = HOT_BOX if name == HEALTHY else name
-        reason = f"{_hot_sentence(stretch)}; {reason}"
-    return Verdict(name, reason, best, state)
+        name = verdict.name if verdict.name in FAULTS else HOT_BOX
+        verdict = replace(verdict, name=name, reason=f"{_hot_sentence(stretch)}; {verdict.reason}")
+    return replace(verdict, temperature_state=state)
+
+
+def _stranger(found: FaultLines, settings: MonitorSettings) -> Candidate | None:
+    """Find strikes that belong to no part at the stated speed: a part at another one, or a bare comb."""
+    comb = found.combs[0] if found.combs else None
+    known = [*found.neighbours, *found.candidates]
+    elsewhere = [
+        each
+        for each in found.elsewhere
+        if strikes(each, settings)
+        and each.score >= each.threshold
+        and all(other.evidence <= each.evidence for other in found.neighbours)
+        and not any(
+            own.evidence >= each.evidence and related(each.order, own.order) for own in found.candidates
+        )
+        and (comb is None or comb.evidence <= each.evidence or _same(comb, each))
+        and each.otherwise <= _SURER * max(each.evidence, each.alone)
+    ]
+    if elsewhere:
+        return max(elsewhere, key=lambda candidate: candidate.evidence)
+    if comb is None or any(each.evidence > 0.0 and _same(comb, each) for each in known):
+        return None
+    comb = max(found.combs, key=lambda candidate: candidate.strikes)
+    impulsive = not comb.strikes < settings.least_strikes or comb.sharpest >= min(settings.least_sharpest)
+    return comb if impulsive else None
+
+
+def _contradiction(
+    found: FaultLines, best: Candidate, stranger: Candidate | None, settings: MonitorSettings
+) -> str:
+    """Say what explains more than the best candidate does, empty when nothing.
+
+    A fault that has sidebands is compared with the same comb without them, and with those of another part:
+    a rolling element modulates with the cage, an inner ring with the shaft. Without sidebands a comb is one
+    of a rolling element only where its order leaves no doubt.
+    """
+    chance = max(-log(settings.false_alarm_rate), best.evidence)
+    if any(each.evidence > chance and not related(each.order, best.order) for each in found.neighbours):
+        return NEIGHBOUR
+    if best.rival.own > -log(settings.false_alarm_rate) and best.rival.evidence > best.evidence:
+        return f"multiples of order {best.rival.order:.3f} are surer"
+    for each in (*((stranger,) if stranger is not None else ()), *found.combs[:1]):
+        if each.evidence > chance and not _same(each, best):
+            return f"multiples of order {each.order:.3f} are surer"
+    if best.otherwise > _SURER * max(best.evidence, best.alone):
+        return "its sidebands are those of another comb"
+    doubtful = abs(best.order / best.pattern.order - 1.0) > _NO_DOUBT
+    if best.pattern.fault == ROLLER and best.alone > best.evidence and doubtful:
+        return "it has no sidebands, and its order is that of a rolling element at another speed only"
+    return ""
+
+
+def _same(other: Candidate, best: Candidate) -> bool:
+    """Tell whether a comb is that of a candidate under another name.
+
+    A comb of a multiple of its order is, where lines between show that the order itself is there.
+    """
+    if other.pattern.fault != COMB:
+        return other.pattern.fault == best.pattern.fault and related(other.order, best.order)
+    if other.order > _MULTIPLE * best.order and best.odd <= 0.0 and other.evidence > best.evidence:
+        return False
+    return related(other.order, best.order) or related(other.order, best.order / best.pattern.divided)
+
+
+def _verdict_on(
+    stranger: Candidate,
+    found: FaultLines,
+    best: Candidate,
+    stretch: Stretch,
+    settings: MonitorSettings,
+    contradiction: str = "",
+) -> Verdict:
+    """Report a comb that fits no part at the stated speed, or a part that something contradicts.
+
+    What is weak and has the order of another bearing at this very speed, or of nothing known, may come from
+    a bearing or a gear next to this one: then it cannot be told whether this bearing is healthy.
+    """
+    order, speed = stranger.order, stretch.shaft_frequency
+    patterns = [each.pattern for each in found.candidates]
+    fits = explanations(order, patterns, speed, settings.speed_doubt, stranger.pattern.fault)
+    own = any(not each.bearing for each in fits)
+    other = any(each.bearing for each in fits)
+    sure = not stranger.strikes < settings.foreign_strikes or (own and not other)
+    would = " or ".join(each.sentence(speed) for each in fits) or "no part of this or a shipped bearing"
+    share = max(stranger.strikes, stranger.sharpest)
+    strike = (
+        f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.2g} times the mean power"
+    )
+    if contradiction:
+        reason = f"{strike} near {stranger.pattern.symbol}, but {contradiction}; "
+    else:
+        reason = (
+            f"{strike} and fits no part of this bearing at the stated {_RPM * speed:.5g} rpm; "
+            f"it would fit {would}; "
+        )
+    if sure:
+        name, advice = UNEXPLAINED, "check speed, wheel and bearing data"
+    else:
+        name = NOT_DIAGNOSABLE
+        advice = (
+            "it is weak enough to come from next to this bearing: name the other bearings on the shaft, or "
+            "check speed and bearing data"
+        )
+    return Verdict(name, reason + advice, best, comb=stranger, fits=fits)
 
 
 def strikes(candidate: Candidate, settings: MonitorSettings) -> bool:
@@ -73,21 +193,25 @@ def temperature_state(temperature: float, heating: float, settings: MonitorSetti
     return WARM if temperature >= settings.warm else NORMAL
 
 
-def _fault_sentence(best: Candidate, shaft_frequency: float) -> str:
+def _fault_sentence(best: Candidate, shaft_frequency: float, settings: MonitorSettings) -> str:
     expected = best.pattern.order
-    deviation = 100.0 * (best.order / expected - 1.0)
-    return (
+    deviation = best.order / expected - 1.0
+    sentence = (
         f"{best.pattern.fault} fault: {best.pattern.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
-        f"{expected * shaft_frequency:.2f} Hz from geometry ({deviation:+.2f} %), "
+        f"{expected * shaft_frequency:.2f} Hz from geometry ({100.0 * deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )
+    if settings.speed_uncertainty > 0.0:
+        fitting = _RPM * shaft_frequency * (1.0 + deviation)
+        sentence += f"; without slip it fits {fitting:.5g} rpm, stated are {_RPM * shaft_frequency:.5g} rpm"
+    return sentence
 
 
-def _healthy_sentence(best: Candidate, contradicted: bool) -> str:
+def _healthy_sentence(best: Candidate, contradiction: str) -> str:
     scores = f"{best.pattern.symbol} scores {best.score:.1f} dB, the alarm is at {best.threshold:.1f} dB"
     if best.score >= best.threshold:
-        if contradicted:
-            return f"no fault: {scores}, but multiples of order {best.rival.order:.3f} are surer"
+        if contradiction:
+            return f"no fault: {scores}, but {contradiction}"
         return (
             f"no fault: {scores}, but it does not strike: its harmonics but the loudest make "
             f"{best.strikes:.1%} of the power in its band"
