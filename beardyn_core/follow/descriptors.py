@@ -10,7 +10,7 @@ from scipy.fft import rfft
 from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow import passage_profile, passages
+from beardyn_core.follow import event_order, passage_profile, passages
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from beardyn_core.observe.passage_order import find_passage_order
 from beardyn_core.observe.severity import narrow_width
@@ -29,6 +29,7 @@ LEVELS_OF_BOX = ("band_", "fine_")
 """Beginnings of the names of levels, which box and sensor place change most."""
 _LINES_OF_BOX = ("passing_", "turn_", "strongest_level")
 _OF_PASSAGES = (*passages.NAMES, *passage_profile.NAMES)
+_PROFILE = (*passage_profile.NAMES, *event_order.NAMES)
 
 
 def places_of(axes: tuple[str, ...], family: str) -> Int:
@@ -36,14 +37,13 @@ def places_of(axes: tuple[str, ...], family: str) -> Int:
 
     ``box`` are levels of bands; ``passages`` is what repeats with the passages of a fault; ``shape`` is
     everything that has no level in it, so that a box changes it little; ``levels`` is all but the profile of
-    the passages; ``order of events`` is what knows before from after.
+    the passages and the order of its events.
     """
     wanted = {
         "box": lambda name: name.startswith(LEVELS_OF_BOX),
         "passages": lambda name: name in _OF_PASSAGES,
-        "shape": lambda name: not name.startswith((*LEVELS_OF_BOX, *_LINES_OF_BOX)),
-        "levels": lambda name: name not in passage_profile.NAMES,
-        "order of events": lambda name: name.startswith(("profile_", "crossed_", "louder")),
+        "shape": lambda name: not name.startswith((*LEVELS_OF_BOX, *_LINES_OF_BOX, *event_order.CONTRASTS)),
+        "levels": lambda name: name not in _PROFILE,
     }[family]
     return np.array([k for k, name in enumerate(names_of(axes)) if wanted(name)], np.int64)
 
@@ -56,7 +56,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *(f"score_{part}" for part in FAULTS),
         *("score", "kurtosis", "crest", "strongest_level"),
         *(f"way_{part}" for part in RACEWAYS),
-        *("louder", "way", *passages.NAMES, *passage_profile.NAMES),
+        *("louder", "way", *passages.NAMES, *passage_profile.NAMES, *event_order.NAMES),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
         *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
@@ -95,6 +95,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     found |= {"louder": float(RACEWAYS.index(louder)), "way": found[f"way_{louder}"]}
     found |= passages.of_passages(stretch, louder, passed[louder], plate)
     found |= passage_profile.profile_of(stretch, louder, passed[louder], plate)
+    found |= event_order.order_of_events(stretch, louder, passed[louder], plate, axes)
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
         for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):

@@ -20,22 +20,27 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.familiarity import Familiarity
-from beardyn_core.follow.forest import Forest
+from beardyn_core.follow.forest import EventForest, Forest
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way
 from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
-from beardyn_core.follow.wide_spall import WideRule
+from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.outputs import as_a_whole
 
-VERSION = 3
+VERSION = 4
 # of each way to a number: its arrays, and its numbers
 _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[str, ...]]] = {
     "kernel": (
         Regression,
         ("directions", "support", "weights", "doubt_weights"),
         ("width", "mean", "doubt"),
+    ),
+    "events": (
+        EventForest,
+        ("descriptor", "number", "other", "roots", "reading"),
+        ("usual", "offset", "slope", "start", "added", "doubt"),
     ),
     "trees": (Forest, ("descriptor", "number", "other", "roots"), ("usual", "offset", "slope")),
 }
@@ -50,6 +55,8 @@ UNLIKE = (
 )
 ELSEWHERE = f"not reported: {UNLIKE}"
 _UNUSUAL = "not reported: the passages are unlike those learnt from (strangeness {:.1f}, familiar up to 1)"
+_WIDE = ("readings", "offsets", "spacings")
+_WIDE_NUMBERS = ("largest", "added", "doubt", "narrow", "wide")
 _FAMILIAR = ("columns", "directions", "sizes")
 
 
@@ -144,8 +151,7 @@ class Estimator:
         part = None if self.part is None else self.part.estimate(standard)
         known = [BY_NAME[name] for name in BY_NAME if name in self.card["quantities"]]
         spalled = part is None or part.condition != HEALTHY
-        strange = float(np.median(self.strangeness(descriptors)))
-        unusual = float(np.median(self.passages.distance(standard)))
+        strange, unusual = self._unlike(standard)
         if part is not None and self.part is not None and strange > 1.0:
             # in another box no condition is excluded
             part = replace(part, sets=(self.part.conditions,) * len(LEVELS))
@@ -179,32 +185,51 @@ class Estimator:
 
     def reports(self, quantity: Quantity, standard: Float) -> NDArray[np.bool_]:
         """Tell of which runs, shape [run], the number of a quantity is reported."""
-        reported = self.box.distance(standard) <= 1.0
+        learnt = self.regressions[quantity.name]
+        reported = (self.box.distance(standard) <= 1.0) & bool(np.isfinite(learnt.reach).all())
+        guess = learnt.guess(standard)
+        reported &= guess.high[-1] - guess.low[-1] < AS_WIDE * self._range(quantity)
         if quantity.of_passages:
-            reported &= self.passages.distance(standard) <= 1.0
+            value, low, high = (
+                quantity.restored(each) for each in (guess.value, guess.low[-1], guess.high[-1])
+            )
+            reported &= (self.passages.distance(standard) <= 1.0) & (
+                high < AT_EDGE * self.ends_of(quantity)[1]
+            )
             if self.wide is not None:
-                reported &= self.wide.chance(standard) <= self.wide.narrow
-            high = quantity.restored(self.regressions[quantity.name].guess(standard).high[-1])
-            reported &= high < AT_EDGE * self.ends_of(quantity)[1]
-        return np.asarray(reported)
+                reported &= self.wide.chance(standard, value, low, high) <= self.wide.narrow
+                reported &= high < AT_EDGE * self.wide.half(standard)
+        return np.asarray(reported, bool)
+
+    def _range(self, quantity: Quantity) -> float:
+        """Give the range that 90 % of the runs learnt from have, on the scale of learning."""
+        low, high = quantity.scaled(np.array(self.card["quantities"][quantity.name]["ranges"][-1])).tolist()
+        return float(high - low)
+
+    def _unlike(self, standard: Float) -> tuple[float, float]:
+        """Measure how unlike what was learnt from box and passages are, of stretches of one run."""
+        strange, unusual = self.box.distance(standard), self.passages.distance(standard)
+        return float(np.median(strange)), float(np.median(unusual))
 
     def _wide(
         self, quantity: Quantity, standard: Float, value: float, interval: tuple[float, float]
     ) -> Estimate | None:
-        """Give the least width of a spall that is or can be wide; value and interval, SI, if it is narrow."""
+        """Give the least width of a spall that is or can be wide; folded value and interval, SI."""
         if self.wide is None or not quantity.of_passages:
             return None
-        chance = float(np.median(self.wide.chance(standard)))
-        if chance <= self.wide.narrow:
+        low, high = interval
+        chances = self.wide.chance(standard, *(np.full(len(standard), each) for each in (value, low, high)))
+        chance, half = float(np.median(chances)), float(np.median(self.wide.half(standard)))
+        if chance <= self.wide.narrow and high < AT_EDGE * half:
             return None
-        half = quantity.text(self.wide.half)
-        low, why = self.wide.least, f"wider than {half}, half of the distance of two rollers, or nearly so"
-        if chance <= self.wide.wide:
-            low = min(interval[0], self.wide.least)
-            narrow = f"{quantity.text(value)}, {quantity.text(interval[0])} to {quantity.text(interval[1])}"
-            why = f"either {narrow}, or wider than {half}, which looks alike"
-        ends = ((low, self.ends_of(quantity)[1]),) * len(LEVELS)
-        return Estimate(quantity, nan, ends, f"at least {quantity.text(low)}: {why}", low)
+        least, wider = LEAST_SHARE * half, quantity.text(half)
+        if chance > self.wide.wide:
+            why = f"wider than {wider}, half of the distance of two rollers, or nearly so"
+        else:
+            narrow = f"{quantity.text(value)}, {quantity.text(low)} to {quantity.text(high)}"
+            least, why = min(low, least), f"either {narrow}, or wider than {wider}, which looks alike"
+        ends = ((least, self.ends_of(quantity)[1]),) * len(LEVELS)
+        return Estimate(quantity, nan, ends, f"at least {quantity.text(least)}: {why}", least)
 
     def _estimate(self, quantity: Quantity, standard: Float, strange: float, unusual: float) -> Estimate:
         if quantity.name not in self.regressions:
@@ -221,13 +246,12 @@ class Estimator:
             return _silent(quantity, _UNPROVEN, tuple((low, high) for low, high in known["ranges"]))
         middle = float(np.median(guess.value))
         half = np.median(guess.high - guess.value, axis=1)
-        low, high = quantity.scaled(np.array(known["ranges"][-1])).tolist()
         ends = [quantity.restored(np.array([middle - each, middle + each])) for each in half]
         intervals = tuple((float(first), float(last)) for first, last in ends)
         value = float(quantity.restored(np.array(middle)))
         if (wide := self._wide(quantity, standard, value, intervals[-1])) is not None:
             return wide
-        if 2.0 * half[-1] >= AS_WIDE * (high - low):
+        if 2.0 * half[-1] >= AS_WIDE * self._range(quantity):
             return Estimate(quantity, float("nan"), intervals, _BLURRED)
         return within_learnt(quantity, value, intervals, self.ends_of(quantity))
 
@@ -244,9 +268,7 @@ class Estimator:
                 arrays |= {f"{name}.{k}.{part}": getattr(way, part) for part in parts}
                 arrays[f"{name}.{k}.numbers"] = np.array([getattr(way, part) for part in numbers])
         if self.wide is not None:
-            _, parts, numbers = _KINDS["kernel"]
-            arrays |= {f"wide.{part}": getattr(self.wide.regression, part) for part in parts}
-            arrays["wide.numbers"] = np.array([getattr(self.wide.regression, part) for part in numbers])
+            arrays |= {f"wide.{name}": getattr(self.wide, name) for name in _WIDE}
         if self.part is not None:
             arrays |= {f"part.{name}": getattr(self.part, name) for name in _PART}
         head = {
@@ -263,7 +285,7 @@ class Estimator:
                 name: [getattr(self, name).outside, getattr(self, name).farthest]
                 for name in ("box", "passages")
             },
-            "wide": None if self.wide is None else [self.wide.half, self.wide.narrow, self.wide.wide],
+            "wide": None if self.wide is None else [getattr(self.wide, name) for name in _WIDE_NUMBERS],
             "quantities": kinds,
             "conditions": () if self.part is None else self.part.conditions,
             "card": dict(self.card),
@@ -362,9 +384,7 @@ def _learnt(stored: Mapping[str, Any], name: str, kinds: Sequence[str]) -> Learn
 def _wide_rule(stored: Mapping[str, Any], limits: Sequence[float] | None) -> WideRule | None:
     if limits is None:
         return None
-    regression = _way(stored, "wide", "kernel")
-    assert isinstance(regression, Regression)
-    return WideRule(regression, *limits)
+    return WideRule(*(stored[f"wide.{name}"] for name in _WIDE), *limits)
 
 
 def _way(stored: Mapping[str, Any], name: str, kind: str) -> Way:

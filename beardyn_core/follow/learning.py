@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from itertools import product
 from typing import Annotated as A
 from typing import Any, NamedTuple
@@ -14,15 +14,16 @@ from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import names_of, places_of
 from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.event_order import CONTRASTS, LEAST_WAY, WAY
 from beardyn_core.follow.familiarity import familiarity_of
-from beardyn_core.follow.forest import Forest, forest_of
+from beardyn_core.follow.forest import EventForest, Forest, forest_of
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
 from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND
-from beardyn_core.follow.wide_spall import LEARNT_SHARE, WideRule, half_distance
+from beardyn_core.follow.wide_spall import LEAST_FOLDED, RACEWAYS, WideRule, agree, folded, spacings_of
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.optional import library
 
@@ -34,7 +35,7 @@ _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0,
 _DOUBT_RIDGE = 3.0
 _TREES, _LEAST_RUNS = 60, 2  # of a forest, and at each end of a tree
 _ASKED = 0.33  # share of the descriptors among which each question of a tree is chosen
-_WIDE_SETTING = (40, 1.9, 0.3)  # directions, width of the kernel and ridge of the rule for wide spalls
+_ORDER_PENALTY = 0.3  # inverse of the ridge of the order of events
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way_")  # descriptors that tell the parts apart
 
@@ -62,17 +63,18 @@ def trained(
     middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
     standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
     found, card = {}, {}
-    wide = _wide_rule(standard, train, plate, axes)
+    wide = _wide_rule(train, plate, names_of(axes), middle, spread)
     for quantity in QUANTITIES:
-        values, inside = _judging(quantity, train, wide)
+        values, inside = _judging(quantity, train, wide, learning=True)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
-        best = _learnt(quantity, standard[inside], values[inside], bearings, axes)
+        best = _learnt(quantity, standard[inside], values[inside], bearings, axes, wide)
         explained = 1.0 - best.square / float(np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
-        ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
-        reached = quantity.restored(np.quantile(values[inside], [0.0, 1.0])).tolist()
+        truth, there = known(quantity, train)
+        ranges = quantity.restored(np.quantile(truth[there], ends)).tolist()
+        reached = quantity.restored(np.quantile(truth[there], [0.0, 1.0])).tolist()
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
                                "shared": shared_of(best.errors, bearings),
                                "ends": reached}  # fmt: skip
@@ -105,14 +107,16 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
             continue
         learnt = estimator.regressions.get(quantity.name)
         best = None
+        # a way of events is the same in every tier
+        truer = straightened and not (quantity.of_passages and estimator.wide is not None)
         if learnt is not None:
             given, expected = learnt.value(standard[inside]), learnt.expected_error(standard[inside])
             best = Judged(learnt.ways, values[inside] - given, expected)
-            if straightened:
+            if truer:
                 best = _straightened(best, given, values[inside])
-        if straightened:
-            truer = (standard[inside], values[inside], runs.bearings[inside], estimator.axes)
-            best = _truer(best, quantity, *truer)
+        if truer:
+            shown = (standard[inside], values[inside], runs.bearings[inside], estimator.axes)
+            best = _truer(best, quantity, *shown)
             variance = float(np.var(values[inside]))
             explained = 0.0 if best is None or not variance else 1.0 - best.square / variance
             card[quantity.name]["explained"] = explained
@@ -154,12 +158,26 @@ def widened(estimator: Estimator, runs: Described) -> Estimator:
     return replace(estimator, regressions=found)
 
 
-def _judging(quantity: Quantity, runs: Described, wide: WideRule | None) -> tuple[Float, NDArray[np.bool_]]:
-    """Give the truth of a quantity on the scale of learning, and which runs its number is meant for."""
+def _judging(
+    quantity: Quantity, runs: Described, wide: WideRule | None, *, learning: bool = False
+) -> tuple[Float, NDArray[np.bool_]]:
+    """Give the truth of a quantity on the scale of learning, and of which runs it is used.
+
+    A width is learnt folded, from all spalls; intervals are those of the narrow ones, whose numbers are
+    reported.
+    """
     values, inside = known(quantity, runs)
     if wide is not None and quantity.of_passages:
-        inside = inside & _is_learnt(runs.truth["width"], wide)
+        widths, spacings = runs.truth[quantity.name], _spacings(runs, wide.spacings)
+        ways = folded(widths, spacings)
+        values = quantity.scaled(ways)
+        inside = inside & (np.nan_to_num(ways) >= LEAST_FOLDED) & (learning | (widths < 0.5 * spacings))
     return values, inside
+
+
+def _spacings(runs: Described, spacings: Float) -> Float:
+    """Give the distance of two rollers on the raceway that is spalled, shape [run], [m]."""
+    return np.where(runs.conditions == RACEWAYS[1], spacings[1], spacings[0])
 
 
 def _truer(
@@ -173,7 +191,7 @@ def _truer(
     """Learn a number from runs of a truer tier alone; that, what is there, or their mean, as errs least."""
     if len(values) < FEWEST or len(set(bearings.tolist())) < 2 or np.ptp(values) < 1e-12:
         return best
-    alone = _learnt(quantity, standard, values, bearings, axes)
+    alone = _learnt(quantity, standard, values, bearings, axes, None)
     if best is None:
         return alone
     errors, expected = 0.5 * (alone.errors + best.errors), 0.5 * (alone.expected + best.expected)
@@ -196,37 +214,44 @@ def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]
     return values, np.isfinite(values)
 
 
-def _is_learnt(widths: Float, wide: WideRule) -> NDArray[np.bool_]:
-    """Tell which spalls are narrow enough for the number of their width to be learnt."""
-    return np.asarray(np.nan_to_num(widths, nan=np.inf) <= LEARNT_SHARE * wide.half)
+def _wide_rule(
+    runs: Described, plate: NamePlate, names: tuple[str, ...], middle: Float, spread: Float
+) -> WideRule | None:
+    """Learn the order of events, and set what decides on bearings left out; `None` with few of a kind.
 
-
-def _wide_rule(standard: Float, runs: Described, plate: NamePlate, axes: tuple[str, ...]) -> WideRule | None:
-    """Learn which spalls are wide, and set what decides on bearings left out; `None` with few of a kind."""
-    library("sklearn.model_selection", "training", "sweep")
+    A run teaches twice: its contrasts, and those of the events exchanged.
+    """
+    library("sklearn.linear_model", "training", "sweep")
+    from sklearn.linear_model import LogisticRegression
     from sklearn.model_selection import GroupKFold
 
-    half, widths = half_distance(plate), runs.truth["width"]
-    spalled = np.isfinite(widths)
-    wide = np.asarray(widths[spalled] > half, np.float64)
+    contrasts, way = [names.index(name) for name in CONTRASTS], names.index(WAY)
+    spacings, widths = _spacings(runs, spacings_of(plate)), runs.truth["width"]
+    ways = folded(widths, spacings)
+    teach = np.isfinite(widths) & (ways > LEAST_WAY) & agree(runs.descriptors[:, way], ways)
+    wide = np.mod(widths, spacings)[teach] > 0.5 * spacings[teach]
     if min(wide.sum(), len(wide) - wide.sum()) < FEWEST_OF_KIND:
         return None
-    shown, chances = standard[spalled], np.empty(len(wide))
-    clear = (widths[spalled] < half) | (widths[spalled] > LEARNT_SHARE * half)  # neither one nor the other
-    directions = _principal(shown, places_of(axes, "order of events"))
-    for fit, rest in GroupKFold(_FOLDS).split(shown, wide, runs.bearings[spalled]):
-        chosen = fit[clear[fit]]
-        chances[rest] = _fitted(shown[chosen], wide[chosen], directions, _WIDE_SETTING).value(shown[rest])
-    rule = WideRule(_fitted(shown[clear], wide[clear], directions, _WIDE_SETTING), half)
-    return rule.decided(chances, widths[spalled])
+    shown, bearings = runs.descriptors[teach][:, contrasts], runs.bearings[teach]
+    size = np.maximum(shown.std(axis=0), 1e-9)
 
+    def slope(fit: NDArray[Any]) -> Float:
+        learnt = LogisticRegression(C=_ORDER_PENALTY, fit_intercept=False, max_iter=2000)
+        twice = np.concatenate([shown[fit], -shown[fit]]) / size
+        return np.asarray(learnt.fit(twice, np.concatenate([wide[fit], ~wide[fit]])).coef_[0] / size)
 
-def _principal(standard: Float, columns: NDArray[np.int64]) -> Float:
-    """Find the directions of some descriptors in which runs differ most, shape [descriptor, direction]."""
-    _, _, turn = np.linalg.svd(standard[:, columns], full_matrices=False)
-    directions = np.zeros((standard.shape[1], min(_WIDE_SETTING[0], len(turn))))
-    directions[columns] = turn[: directions.shape[1]].T
-    return directions
+    odds = np.empty(len(wide))
+    for fit, rest in GroupKFold(min(2 * _FOLDS, len(set(bearings)))).split(shown, wide, bearings):
+        odds[rest] = shown[rest] @ slope(fit)
+    readings = np.zeros((3, len(names)))
+    readings[0, contrasts] = slope(np.arange(len(wide)))
+    readings[1, way] = readings[2, names.index("louder")] = 1.0
+    largest = float(np.nanmax(widths))
+    short = ~wide
+    added = float(np.median((widths[teach] - runs.descriptors[teach, way])[short]))
+    doubt = float(np.std(np.log(widths[teach] / (runs.descriptors[teach, way] + added))[short]))
+    rule = WideRule(readings * spread, readings @ middle, spacings_of(plate), largest, added, doubt)
+    return rule.decided(1.0 / (1.0 + np.exp(-odds)), widths[teach], spacings[teach])
 
 
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
@@ -242,7 +267,12 @@ def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
 
 
 def _learnt(
-    quantity: Quantity, standard: Float, values: Float, bearings: NDArray[Any], axes: tuple[str, ...]
+    quantity: Quantity,
+    standard: Float,
+    values: Float,
+    bearings: NDArray[Any],
+    axes: tuple[str, ...],
+    wide: WideRule | None,
 ) -> Judged:
     """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken.
 
@@ -253,6 +283,8 @@ def _learnt(
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
+    if quantity.of_passages and wide is not None:
+        return _by_trees(standard, values, folds, places_of(axes, "shape"), wide)
     columns = places_of(axes, "shape" if quantity.of_passages else "levels")
     shown = np.zeros_like(standard)
     shown[:, columns] = standard[:, columns]
@@ -264,25 +296,33 @@ def _learnt(
 
 
 def _by_trees(
-    standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]], columns: NDArray[np.int64]
+    standard: Float,
+    values: Float,
+    folds: list[tuple[NDArray[Any], NDArray[Any]]],
+    columns: NDArray[np.int64],
+    wide: WideRule | None = None,
 ) -> Judged:
-    """Learn a number by a forest that asks some of the descriptors."""
+    """Learn a number by a forest that asks some of the descriptors; with a rule, by the way of events too."""
     errors, spread = np.empty(len(values)), np.empty(len(values))
     for fit, rest in folds:
-        grown = _grown(standard[fit], values[fit], columns)
+        grown = _grown(standard[fit], values[fit], columns, wide)
         errors[rest] = values[rest] - grown.value(standard[rest])
         spread[rest] = grown.expected_error(standard[rest])
     usual = float(np.median(spread))
-    forest = replace(_grown(standard, values, columns), usual=usual)
+    forest = replace(_grown(standard, values, columns, wide), usual=usual)
     return Judged((forest,), errors, np.maximum(spread, LEAST_DOUBT * usual))
 
 
-def _grown(standard: Float, values: Float, columns: NDArray[np.int64]) -> Forest:
+def _grown(standard: Float, values: Float, columns: NDArray[np.int64], wide: WideRule | None) -> Forest:
     """Grow a forest."""
     from sklearn.ensemble import ExtraTreesRegressor
 
     trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=_ASKED, random_state=0)
-    return forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
+    found = forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
+    if wide is None:
+        return found
+    events = (wide.readings[1], float(wide.offsets[1]), wide.added, wide.doubt)
+    return EventForest(*(getattr(found, each.name) for each in fields(found)), *events)
 
 
 def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]]) -> Judged:
