@@ -35,12 +35,12 @@ _PROFILE = (*passage_profile.NAMES, *event_order.NAMES)
 def places_of(axes: tuple[str, ...], family: str) -> Int:
     """List the places of descriptors of a family.
 
-    ``box`` are levels of bands; ``passages`` is what repeats with the passages of a fault; ``shape`` is
-    everything that has no level in it, so that a box changes it little; ``levels`` is all but the profile of
-    the passages and the order of its events.
+    ``box`` are levels of the bands in which a box rings on its bearing; ``passages`` is what repeats with
+    the passages of a fault; ``shape`` is everything that has no level in it, so that a box changes it
+    little; ``levels`` is all but the profile of the passages and the order of its events.
     """
     wanted = {
-        "box": lambda name: name.startswith(LEVELS_OF_BOX),
+        "box": lambda name: name.startswith("fine_"),
         "passages": lambda name: name in _OF_PASSAGES,
         "shape": lambda name: not name.startswith((*LEVELS_OF_BOX, *_LINES_OF_BOX, *event_order.CONTRASTS)),
         "levels": lambda name: name not in _PROFILE,

@@ -23,7 +23,15 @@ from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
 from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND
-from beardyn_core.follow.wide_spall import LEAST_FOLDED, RACEWAYS, WideRule, agree, folded, spacings_of
+from beardyn_core.follow.wide_spall import (
+    LEAST_FOLDED,
+    RACEWAYS,
+    WideRule,
+    agree,
+    chance_of,
+    folded,
+    spacings_of,
+)
 from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.optional import library
 
@@ -170,8 +178,8 @@ def _judging(
     if wide is not None and quantity.of_passages:
         widths, spacings = runs.truth[quantity.name], _spacings(runs, wide.spacings)
         ways = folded(widths, spacings)
-        values = quantity.scaled(ways)
-        inside = inside & (np.nan_to_num(ways) >= LEAST_FOLDED) & (learning | (widths < 0.5 * spacings))
+        values = quantity.scaled(np.maximum(ways, LEAST_FOLDED))
+        inside = inside & (learning | (widths < 0.5 * spacings))
     return values, inside
 
 
@@ -251,7 +259,8 @@ def _wide_rule(
     added = float(np.median((widths[teach] - runs.descriptors[teach, way])[short]))
     doubt = float(np.std(np.log(widths[teach] / (runs.descriptors[teach, way] + added))[short]))
     rule = WideRule(readings * spread, readings @ middle, spacings_of(plate), largest, added, doubt)
-    return rule.decided(1.0 / (1.0 + np.exp(-odds)), widths[teach], spacings[teach])
+    chances = chance_of(odds, runs.descriptors[teach, way], spacings[teach])
+    return rule.decided(chances, widths[teach], spacings[teach])
 
 
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:

@@ -18,9 +18,10 @@ FEWEST = 10  # runs of either kind to learn the rule from
 LEAST_FOLDED = 1.2e-3  # that two events can be heard of, [m]
 LEAST_OF_TWO = 3.5e-3  # width from which a spall makes two events, [m]
 _FAR_SHARE = 1.15  # of the half distance: wider spalls may not be taken for narrow ones
+NARROW, WIDE = 0.05, 0.9  # chances that decide at the most and at the least
 _MISSED = 0.03  # share of wide spalls that are taken for narrow ones, and of narrow ones for wide ones
 _APART, _APART_SHARE = 1.5e-3, 0.12  # between the way of two events and the width, [m] and of the width
-_BEYOND = 1.05  # of the widest spall learnt from: wider ones are left out
+_BEYOND = 1.02  # of the widest spall learnt from: wider ones are left out
 UNKNOWN = 0.5  # chance where the order of the events is not known
 
 
@@ -42,8 +43,8 @@ class WideRule:
     largest: A[float, "widest spall learnt from, [m]"]
     added: A[float, "width of a narrow spall less the way of its events, [m]"] = 0.0
     doubt: A[float, "standard deviation of the logarithm of a width by that way"] = 0.0
-    narrow: A[float, "chance below which a spall is narrow"] = 0.25
-    wide: A[float, "chance above which a spall is wide"] = 0.75
+    narrow: A[float, "chance below which a spall is narrow"] = NARROW
+    wide: A[float, "chance above which a spall is wide"] = WIDE
 
     def half(self, standardised: Float) -> Float:
         """Give the half distance of two rollers on the raceway that is heard louder, shape [run], [m]."""
@@ -53,7 +54,7 @@ class WideRule:
         """Compute the chance that a spall is wide, shape [run], of its folded width and interval, [m]."""
         odds, way, louder = self._read(standardised)
         spacing = self._spacing(louder)
-        chance = np.where(agree(way, folded), 1.0 / (1.0 + np.exp(-odds)), UNKNOWN)
+        chance = np.where(agree(way, folded), chance_of(odds, way, spacing), UNKNOWN)
         chance = np.where(spacing - high > _BEYOND * self.largest, 0.0, chance)
         return np.asarray(np.where(spacing + low <= self.largest, UNKNOWN, chance), np.float64)
 
@@ -64,7 +65,7 @@ class WideRule:
         if not len(far) or not len(near):
             return self
         narrow, wide = float(np.quantile(far, _MISSED)), float(np.quantile(near, 1.0 - _MISSED))
-        return replace(self, narrow=min(narrow, 0.9 * UNKNOWN), wide=max(wide, 1.1 * UNKNOWN))
+        return replace(self, narrow=min(narrow, NARROW), wide=max(wide, WIDE))
 
     def _read(self, standardised: Float) -> Float:
         return np.asarray(self.readings @ standardised.T + self.offsets[:, None], np.float64)
@@ -82,6 +83,16 @@ def folded(widths: Float, spacings: Float) -> Float:
     """Fold widths to the way to the nearest multiple of the distance of two rollers, shape [run], [m]."""
     rest = np.mod(widths, spacings)
     return np.asarray(np.minimum(rest, spacings - rest), np.float64)
+
+
+def chance_of(odds: Float, way: Float, spacing: Float) -> Float:
+    """Compute the chance to be wide, shape [run], where of equal odds the narrower spall is the likelier.
+
+    Spalls of a factor of widths are as frequent as those of any other such factor.
+    """
+    return np.asarray(
+        1.0 / (1.0 + np.exp(-odds) * (spacing - way) / np.maximum(way, LEAST_FOLDED)), np.float64
+    )
 
 
 def agree(way: Float, width: Float) -> NDArray[np.bool_]:
