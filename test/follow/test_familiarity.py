@@ -7,8 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from beardyn_core.arrays import Float
 from beardyn_core.follow.descriptors import AXES, places_of
 from beardyn_core.follow.estimator import Estimator, within_learnt
+from beardyn_core.follow.familiarity import familiarity_of
 from beardyn_core.follow.quantities import BY_NAME
 from test.follow.synthetic import drawn, taught
 
@@ -40,6 +42,22 @@ def test_box_that_shifts_many_levels_gives_no_load_and_says_why(estimator: Estim
         assert set(found.part.sets[-1]) == {"healthy", "cup", "cone"}
         assert "another box, sensor place or track" in found["vertical_load"].reason
         assert "another box, sensor place or track" in found.sentences[-1]
+
+
+def test_a_box_is_noticed_that_differs_where_the_runs_learnt_from_hardly_do() -> None:
+    random = np.random.default_rng(8)
+    turn, _ = np.linalg.qr(random.normal(size=(120, 120)))
+    sizes = 3.0 / np.arange(1, 121)
+
+    def runs(count: int) -> Float:
+        return random.normal(size=(count, 120)) * sizes @ turn
+
+    found = familiarity_of(runs(320), np.arange(120)).bounded(runs(100))
+    assert np.mean(found.distance(runs(400)) > 1.0) < 0.05 + FOUR_SIGMA * np.sqrt(
+        0.0475 * (1 / 400 + 1 / 100)
+    )
+    other = runs(100) + 3.0 * (sizes * (np.arange(120) >= 60)) @ turn
+    assert np.mean(found.distance(other) > 1.0) > 0.9
 
 
 def test_passages_unlike_those_learnt_from_give_no_width(estimator: Estimator) -> None:
