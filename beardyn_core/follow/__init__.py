@@ -5,14 +5,15 @@ module           responsibility, in the order of the data
 ================ ====================================================================
 passages         what repeats with the passages of a fault
 passage_profile  the mean envelope over a passage, and its correlations
+event_order      which of the two events of a passage is entry and which exit, by the motion of the box
 descriptors      what is worked out of a stretch of signal
 quantities       what is estimated, on which scale, and by which label of a run it is learnt
 learnt           numbers with intervals that hold their promise
+wide_spall       whether a spall is wider than half of the distance of two rollers
 regression       numbers from descriptors by kernel ridge regression
 forest           numbers from descriptors by trees
 part             which part is spalled, with sets of parts that hold their promise
 familiarity      whether runs are of the kind learnt from: another box lies far from them
-wide_spall       whether a spall can be wider than half of the distance of two rollers
 estimator        the numbers that make an estimator, its card, and the file that keeps them
 listening        what an estimator makes of a run
 shipped          estimators that are shipped, found by the bearing
@@ -30,5 +31,5 @@ judging          errors and coverage on runs that were neither learnt from nor c
 training         an estimator of a set of runs, with its card
 ================ ====================================================================
 
-scikit-learn is imported by `learning` alone and when it is needed; an estimate needs NumPy.
+scikit-learn is imported by `learning` and `familiarity` alone and when it is needed; an estimate needs NumPy.
 """

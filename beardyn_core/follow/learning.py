@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from itertools import product
 from typing import Annotated as A
 from typing import Any, NamedTuple
@@ -330,8 +330,10 @@ def _grown(standard: Float, values: Float, columns: NDArray[np.int64], wide: Wid
     found = forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
     if wide is None:
         return found
-    events = (wide.readings[1], float(wide.offsets[1]), wide.added, wide.doubt)
-    return EventForest(*(getattr(found, each.name) for each in fields(found)), *events)
+    return EventForest(
+        found.descriptor, found.number, found.other, found.roots, found.usual, found.offset, found.slope,
+        wide.readings[1], float(wide.offsets[1]), wide.added, wide.doubt,
+    )  # fmt: skip
 
 
 def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]]) -> Judged:

@@ -56,7 +56,7 @@ def test_a_box_is_noticed_that_differs_where_the_runs_learnt_from_hardly_do() ->
     assert np.mean(found.distance(runs(400)) > 1.0) < 0.05 + FOUR_SIGMA * np.sqrt(
         0.0475 * (1 / 400 + 1 / 100)
     )
-    other = runs(100) + 3.0 * (sizes * (np.arange(120) >= 60)) @ turn
+    other = runs(100) + 2.5 * (sizes * (np.arange(120) >= 90)) @ turn
     assert np.mean(found.distance(other) > 1.0) > 0.9
 
 
