@@ -52,7 +52,7 @@ def spalled(count: int, seed: int, noise: float = 1.0) -> Described:
 
 @pytest.fixture(scope="module")
 def estimator() -> Estimator:
-    return calibrated(trained(spalled(200, 1), DRAWING, AXES, RATE, STRETCH), spalled(120, 2))
+    return calibrated(trained(spalled(240, 1), DRAWING, AXES, RATE, STRETCH), spalled(150, 2))
 
 
 def test_no_wide_spall_is_reported_as_a_narrow_one_and_most_narrow_ones_are_numbers(
