@@ -60,7 +60,7 @@ def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> No
         "--widest-mm",
         metavar="MM",
         type=float,
-        help="width of a spall at which the bearing is taken out; default the distance of two rollers",
+        help="width of a spall at which the bearing is taken out; default 20 mm",
     )
     group.add_argument(
         "--growth-mm2",

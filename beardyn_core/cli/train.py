@@ -36,7 +36,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="append",
         default=[],
         help="another set that straightens estimates and sets the intervals, such as a small one of a truer "
-        "tier; may be given again; default the validation part of the set",
+        "tier; may be given again; the validation part of the set widens them where it needs wider ones",
     )
     parser.add_argument(
         "--test",

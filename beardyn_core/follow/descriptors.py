@@ -7,12 +7,13 @@ from math import isfinite, log10, nan
 import numpy as np
 from scipy.fft import rfft
 
-from beardyn_core.arrays import Float
+from beardyn_core.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow import passages
+from beardyn_core.follow import event_order, passage_profile, passages
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
-from beardyn_core.observe.severity import severity_of
+from beardyn_core.observe.passage_order import find_passage_order
+from beardyn_core.observe.severity import narrow_width
 
 AXES = ("x", "y", "z")
 RACEWAYS = ("cup", "cone")
@@ -24,6 +25,29 @@ _TURNS = (1, 2)  # multiples of the shaft
 _BESIDE = 0.35  # of an order: how far the lines lie that a line is compared with
 
 
+LEVELS_OF_BOX = ("band_", "fine_")
+"""Beginnings of the names of levels, which box and sensor place change most."""
+_LINES_OF_BOX = ("passing_", "turn_", "strongest_level")
+_OF_PASSAGES = (*passages.NAMES, *passage_profile.NAMES)
+_PROFILE = (*passage_profile.NAMES, *event_order.NAMES)
+
+
+def places_of(axes: tuple[str, ...], family: str) -> Int:
+    """List the places of descriptors of a family.
+
+    ``box`` are levels of the bands in which a box rings on its bearing; ``passages`` is what repeats with
+    the passages of a fault; ``shape`` is everything that has no level in it, so that a box changes it
+    little; ``levels`` is all but the profile of the passages and the order of its events.
+    """
+    wanted = {
+        "box": lambda name: name.startswith("fine_"),
+        "passages": lambda name: name in _OF_PASSAGES,
+        "shape": lambda name: not name.startswith((*LEVELS_OF_BOX, *_LINES_OF_BOX, *event_order.CONTRASTS)),
+        "levels": lambda name: name not in _PROFILE,
+    }[family]
+    return np.array([k for k, name in enumerate(names_of(axes)) if wanted(name)], np.int64)
+
+
 def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
     """Name the descriptors of a sensor with these axes, in their order."""
     lines = [f"passing_{k}" for k in _PASSINGS] + [f"turn_{k}" for k in _TURNS]
@@ -32,7 +56,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *(f"score_{part}" for part in FAULTS),
         *("score", "kurtosis", "crest", "strongest_level"),
         *(f"way_{part}" for part in RACEWAYS),
-        *("louder", "way", *passages.NAMES),
+        *("louder", "way", *passages.NAMES, *passage_profile.NAMES, *event_order.NAMES),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
         *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
@@ -57,21 +81,27 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     float64 array, shape [descriptor]
         In the order of `names_of`; levels in dB, NaN where there is nothing to be worked out.
     """
+    nominal = {"cup": orders.bpfo, "cone": orders.bpfi}
+    passed = {
+        part: find_passage_order(stretch.acceleration, stretch.rate, stretch.shaft_angle, order)
+        for part, order in nominal.items()
+    }
     found = {
         "shaft": log10(max(stretch.shaft_frequency, _FLOOR)),
         **_of_monitor(stretch, orders, plate),
-        **_ways(stretch, orders, plate),
+        **_ways(stretch, passed, plate),
     }
     louder = RACEWAYS[int(found["score_cone"] > found["score_cup"])]
-    order = orders.bpfo if louder == "cup" else orders.bpfi
     found |= {"louder": float(RACEWAYS.index(louder)), "way": found[f"way_{louder}"]}
-    found |= passages.of_passages(stretch, louder, order, plate)
+    found |= passages.of_passages(stretch, louder, passed[louder], plate)
+    found |= passage_profile.profile_of(stretch, louder, passed[louder], plate)
+    found |= event_order.order_of_events(stretch, louder, passed[louder], plate, axes)
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
         for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):
             levels = band_levels(heard, stretch.rate, middles, share)
             found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
-        found |= {f"{name}_{axis}": value for name, value in _lines(heard, stretch, orders).items()}
+    found |= _lines(stretch, orders, axes)
     return np.array([found[name] for name in names_of(axes)])
 
 
@@ -89,12 +119,12 @@ def _of_monitor(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) ->
     }
 
 
-def _ways(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate) -> dict[str, float]:
+def _ways(stretch: Stretch, passed: dict[str, float], plate: NamePlate) -> dict[str, float]:
     """Measure how far entry and exit are apart on cup and cone, [mm]; 0 where no second event stands out."""
     found = {}
-    for part, order in (("cup", orders.bpfo), ("cone", orders.bpfi)):
-        measured = severity_of(stretch.acceleration, stretch.rate, stretch.shaft_angle, part, order, plate)
-        found[f"way_{part}"] = 1e3 * measured.width if isfinite(measured.width) else 0.0
+    for part, order in passed.items():
+        width = narrow_width(stretch.acceleration, stretch.rate, stretch.shaft_angle, part, order, plate)
+        found[f"way_{part}"] = 1e3 * width if isfinite(width) else 0.0
     return found
 
 
@@ -112,23 +142,26 @@ def band_levels(signal: Float, rate: float, middles: tuple[float, ...], share: i
     return levels
 
 
-def _lines(signal: Float, stretch: Stretch, orders: FaultFrequencies) -> dict[str, float]:
+def _lines(stretch: Stretch, orders: FaultFrequencies, axes: tuple[str, ...]) -> dict[str, float]:
     """Measure lines of the rollers' passing and of the shaft: level, and lead over what lies beside, [dB]."""
     wanted = {f"passing_{k}": k * orders.bpfo for k in _PASSINGS} | {f"turn_{k}": float(k) for k in _TURNS}
-    weighted = signal * np.hanning(len(signal)) * 2.0
+    centred = stretch.acceleration - stretch.acceleration.mean(axis=0)
+    weighted = centred * np.hanning(len(centred))[:, None] * 2.0
     found = {}
     for name, order in wanted.items():
-        power = [_line(weighted, stretch.shaft_angle, order + shift * _BESIDE) for shift in (-1.0, 0.0, 1.0)]
-        found[f"{name}_level"] = _level(power[1])
-        found[f"{name}_lead"] = _level(power[1]) - _level(0.5 * (power[0] + power[2]))
+        beside = [order + shift * _BESIDE for shift in (-1.0, 0.0, 1.0)]
+        power = np.array([_line(weighted, stretch.shaft_angle, each) for each in beside])
+        for k, axis in enumerate(axes):
+            found[f"{name}_level_{axis}"] = _level(power[1, k])
+            found[f"{name}_lead_{axis}"] = _level(power[1, k]) - _level(0.5 * (power[0, k] + power[2, k]))
     return found
 
 
-def _line(weighted: Float, angle: Float, order: float) -> float:
-    """Compute the power of a line that follows the angle of the shaft, [m^2/s^4]."""
+def _line(weighted: Float, angle: Float, order: float) -> Float:
+    """Compute the power of a line that follows the angle of the shaft, shape [axis], [m^2/s^4]."""
     turned = order * angle
-    along, across = float(weighted @ np.cos(turned)), float(weighted @ np.sin(turned))
-    return 2.0 * (along**2 + across**2) / len(weighted) ** 2
+    along, across = np.cos(turned) @ weighted, np.sin(turned) @ weighted
+    return np.asarray(2.0 * (along**2 + across**2) / len(weighted) ** 2, np.float64)
 
 
 def _level(power: float) -> float:

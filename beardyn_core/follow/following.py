@@ -13,7 +13,15 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.belief import Belief, carried, corrected
 from beardyn_core.follow.condition import ConditionBelief
-from beardyn_core.follow.estimator import AS_WIDE, Estimate, Estimates, Estimator
+from beardyn_core.follow.estimator import (
+    AS_WIDE,
+    ELSEWHERE,
+    UNLIKE,
+    Estimate,
+    Estimates,
+    Estimator,
+    within_learnt,
+)
 from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
 from beardyn_core.follow.quantities import BY_NAME, Quantity
@@ -31,6 +39,8 @@ _JUMP, _JUMP_STRETCHES = 3.0, 2  # standard deviations, and stretches in a row o
 _KEPT = 0.8  # of the surprise so far, at each stretch
 _SURPRISING = 4.0  # mean square miss from which what is heard does not fit what was known
 _FEWEST = 2  # stretches before anything is said
+_FAR = 2.0  # strangeness of one stretch that counts at once
+_LATE = 5  # stretches whose middle strangeness says whether the box is another one: one in twenty is strange
 _NOT_HEARD = "not identifiable from the stretches so far: the interval is as wide as the range learnt from"
 
 
@@ -111,6 +121,8 @@ class Follower:
         self.condition = None if rule is None else ConditionBelief(rule.conditions)
         self._aside = np.zeros(len(self.names))  # stretches in a row that missed, with their side
         self._surprise, self._time, self._distance = 1.0, 0.0, 0.0
+        self._is_to_come_out = False
+        self._strange: list[float] = []  # strangeness of the latest stretches
 
     def begin(self) -> None:
         """Begin another recording: load, end play, temperature and what a run adds may all be others by now.
@@ -140,6 +152,7 @@ class Follower:
             That the wheel has run since the first stretch, [m].
         """
         heard = self.estimator.estimates(descriptors[None])
+        self._strange = [*self._strange, heard.strangeness][-_LATE:]
         self._carry(
             max(time - self._time, 0.0) if self.stretches else 0.0, max(distance - self._distance, 0.0)
         )
@@ -157,7 +170,7 @@ class Follower:
             if self.bearing is None or self.lubricant is None
             else forecast(known, self.bearing, self.lubricant, service, law)
         )
-        doubts = self._doubts(heard)
+        doubts = self._doubts()
         count = len(self.names)
         return Followed(
             time, distance, known, heard, self.names, self.belief.covariance[:count, :count].copy(),
@@ -247,7 +260,11 @@ class Follower:
             heard,
             part=part,
             stretches=self.stretches,
-            quantities=tuple(self._estimate(each.quantity) for each in heard.quantities),
+            quantities=tuple(
+                # a least width stands for itself: the belief may be the narrow one of two that look alike
+                each if isfinite(each.at_least) and self._spalled else self._estimate(each.quantity)
+                for each in heard.quantities
+            ),
         )
 
     def _estimate(self, quantity: Quantity) -> Estimate:
@@ -255,19 +272,29 @@ class Follower:
             return Estimate(quantity, np.nan, (), "no part is called spalled")
         if quantity.name not in self.names:
             return self.estimator.unidentified(quantity)
+        if self._strangeness > 1.0:
+            return Estimate(quantity, np.nan, (), ELSEWHERE.format(self._strangeness))
         k = self.names.index(quantity.name)
         middle, spread = self.belief.mean[k], self.belief.deviation[k]
         ends = [quantity.restored(middle + spread * np.array([-by, by])) for by in (NORMAL_50, NORMAL_90)]
         intervals = tuple((float(low), float(high)) for low, high in ends)
         if spread >= AS_WIDE * self._spread[k]:
             return Estimate(quantity, np.nan, intervals, _NOT_HEARD)
-        return Estimate(quantity, float(quantity.restored(np.array(middle))), intervals)
+        value = float(quantity.restored(np.array(middle)))
+        return within_learnt(quantity, value, intervals, self.estimator.ends_of(quantity))
 
-    def _doubts(self, heard: Estimates) -> tuple[str, ...]:
+    @property
+    def _strangeness(self) -> float:
+        """Middle strangeness of the latest stretches, or that of the last one where it is far beyond."""
+        if not self._strange:
+            return 0.0
+        return self._strange[-1] if self._strange[-1] > _FAR else float(np.median(self._strange))
+
+    def _doubts(self) -> tuple[str, ...]:
         """Say what the model does not explain."""
         found = []
-        if heard.strangeness > 1.0:
-            found.append(f"the signal is {heard.strangeness:.1f} times as far as any learnt from")
+        if self._strangeness > 1.0:
+            found.append(UNLIKE.format(self._strangeness))
         if self._surprise > _SURPRISING:
             found.append(f"what is heard misses what was known, {self._surprise:.1f} times the usual square")
         return tuple(found)
@@ -276,7 +303,11 @@ class Follower:
         """Say the most urgent thing that holds: a doubt, told beside it, takes no warning back."""
         if self.stretches < _FEWEST:
             return WAITING
-        if remains is not None and isfinite(remains.remaining[0]) and remains.remaining[0] < SOON:
+        if remains is not None and isfinite(remains.remaining[0]):
+            self._is_to_come_out = remains.remaining[0] < SOON
+        elif self._strangeness <= 1.0:  # a signal that says nothing takes no warning back
+            self._is_to_come_out = False
+        if self._is_to_come_out:
             return TAKE_OUT
         if doubts:
             return UNEXPLAINED

@@ -14,11 +14,14 @@ from beardyn_core.edge import At, refuse
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
 from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_life
+from beardyn_core.observe.labels import HEALTHY
 
 _DRAWS, _SEED = 4000, 1
 _QUANTILES = (0.05, 0.5, 0.95)
+_NOTHING = (0.0, 0.0, 0.0)  # remaining mileage of a spall that must come out now
 _USUAL_TEMPERATURE, _USUAL_END_PLAY = 333.15, 1.0e-4
 SOON = 1.0e6  # [m], below which a forecast counts as now
+WIDEST_FORECAST = 20.0e-3  # width from which no mileage is given: the spall must come out, [m]; assumed
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,7 @@ class Service:
     widest: A[
         float | None,
         At("mm", gt=0.0, le=200.0),
-        "width at which a bearing is taken out; the distance of two rollers when left out",
+        "width at which a bearing is taken out; 20 mm, or the distance of two rollers, when left out",
     ] = None
 
     def __post_init__(self) -> None:
@@ -61,12 +64,21 @@ class Forecast:
     def sentences(self) -> list[str]:
         """Say it in lines."""
         lines = []
-        if isfinite(self.remaining[1]):
+        if self.remaining == _NOTHING:
+            lines.append(
+                f"spall of the {self.condition}: can be wider than {1e3 * WIDEST_FORECAST:.0f} mm already: "
+                "take it out now; no mileage is given"
+            )
+        elif isfinite(self.remaining[1]):
             low, middle, high = (f"{each / 1e3:,.0f}" for each in self.remaining)
             when = "take it out now" if self.remaining[0] < SOON else "by then it must come out"
             lines.append(
                 f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, {low} to "
                 f"{high} km in 90 of 100; {when}"
+            )
+        elif self.condition != HEALTHY:
+            lines.append(
+                f"spall of the {self.condition}: how wide it can be is not known, so no mileage is given"
             )
         if isfinite(self.life):
             lines.append(
@@ -100,10 +112,12 @@ def forecast(
     -----
     Width and rate of growth are drawn from their distributions. The length of a spall, across the raceway, is
     drawn from its interval, or from the lengths learnt from where it is not identifiable; it stays while the
-    spall grows along the raceway. The load of the stretches heard stands for the whole mileage.
+    spall grows along the raceway. A spall whose interval reaches 20 mm, or the end of what was learnt from,
+    has no mileage left: its width is known too badly for one. The load of the stretches heard stands for the
+    whole mileage.
     """
-    condition = "healthy" if found.part is None else found.part.condition
-    widest = service.widest or pi * bearing.pitch_diameter / bearing.roller_count
+    condition = HEALTHY if found.part is None else found.part.condition
+    widest = service.widest or min(WIDEST_FORECAST, pi * bearing.pitch_diameter / bearing.roller_count)
     classes = [_class_of(found, k) for k in range(3)]
     life = [None if each is None else _life_of(each, found, bearing, lubricant) for each in classes]
     around = pi * service.wheel_diameter
@@ -124,6 +138,8 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     """Draw mileages until the spall is too wide, and give their quantiles, [m]."""
     width = _estimate(found, "width")
     length = _estimate(found, "length")
+    if width is not None and _must_come_out(width):
+        return _NOTHING
     if width is None or not isfinite(width.value) or length is None or not length.intervals:
         return nan, nan, nan
     random = np.random.default_rng(_SEED)
@@ -132,6 +148,12 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     distance = law.distance(area, across * widest, law.rates(_DRAWS, random))
     low, middle, high = np.quantile(distance, _QUANTILES).tolist()
     return low, middle, high
+
+
+def _must_come_out(width: Estimate) -> bool:
+    """Tell whether a width reaches the one from which no mileage is left, or is half of it at least."""
+    reaches = isfinite(width.value) and width.intervals[-1][1] >= WIDEST_FORECAST
+    return reaches or width.at_least >= 0.5 * WIDEST_FORECAST
 
 
 def _estimate(found: Estimates, name: str) -> Estimate | None:

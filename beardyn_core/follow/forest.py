@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.follow.regression import LEAST_DOUBT
+from beardyn_core.follow.wide_spall import LEAST_FOLDED, LEAST_OF_TWO, agree
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +62,37 @@ class Forest:
             below = asked[runs, np.maximum(descriptor, 0)] <= self.number[at]
             at = np.where(descriptor < 0, at, np.where(below, at + 1, self.other[at]))
         return self.number[at]
+
+
+@dataclass(frozen=True, eq=False)
+class EventForest(Forest):
+    """A forest of the logarithm of a width, that the way between two events makes sharper.
+
+    The way is that of entry and exit if the trees give about as much: it is read to a few per cent, but of
+    small spalls, which make one event, and of noise it is any way.
+    """
+
+    reading: A[Float, "shape [descriptor], to the way, [m]"]
+    start: A[float, "added to it, [m]"]
+    added: A[float, "width less way, [m]"]
+    doubt: A[float, "error to be expected of the logarithm of a width by the way"]
+
+    def value(self, standardised: Float) -> Float:
+        """Give the logarithm of the width, shape [run]."""
+        by_trees = self._ends(standardised).mean(axis=1)
+        way, sharp = self._way(standardised, by_trees)
+        width = np.log(np.maximum(way + self.added, LEAST_FOLDED))
+        return np.asarray(self.offset + self.slope * np.where(sharp, width, by_trees), np.float64)
+
+    def expected_error(self, standardised: Float) -> Float:
+        """Give the error to be expected, shape [run]."""
+        _, sharp = self._way(standardised, self._ends(standardised).mean(axis=1))
+        return np.asarray(np.where(sharp, self.doubt, super().expected_error(standardised)), np.float64)
+
+    def _way(self, standardised: Float, by_trees: Float) -> tuple[Float, NDArray[np.bool_]]:
+        """Read the way, and whether it agrees with the trees."""
+        way, width = standardised @ self.reading + self.start, np.exp(by_trees)
+        return way, agree(way, width) & (width >= LEAST_OF_TWO)
 
 
 def forest_of(trees: Any, columns: NDArray[np.int64]) -> Forest:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.arrays import Float, Int
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described, taken
-from beardyn_core.follow.learning import calibrated, known
+from beardyn_core.follow.learning import calibrated, known, widened
 from beardyn_core.follow.learnt import Guess
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 
@@ -61,7 +61,9 @@ def judged_by(estimator: Estimator, runs: Described) -> Judgement:
     return Judgement(guessed(estimator, runs), part_score([part_judged(estimator, runs)]))
 
 
-def judged_crosswise(estimator: Estimator, runs: Described, parts: int = CROSSWISE) -> Judgement:
+def judged_crosswise(
+    estimator: Estimator, runs: Described, parts: int = CROSSWISE, own: Described | None = None
+) -> Judgement:
     """Judge by the runs that calibrate: a part of their bearings at a time, put right by the rest of them.
 
     Parameters
@@ -70,10 +72,13 @@ def judged_crosswise(estimator: Estimator, runs: Described, parts: int = CROSSWI
         That is not calibrated yet.
     runs : Described
     parts : int
+    own : Described, optional
+        Of the tier that was learnt from, which widen the intervals.
     """
     pieces, of_part = [], []
     for inside in crosswise_parts(runs.bearings, parts):
         by, asked = calibrated(estimator, taken(runs, ~inside), straightened=True), taken(runs, inside)
+        by = by if own is None else widened(by, own)
         places = np.flatnonzero(inside)
         found = guessed(by, asked)
         pieces.append({name: each._replace(places=places[each.places]) for name, each in found.items()})
@@ -94,11 +99,12 @@ def crosswise_parts(bearings: NDArray[Any], parts: int = CROSSWISE) -> Iterator[
 
 
 def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
-    """Guess every number of runs that have one, by quantity."""
+    """Guess every number of runs that have one and of which it is reported, by quantity."""
     standard = estimator.standardised(runs.descriptors)
     found = {}
     for name, each in estimator.regressions.items():
         values, inside = known(BY_NAME[name], runs)
+        inside = inside & estimator.reports(BY_NAME[name], standard)
         if inside.any():
             found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
     return found

@@ -12,14 +12,27 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow.descriptors import names_of
-from beardyn_core.follow.estimator import Estimator, farthest_of
-from beardyn_core.follow.forest import Forest, forest_of
+from beardyn_core.follow.descriptors import names_of, places_of
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.event_order import CONTRASTS, LEAST_WAY, WAY
+from beardyn_core.follow.familiarity import familiarity_of
+from beardyn_core.follow.forest import EventForest, Forest, forest_of
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.part import PartRule, least_of
-from beardyn_core.follow.quantities import QUANTITIES, Quantity
+from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
+from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND
+from beardyn_core.follow.wide_spall import (
+    LEAST_FOLDED,
+    RACEWAYS,
+    WideRule,
+    agree,
+    chance_of,
+    folded,
+    spacings_of,
+)
+from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.optional import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
@@ -29,10 +42,10 @@ _FOLDS = 5
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
 _DOUBT_RIDGE = 3.0
 _TREES, _LEAST_RUNS = 60, 2  # of a forest, and at each end of a tree
+_ASKED = 0.33  # share of the descriptors among which each question of a tree is chosen
+_ORDER_PENALTY = 0.3  # inverse of the ridge of the order of events
 _LEAST_ERROR = 1e-3  # of the spread of the number, so that its logarithm is finite
 _OF_MONITOR = ("score", "kurtosis", "crest", "strongest", "way_")  # descriptors that tell the parts apart
-_LEVELS_OF_BANDS = ("band", "fine")  # descriptors that a forest is not asked to sort through
-_USUAL = 20  # principal directions that strangeness looks along
 
 
 class Judged(NamedTuple):
@@ -57,25 +70,30 @@ def trained(
         middle, spread = np.nanmean(descriptors, axis=0), np.nanstd(descriptors, axis=0)
     middle, spread = np.nan_to_num(middle), np.where(spread > 1e-9, spread, 1.0)
     standard = np.nan_to_num((descriptors - middle) / spread, nan=0.0)
-    sizes, usual = _principal(standard)
     found, card = {}, {}
+    wide = _wide_rule(train, plate, names_of(axes), middle, spread)
     for quantity in QUANTITIES:
-        values, inside = known(quantity, train)
+        values, inside = _judging(quantity, train, wide, learning=True)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
-        best = _learnt(quantity, standard[inside], values[inside], bearings, names_of(axes))
+        best = _learnt(quantity, standard[inside], values[inside], bearings, axes, wide)
         explained = 1.0 - best.square / float(np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
-        ranges = quantity.restored(np.quantile(values[inside], ends)).tolist()
+        truth, there = known(quantity, train)
+        ranges = quantity.restored(np.quantile(truth[there], ends)).tolist()
+        reached = quantity.restored(np.quantile(truth[there], [0.0, 1.0])).tolist()
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
-                               "shared": shared_of(best.errors, bearings)}  # fmt: skip
+                               "shared": shared_of(best.errors, bearings),
+                               "ends": reached}  # fmt: skip
         if explained >= LEAST_EXPLAINED:
             found[quantity.name] = Learnt(best.ways, np.ones(len(LEVELS)))
-    farthest = farthest_of(standard @ usual.T / sizes)
+    spalled = train.conditions != HEALTHY
+    box = familiarity_of(standard, places_of(axes, "box"))
+    passages = familiarity_of(standard[spalled] if spalled.any() else standard, places_of(axes, "passages"))
     return Estimator(
-        plate, axes, rate, stretch, middle, spread, usual, sizes, farthest, found,
-        _part_of(standard, train.conditions, names_of(axes)), {"quantities": card},
+        plate, axes, rate, stretch, middle, spread, box, passages, found,
+        _part_of(standard, train.conditions, names_of(axes)), wide, {"quantities": card},
     )  # fmt: skip
 
 
@@ -92,19 +110,21 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
     for quantity in QUANTITIES:
         if quantity.name not in card:
             continue
-        values, inside = known(quantity, runs)
+        values, inside = _judging(quantity, runs, estimator.wide)
         if not inside.any():  # nothing judges it, so nothing is told
             continue
         learnt = estimator.regressions.get(quantity.name)
         best = None
+        # a way of events is the same in every tier
+        truer = straightened and not (quantity.of_passages and estimator.wide is not None)
         if learnt is not None:
             given, expected = learnt.value(standard[inside]), learnt.expected_error(standard[inside])
             best = Judged(learnt.ways, values[inside] - given, expected)
-            if straightened:
+            if truer:
                 best = _straightened(best, given, values[inside])
-        if straightened:
-            truer = (standard[inside], values[inside], runs.bearings[inside], names_of(estimator.axes))
-            best = _truer(best, quantity, *truer)
+        if truer:
+            shown = (standard[inside], values[inside], runs.bearings[inside], estimator.axes)
+            best = _truer(best, quantity, *shown)
             variance = float(np.var(values[inside]))
             explained = 0.0 if best is None or not variance else 1.0 - best.square / variance
             card[quantity.name]["explained"] = explained
@@ -118,7 +138,54 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         places = [part.conditions.index(each) for each in runs.conditions[inside]]
         truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
         part = replace(part, least=least_of(truth))
-    return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
+    spalled = runs.conditions != HEALTHY
+    return replace(
+        estimator,
+        regressions=found,
+        part=part,
+        box=estimator.box.bounded(standard) if len(standard) else estimator.box,
+        passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
+        card={**estimator.card, "quantities": card},
+    )
+
+
+def widened(estimator: Estimator, runs: Described) -> Estimator:
+    """Widen the intervals to those that other runs not learnt from need, where these are wider.
+
+    A truer tier that straightens a number sets intervals that hold for that tier alone; the runs of the tier
+    that was learnt from need intervals of their own. An interval is the widest of those of the sets that
+    calibrate it; without an end where one of them has too few runs, and then no number is reported.
+    """
+    standard = estimator.standardised(runs.descriptors)
+    found = {}
+    for name, each in estimator.regressions.items():
+        values, inside = _judging(BY_NAME[name], runs, estimator.wide)
+        shown = standard[inside]
+        needed = reach_of(values[inside] - each.value(shown), each.expected_error(shown))
+        found[name] = replace(each, reach=np.maximum(each.reach, needed))
+    return replace(estimator, regressions=found)
+
+
+def _judging(
+    quantity: Quantity, runs: Described, wide: WideRule | None, *, learning: bool = False
+) -> tuple[Float, NDArray[np.bool_]]:
+    """Give the truth of a quantity on the scale of learning, and of which runs it is used.
+
+    A width is learnt folded, from all spalls; intervals are those of the narrow ones, whose numbers are
+    reported.
+    """
+    values, inside = known(quantity, runs)
+    if wide is not None and quantity.of_passages:
+        widths, spacings = runs.truth[quantity.name], _spacings(runs, wide.spacings)
+        ways = folded(widths, spacings)
+        values = quantity.scaled(np.maximum(ways, LEAST_FOLDED))
+        inside = inside & (learning | (widths < 0.5 * spacings))
+    return values, inside
+
+
+def _spacings(runs: Described, spacings: Float) -> Float:
+    """Give the distance of two rollers on the raceway that is spalled, shape [run], [m]."""
+    return np.where(runs.conditions == RACEWAYS[1], spacings[1], spacings[0])
 
 
 def _truer(
@@ -127,12 +194,12 @@ def _truer(
     standard: Float,
     values: Float,
     bearings: NDArray[Any],
-    names: tuple[str, ...],
+    axes: tuple[str, ...],
 ) -> Judged | None:
     """Learn a number from runs of a truer tier alone; that, what is there, or their mean, as errs least."""
     if len(values) < FEWEST or len(set(bearings.tolist())) < 2 or np.ptp(values) < 1e-12:
         return best
-    alone = _learnt(quantity, standard, values, bearings, names)
+    alone = _learnt(quantity, standard, values, bearings, axes, None)
     if best is None:
         return alone
     errors, expected = 0.5 * (alone.errors + best.errors), 0.5 * (alone.expected + best.expected)
@@ -155,11 +222,45 @@ def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]
     return values, np.isfinite(values)
 
 
-def _principal(standard: Float) -> tuple[Float, Float]:
-    """Find the directions in which runs differ most, shape [direction, descriptor], and their spreads."""
-    _, size, turn = np.linalg.svd(standard - standard.mean(axis=0), full_matrices=False)
-    count = min(_USUAL, int(np.count_nonzero(size > 1e-6 * size[0])))
-    return size[:count] / np.sqrt(len(standard)), turn[:count]
+def _wide_rule(
+    runs: Described, plate: NamePlate, names: tuple[str, ...], middle: Float, spread: Float
+) -> WideRule | None:
+    """Learn the order of events, and set what decides on bearings left out; `None` with few of a kind.
+
+    A run teaches twice: its contrasts, and those of the events exchanged.
+    """
+    library("sklearn.linear_model", "training", "sweep")
+    from sklearn.linear_model import LogisticRegression
+    from sklearn.model_selection import GroupKFold
+
+    contrasts, way = [names.index(name) for name in CONTRASTS], names.index(WAY)
+    spacings, widths = _spacings(runs, spacings_of(plate)), runs.truth["width"]
+    ways = folded(widths, spacings)
+    teach = np.isfinite(widths) & (ways > LEAST_WAY) & agree(runs.descriptors[:, way], ways)
+    wide = np.mod(widths, spacings)[teach] > 0.5 * spacings[teach]
+    if min(wide.sum(), len(wide) - wide.sum()) < FEWEST_OF_KIND:
+        return None
+    shown, bearings = runs.descriptors[teach][:, contrasts], runs.bearings[teach]
+    size = np.maximum(shown.std(axis=0), 1e-9)
+
+    def slope(fit: NDArray[Any]) -> Float:
+        learnt = LogisticRegression(C=_ORDER_PENALTY, fit_intercept=False, max_iter=2000)
+        twice = np.concatenate([shown[fit], -shown[fit]]) / size
+        return np.asarray(learnt.fit(twice, np.concatenate([wide[fit], ~wide[fit]])).coef_[0] / size)
+
+    odds = np.empty(len(wide))
+    for fit, rest in GroupKFold(min(2 * _FOLDS, len(set(bearings)))).split(shown, wide, bearings):
+        odds[rest] = shown[rest] @ slope(fit)
+    readings = np.zeros((3, len(names)))
+    readings[0, contrasts] = slope(np.arange(len(wide)))
+    readings[1, way] = readings[2, names.index("louder")] = 1.0
+    largest = float(np.nanmax(widths))
+    short = ~wide
+    added = float(np.median((widths[teach] - runs.descriptors[teach, way])[short]))
+    doubt = float(np.std(np.log(widths[teach] / (runs.descriptors[teach, way] + added))[short]))
+    rule = WideRule(readings * spread, readings @ middle, spacings_of(plate), largest, added, doubt)
+    chances = chance_of(odds, runs.descriptors[teach, way], spacings[teach])
+    return rule.decided(chances, widths[teach], spacings[teach])
 
 
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
@@ -175,41 +276,64 @@ def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
 
 
 def _learnt(
-    quantity: Quantity, standard: Float, values: Float, bearings: NDArray[Any], names: tuple[str, ...]
+    quantity: Quantity,
+    standard: Float,
+    values: Float,
+    bearings: NDArray[Any],
+    axes: tuple[str, ...],
+    wide: WideRule | None,
 ) -> Judged:
-    """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken."""
+    """Learn a number; one of a spall by trees too, of which what errs less on bearings left out is taken.
+
+    A number of the passages is learnt from descriptors without a level; a load, from all but the profile of
+    the passages.
+    """
     library("sklearn.cross_decomposition", "training", "sweep")
     from sklearn.model_selection import GroupKFold
 
     folds = list(GroupKFold(min(_FOLDS, len(set(bearings)))).split(standard, values, bearings))
-    by_kernel = _by_kernel(standard, values, folds)
+    if quantity.of_passages and wide is not None:
+        return _by_trees(standard, values, folds, places_of(axes, "shape"), wide)
+    columns = places_of(axes, "shape" if quantity.of_passages else "levels")
+    shown = np.zeros_like(standard)
+    shown[:, columns] = standard[:, columns]
+    by_kernel = _by_kernel(shown, values, folds)
     if not quantity.of_fault:
         return by_kernel
-    columns = np.array([k for k, name in enumerate(names) if not name.startswith(_LEVELS_OF_BANDS)])
-    by_trees = _by_trees(standard, values, folds, columns)
+    by_trees = _by_trees(standard, values, folds, places_of(axes, "shape"))
     return by_trees if by_trees.square < by_kernel.square else by_kernel
 
 
 def _by_trees(
-    standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]], columns: NDArray[np.int64]
+    standard: Float,
+    values: Float,
+    folds: list[tuple[NDArray[Any], NDArray[Any]]],
+    columns: NDArray[np.int64],
+    wide: WideRule | None = None,
 ) -> Judged:
-    """Learn a number by a forest that asks some of the descriptors."""
+    """Learn a number by a forest that asks some of the descriptors; with a rule, by the way of events too."""
     errors, spread = np.empty(len(values)), np.empty(len(values))
     for fit, rest in folds:
-        grown = _grown(standard[fit], values[fit], columns)
+        grown = _grown(standard[fit], values[fit], columns, wide)
         errors[rest] = values[rest] - grown.value(standard[rest])
         spread[rest] = grown.expected_error(standard[rest])
     usual = float(np.median(spread))
-    forest = replace(_grown(standard, values, columns), usual=usual)
+    forest = replace(_grown(standard, values, columns, wide), usual=usual)
     return Judged((forest,), errors, np.maximum(spread, LEAST_DOUBT * usual))
 
 
-def _grown(standard: Float, values: Float, columns: NDArray[np.int64]) -> Forest:
+def _grown(standard: Float, values: Float, columns: NDArray[np.int64], wide: WideRule | None) -> Forest:
     """Grow a forest."""
     from sklearn.ensemble import ExtraTreesRegressor
 
-    trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=1.0, random_state=0)
-    return forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
+    trees = ExtraTreesRegressor(_TREES, min_samples_leaf=_LEAST_RUNS, max_features=_ASKED, random_state=0)
+    found = forest_of(trees.fit(standard[:, columns], values).estimators_, columns)
+    if wide is None:
+        return found
+    return EventForest(
+        found.descriptor, found.number, found.other, found.roots, found.usual, found.offset, found.slope,
+        wide.readings[1], float(wide.offsets[1]), wide.added, wide.doubt,
+    )  # fmt: skip
 
 
 def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], NDArray[Any]]]) -> Judged:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from math import log10, nan
 
 import numpy as np
-from scipy.fft import fft, ifft
 
-from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.observe.chain import Stretch
+from beardyn_core.observe.passage_order import band_envelope
 from beardyn_core.observe.severity import events_of, spacing_of
 
 BANDS = {"low": (500.0, 2500.0), "high": (2500.0, 11000.0)}  # of the envelope, [Hz]
@@ -32,7 +31,7 @@ def of_passages(stretch: Stretch, part: str, order: float, plate: NamePlate) -> 
     part : str
         ``cup`` or ``cone``.
     order : float
-        Passages per revolution of the shaft.
+        Passages per revolution of the shaft, as found.
     plate : NamePlate
 
     Returns
@@ -51,7 +50,7 @@ def of_passages(stretch: Stretch, part: str, order: float, plate: NamePlate) -> 
     turned = np.exp(-2j * np.pi * passed)
     found = {}
     for band, (low, high) in BANDS.items():
-        envelope = _envelope(stretch.acceleration, stretch.rate, low, high)
+        envelope = band_envelope(stretch.acceleration, stretch.rate, low, high)
         line = (envelope - envelope.mean()) * np.hanning(len(envelope)) + 0j
         lines = np.array([abs((line := line * turned).mean()) for _ in HARMONICS])
         whole = float(np.sqrt(np.sum(lines**2)))
@@ -65,12 +64,3 @@ def of_passages(stretch: Stretch, part: str, order: float, plate: NamePlate) -> 
     logarithm = np.log(np.maximum(heights, _LEAST_LEVEL))
     found |= {f"echo_{1e3 * way:.2f}": float(each) for way, each in zip(WAYS, logarithm, strict=True)}
     return found
-
-
-def _envelope(acceleration: Float, rate: float, low: float, high: float) -> Float:
-    """Compute the envelope of a band, all axes together, [m/s^2]."""
-    count = len(acceleration)
-    frequency = np.fft.fftfreq(count, 1.0 / rate)
-    inside = (frequency > low) & (frequency < min(high, 0.45 * rate))
-    analytic = ifft(2.0 * inside[:, None] * fft(acceleration, axis=0), axis=0)
-    return np.asarray(np.sqrt(np.sum(np.abs(analytic) ** 2, axis=1)), np.float64)

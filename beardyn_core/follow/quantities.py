@@ -23,6 +23,7 @@ class Quantity:
     relative: A[bool, "errors are shares of it: it is learnt as a logarithm"]
     of_fault: A[bool, "only spalled bearings have it"] = False
     offset: A[float, "at the edge: zero of the unit there, in SI"] = 0.0
+    of_passages: A[bool, "learnt from the shape of passages alone, which no level of a box changes"] = False
 
     def scaled(self, values: Float) -> Float:
         """Take values in SI to the scale on which they are learnt."""
@@ -49,7 +50,17 @@ QUANTITIES = (
     Quantity(
         "temperature", "temperature of the bearing", "temperature_K", "K", "°C", 1.0, False, offset=273.15
     ),
-    Quantity("width", "width of the spall along the raceway", "fault_width_m", "m", "mm", 1e3, True, True),
+    Quantity(
+        "width",
+        "width of the spall along the raceway",
+        "fault_width_m",
+        "m",
+        "mm",
+        1e3,
+        True,
+        True,
+        of_passages=True,
+    ),
     Quantity(
         "length", "length of the spall across the raceway", "fault_length_m", "m", "mm", 1e3, True, True
     ),

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any
 
-from beardyn_core.follow.estimator import Estimates
+from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
 from beardyn_core.follow.learnt import LEVELS
@@ -38,10 +39,8 @@ def estimates_object(found: Estimates) -> dict[str, Any]:
         "estimates": {
             f"{each.quantity.name}_{each.quantity.unit}": {
                 "value": each.value,
-                **{
-                    f"interval_{name}": each.intervals[k] if each.intervals else None
-                    for k, name in enumerate(names)
-                },
+                **{f"interval_{name}": _interval_object(each, k) for k, name in enumerate(names)},
+                "at_least": each.at_least,
                 "reason": each.reason,
             }
             for each in found.quantities
@@ -50,6 +49,14 @@ def estimates_object(found: Estimates) -> dict[str, Any]:
         "stretches": found.stretches,
         "shaft_frequency_Hz": found.shaft_frequency,
     }
+
+
+def _interval_object(estimate: Estimate, level: int) -> tuple[float, float | None] | None:
+    """Give an interval; its upper end is open where the number is at least so large."""
+    if not estimate.intervals:
+        return None
+    low, high = estimate.intervals[level]
+    return low, None if isfinite(estimate.at_least) else high
 
 
 def step_object(step: Followed) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from beardyn_core.follow.labelled import (
     plate_of,
     sampling_of,
 )
-from beardyn_core.follow.learning import FEWEST, calibrated, trained
+from beardyn_core.follow.learning import FEWEST, calibrated, trained, widened
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
@@ -37,8 +37,8 @@ def train(
     ----------
     runs : LabelledSet
     calibration : sequence of LabelledSet
-        Sets by which the widths of the intervals are set, such as one in a truer tier; by default the
-        validation part of `runs`.
+        Sets by which the widths of the intervals are set, such as one in a truer tier, beside the validation
+        part of `runs`: the wider ones count.
     test : LabelledSet, optional
         All of it judges the estimator; by default `calibration` crosswise, or the test part of `runs`.
     axes : tuple of str
@@ -54,20 +54,19 @@ def train(
     for place, other in enumerate([*calibration, *([] if test is None else [test])]):
         check_alike(runs, other)
         check_unseen([runs, *calibration[:place]], other)
-    seen = joined(
-        [described(runs, part, axes) for part in ((TRAIN, VALIDATION) if calibration else (TRAIN,))]
-    )
+    seen, own = described(runs, TRAIN, axes), described(runs, VALIDATION, axes)
     if len(seen.bearings) < FEWEST:
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {FEWEST} are needed"
         )
     found = trained(seen, plate_of(runs), axes, *sampling_of(runs))
-    held_back = [described(each, None, axes) for each in calibration] or [described(runs, VALIDATION, axes)]
-    learnt, held = found, joined(held_back)
+    learnt, held = found, joined([described(each, None, axes) for each in calibration] or [own])
     found = calibrated(learnt, held, straightened=bool(calibration))
+    if calibration:
+        found = widened(found, own)
     across = bool(calibration) and test is None
     if across:
-        judged = judged_crosswise(learnt, held)
+        judged = judged_crosswise(learnt, held, own=own)
     else:
         others = described(runs, TEST, axes) if test is None else described(test, None, axes)
         judged = judged_by(found, others)
@@ -75,15 +74,15 @@ def train(
     for name, each in judged.scores.items():
         if name in found.regressions:
             quantities[name]["test"] = each._asdict()
-    own = f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"]
+    judge = f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"]
     card = {
         "condition": judged.part,
         "quantities": dict(quantities),
         "set": about["sweep"],
         "runs": len(seen.bearings),
         "bearings": 1 if is_one_bearing(runs) else len(set(seen.bearings)),
-        "calibration": [each.about["sweep"] for each in calibration] or [f"{about['sweep']}, {VALIDATION}"],
-        "test": "calibration, crosswise" if across else own,
+        "calibration": [*(each.about["sweep"] for each in calibration), f"{about['sweep']}, {VALIDATION}"],
+        "test": "calibration, crosswise" if across else judge,
         "levels": LEVELS,
         "code": about["code"],
         "licence": about["licence"],

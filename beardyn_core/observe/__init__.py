@@ -20,6 +20,7 @@ speed_lines   what lines of a vibration say of a speed
 speed_rivals  other speeds that the same lines fit
 speed         speed of the shaft from the vibration itself
 trend         levels of many records against the bearing's own baseline
+passage_order the order at which a fault is passed, near the nominal one
 severity      how wide a spall is, from entry and exit of the rollers
 monitoring    the streaming monitor around an algorithm, and what it is fed with
 labels        labels of a run for learners

@@ -8,9 +8,11 @@ from typing import Annotated as A
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.observe.passage_order import band_envelope
 
 NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
 # a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]
@@ -18,6 +20,7 @@ ENTRY_AND_EXIT = 1.1e-3
 _LEAST_ROLLER = 15e-3  # of a roller for which that was found, [m]
 _DEVELOPED_FROM = 4e-3  # [m]
 _SEVERE_SHARE = 0.5  # of the distance of two rollers
+_WIDEST = 40e-3  # spall that may be there, twice the width at which a bearing is taken out, [m]
 # half of the 95 % interval: of the relation and the sampling, and of the way
 _DOUBT, _RELATIVE_DOUBT = 0.4e-3, 0.04
 _LOWEST, _HIGHEST_SHARE = 1500.0, 0.45  # of the band, [Hz] and of the sampling rate
@@ -35,6 +38,9 @@ _LONGEST_SHARE = 0.3  # of a passage: a longer way needs more than there is betw
 _STANDS_OUT = 4.0  # times the median of the cepstrum
 _CLEAR = 1.25  # times the next peak that is no multiple
 _MULTIPLE = 0.12  # within which a peak is twice another, relative
+_AROUND = 6  # steps of the profile around an event in which its power is looked for
+_RINGS = 2.0  # times the power before the loudest event that the one behind it has, else it is its ringing
+_SMOOTHED = 5  # steps of the profile that are averaged
 
 
 @dataclass(frozen=True)
@@ -43,8 +49,8 @@ class Severity:
 
     grade: A[str, "``incipient``, ``developed``, ``severe``, or ``not measurable``"]
     width: A[float, "of the spall in rolling direction, NaN where not measurable, [m]"]
-    low: A[float, "lower end of its 95 % interval, [m]"]
-    high: A[float, "upper end, [m]"]
+    low: A[float, "lower end of its 95 % interval, also where only the least width is known, [m]"]
+    high: A[float, "upper end, NaN where only the least width is known, [m]"]
     reason: A[str, "the same in a sentence"]
 
 
@@ -55,6 +61,7 @@ class Events(NamedTuple):
     height: Float  # shape [line]
     shortest: float  # that the modes of a box are not taken for, [m]
     longest: float  # [m]
+    profile: Float = np.empty(0)  # shape [step], mean squared envelope over a passage, from its loudest place
 
 
 def severity_of(
@@ -87,6 +94,13 @@ def severity_of(
 
     The width is the way and 1.1 mm: a roller gives up its load 0.6 mm behind the leading edge and takes it up
     as much before the trailing one, over spalls from 3 mm on (docs/impact.md). Smaller ones make one event.
+    The loudest event is the exit, so that of a spall narrower than half of the distance of two rollers the
+    other event lies before it. The event that follows the loudest one is either the exit of a spall whose
+    entry is louder, or the entry of the next roller into a wide spall: then the least width alone is stated.
+
+    A spall wider than the distance of two rollers strikes as one that is narrower by this distance. Where
+    the wider one would be 40 mm wide or less, as on the cone of an axlebox, the least width alone is stated.
+
     A spall from 4 mm on is *developed*, one wider than half of the distance of two rollers *severe*. Both
     limits are assumed: which size a vehicle may run with is its keeper's to say.
 
@@ -110,9 +124,24 @@ def severity_of(
     way = _clear_peak(events)
     if not isfinite(way):
         return _unmeasured(
-            "no second event stands out: a small spall, one that is worn round, or a noisy sensor"
+            "no second event stands out: a small spall, one that is worn round, one wider than "
+            f"{1e3 * (events.longest + ENTRY_AND_EXIT):.0f} mm, or a noisy sensor"
         )
     width, doubt = way + ENTRY_AND_EXIT, _DOUBT + _RELATIVE_DOUBT * way
+    if _follows(events, way / spacing):
+        least, wide = width - doubt, spacing - way + ENTRY_AND_EXIT
+        return Severity(
+            NOT_MEASURABLE, nan, least, nan,
+            f"{NOT_MEASURABLE}: at least {1e3 * least:.1f} mm wide; the second event follows the loudest "
+            f"one, so that the spall is {1e3 * width:.1f} or {1e3 * wide:.1f} mm wide",
+        )  # fmt: skip
+    if width - doubt + spacing <= _WIDEST:
+        least = width - doubt
+        return Severity(
+            NOT_MEASURABLE, nan, least, nan,
+            f"{NOT_MEASURABLE}: at least {1e3 * least:.1f} mm wide; a spall of {1e3 * width:.1f} mm and one "
+            f"wider by the distance of two rollers, {1e3 * spacing:.1f} mm, strike alike",
+        )  # fmt: skip
     severe = _SEVERE_SHARE * spacing
     grade = INCIPIENT if width < _DEVELOPED_FROM else DEVELOPED if width < severe else SEVERE
     low, high = width - doubt, width + doubt
@@ -122,6 +151,23 @@ def severity_of(
         f"{1e3 * way:.1f} mm apart; developed from {1e3 * _DEVELOPED_FROM:g} mm, severe from "
         f"{1e3 * severe:.0f} mm",
     )  # fmt: skip
+
+
+def narrow_width(
+    acceleration: Float, rate: float, shaft_angle: Float, fault: str, order: float, plate: NamePlate
+) -> float:
+    """Measure a spall as if it were narrower than half of the distance of two rollers, NaN without, [m].
+
+    Parameters are those of `severity_of`; a wide spall can give the same width.
+    """
+    if plate.roller_diameter < _LEAST_ROLLER:
+        return nan
+    spacing = spacing_of(fault, plate)
+    events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
+    way = nan if events is None else _clear_peak(events)
+    if events is None or not isfinite(way) or _follows(events, way / spacing):
+        return nan
+    return way + ENTRY_AND_EXIT
 
 
 def _unmeasured(reason: str) -> Severity:
@@ -183,15 +229,34 @@ def events_of(acceleration: Float, rate: float, passed: Float, spacing: float) -
     inside = (frequency > 1.5 * _LOWEST) & (frequency < high)
     kept, at = ripple[inside], frequency[inside] / rate
     if np.std(quiet[inside]) < _LEAST_STRUCTURE * np.std(struck[inside]):
-        return Events(np.empty(0), np.empty(0), 0.0, 0.0)
+        return Events(np.empty(0), np.empty(0), 0.0, _LONGEST_SHARE * spacing)
     trend = np.vander(at, 5)
     kept = kept - trend @ np.linalg.lstsq(trend, kept, rcond=None)[0]
     cepstrum = np.abs(np.fft.fft(kept * np.hanning(len(kept))[:, None], _CEPSTRUM, axis=0)).sum(axis=1)
     way = np.arange(_CEPSTRUM) * _SPECTRUM / _CEPSTRUM / period * spacing
     wanted = (way > _SHORTEST_WAY) & (way < _SEARCHED * spacing)
     return Events(
-        way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing, _LONGEST_SHARE * spacing
-    )
+        way[wanted], cepstrum[wanted], _SHORTEST_S * rate / period * spacing, _LONGEST_SHARE * spacing,
+        _profile_of(band_envelope(acceleration, rate, _LOWEST, high), place),
+    )  # fmt: skip
+
+
+def _follows(events: Events, share: float) -> bool:
+    """Tell whether the second event, this share of a passage away, comes after the loudest one."""
+    step = round(share * _PROFILE)
+    near = np.arange(-_AROUND, _AROUND + 1)
+    near = near[np.abs(near) < step]  # not the loudest event itself
+    before, after = (float(events.profile[(side * step + near) % _PROFILE].max()) for side in (-1, 1))
+    return after > _RINGS * before  # the loudest event rings on behind it
+
+
+def _profile_of(envelope: Float, place: NDArray[np.int64]) -> Float:
+    """Average the squared envelope over passages, smooth it, and begin at its loudest step."""
+    count = np.maximum(np.bincount(place, minlength=_PROFILE), 1)
+    mean = np.bincount(place, weights=envelope**2, minlength=_PROFILE) / count
+    around = np.concatenate([mean[-_SMOOTHED:], mean, mean[:_SMOOTHED]])
+    smooth = np.convolve(around, np.ones(_SMOOTHED) / _SMOOTHED, "same")[_SMOOTHED:-_SMOOTHED]
+    return np.roll(smooth, -int(smooth.argmax()))
 
 
 def _clear_peak(events: Events) -> float:

@@ -8,6 +8,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.observe.legs import turning_legs
 from beardyn_core.observe.monitoring import measured_axes
+from beardyn_core.observe.passage_order import find_passage_order
 from beardyn_core.observe.severity import Severity, severity_of
 from beardyn_core.record.run import Run
 from beardyn_core.study.monitored_recording import Conclusion
@@ -29,4 +30,5 @@ def severity_in(
         return None
     plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
     heard = measured_axes(signal.values)[legs.samples]
-    return severity_of(heard, signal.rate, legs.angle, finding.verdict, finding.found_order, plate)
+    order = find_passage_order(heard, signal.rate, legs.angle, finding.found_order)
+    return severity_of(heard, signal.rate, legs.angle, finding.verdict, order, plate)

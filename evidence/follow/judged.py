@@ -32,7 +32,7 @@ from beardyn_core.follow.labelled import (
 from beardyn_core.follow.learning import trained
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.population.labelled_set import LabelledSet
+from beardyn_core.population.labelled_set import TRAIN, VALIDATION, LabelledSet
 from evidence.pages import DOCS, with_section
 
 PAGE = DOCS / "estimate.md"
@@ -128,7 +128,8 @@ def section(found: Mapping[str, Guessed], classes: list[Class], learnt: int, hid
         TITLE,
         "Written by `python -m evidence.follow.judged --train runs --hidden hidden`: learnt from "
         f"{learnt} runs of `quasistatic`, judged crosswise by {hidden} of `full`, a tenth of them at a time "
-        "by an estimator that the other nine tenths have put right. *Chance*: where "
+        "by an estimator that the other nine tenths have put right; of runs for which a number is reported. "
+        "*Chance*: where "
         f"{100 * CHANCE:.0f} of 100 such sets lie when the intervals are right.",
         "",
         *coverage_table(found),
@@ -146,13 +147,13 @@ def section(found: Mapping[str, Guessed], classes: list[Class], learnt: int, hid
 def judged(
     train: LabelledSet, hidden: LabelledSet, parts: int = CROSSWISE
 ) -> tuple[dict[str, Guessed], Described]:
-    """Learn from one set, and guess the runs of another crosswise, in so many parts."""
+    """Learn from one set, whose validation part widens intervals, and guess the runs of another crosswise."""
     check_alike(train, hidden)
     check_unseen([train], hidden)
-    seen, unseen = described(train, None), described(hidden, None)
+    seen, own, unseen = described(train, TRAIN), described(train, VALIDATION), described(hidden, None)
     sampling = sampling_of(train)
     estimator = trained(seen, plate_of(train), AXES, sampling.rate, sampling.seconds)
-    return judged_crosswise(estimator, unseen, parts).guessed, unseen
+    return judged_crosswise(estimator, unseen, parts, own).guessed, unseen
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -169,7 +170,7 @@ def main(argv: list[str] | None = None) -> int:
     ranges = ranges_of(train.about["sweep"], NOISE, DAMPING, STIFFNESS)
     within = [(low <= drawn[key]) & (drawn[key] <= high) for key, (low, high) in ranges.items()]
     text = section(
-        found, classes_of(drawn, np.all(within, axis=0)), len(train.runs_of()), len(unseen.bearings)
+        found, classes_of(drawn, np.all(within, axis=0)), len(train.runs_of(TRAIN)), len(unseen.bearings)
     )
     print(text)
     page = with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT)

@@ -10,7 +10,9 @@ import pytest
 from beardyn_core.errors import InputError
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import judged_by
+from beardyn_core.follow.learning import known, widened
 from beardyn_core.follow.learnt import LEVELS
+from beardyn_core.follow.quantities import BY_NAME
 from test.follow.synthetic import NAMES, drawn, taught
 
 FOUR_SIGMA = 4.0
@@ -84,8 +86,9 @@ def test_an_interval_as_wide_as_the_range_learnt_from_is_no_estimate() -> None:
 
 
 def test_signals_unlike_all_that_was_learnt_from_are_told(estimator: Estimator) -> None:
-    usual = drawn(50, 10).descriptors
-    assert (estimator.strangeness(usual) < 1.0).all()
+    usual = drawn(400, 10).descriptors
+    # one in twenty exceeds the bound by design, so the share is what is promised, not the largest
+    assert inside(float((estimator.strangeness(usual) <= 1.0).mean()), 0.95, 400)
     strange = usual[:1] + 60.0 * (np.arange(len(NAMES)) % 2)
     assert "unlike all that was learnt from" in estimator.estimates(strange).sentences[-1]
 
@@ -124,3 +127,24 @@ def test_files_that_are_no_estimator_are_refused(
         path.write_bytes(content)
     with pytest.raises(InputError, match=sentence):
         read_estimator(path)
+
+
+def test_an_interval_is_the_widest_of_those_of_the_sets_that_calibrate_it() -> None:
+    quiet, loud = drawn(200, 12), drawn(200, 13, noise=6.0)
+    one = taught(quiet)
+    both = widened(one, loud)
+    for runs in (drawn(400, 14), drawn(400, 15, noise=6.0)):
+        shown = both.standardised(runs.descriptors)
+        for name in ("width", "length"):
+            values, there = known(BY_NAME[name], runs)
+            guess = both.regressions[name].guess(shown[there])
+            held = (guess.low[-1] <= values[there]) & (values[there] <= guess.high[-1])
+            assert held.mean() > LEVELS[-1] - FOUR_SIGMA * np.sqrt(0.09 * (1 / there.sum() + 1 / 130))
+    for name, each in widened(one, quiet).regressions.items():
+        np.testing.assert_array_equal(each.reach, one.regressions[name].reach)  # none gets narrower
+
+
+def test_too_few_runs_that_judge_an_interval_give_no_number() -> None:
+    found = widened(taught(drawn(200, 12)), drawn(5, 16)).estimates(drawn(1, 9).descriptors)
+    assert np.isnan(found["vertical_load"].value)
+    assert "not reported: too few runs" in found["vertical_load"].sentence

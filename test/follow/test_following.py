@@ -169,15 +169,19 @@ def test_width_and_rate_of_a_growing_spall_are_followed(estimator: Estimator, ra
     for k in range(1, count):
         area[k] = law.grown(area[k - 1 : k], np.array([rate]), metres)[0]
     ones = np.ones(count)
-    rows = heard(
-        np.random.default_rng(12), 5e4 * ones, 1e-4 * ones, np.repeat("cup", count), area / length,
-        length=length * ones,
-    ).descriptors  # fmt: skip
-    last = followed(estimator, rows, metres)[-1]
-    assert last.estimates["width"].value == pytest.approx(area[-1] / length, rel=0.2)
+    ends = []
+    for seed in (12, 13, 14):  # one of several draws can be off by chance
+        rows = heard(
+            np.random.default_rng(seed), 5e4 * ones, 1e-4 * ones, np.repeat("cup", count), area / length,
+            length=length * ones,
+        ).descriptors  # fmt: skip
+        ends.append(followed(estimator, rows, metres)[-1])
+    for last in ends:
+        assert last.estimates["width"].value == pytest.approx(area[-1] / length, rel=0.2)
+        assert last.rate[1] < law.rate_spread  # more is known of it than at first
+    found = float(np.median([last.rate[0] for last in ends]))
     # half a millimetre of growth is less than what stretches differ by: then it is only called slow
-    assert last.rate[0] < law.rate if rate < law.rate else 0.5 < last.rate[0] / rate < 2.0
-    assert last.rate[1] < law.rate_spread  # more is known of it than at first
+    assert found < law.rate if rate < law.rate else 0.5 < found / rate < 2.0
 
 
 def test_a_signal_unlike_all_that_was_learnt_from_is_unexplained(estimator: Estimator) -> None:

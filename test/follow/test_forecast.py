@@ -10,7 +10,7 @@ import pytest
 
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
-from beardyn_core.follow.forecast import Forecast, Service, forecast
+from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, drawn_between
 from beardyn_core.follow.part import PartEstimate
 from beardyn_core.follow.quantities import BY_NAME
@@ -60,6 +60,39 @@ def test_a_wider_spall_or_a_faster_growth_leaves_less() -> None:
     np.testing.assert_allclose(made(law=GrowthLaw(rate=2e-10)).remaining, np.array(usual) / 2.0)
     assert "take it out now" in made(40e-3).sentences[0]
     assert isnan(made(condition="healthy").remaining[1])
+
+
+@pytest.mark.parametrize("width", [18e-3, 20e-3, 24e-3, 30e-3])
+@pytest.mark.parametrize("widest", [None, 30e-3, 39e-3, 60e-3])
+def test_a_spall_that_can_be_20_mm_wide_has_no_mileage_left(width: float, widest: float | None) -> None:
+    told = forecast(found(width), BEARING, GREASE, Service(widest=widest))
+    assert told.remaining == (0.0, 0.0, 0.0)
+    assert "take it out now" in told.sentences[0]
+    assert " km" not in told.sentences[0]
+
+
+def test_a_width_that_is_known_from_below_alone_has_no_mileage_left() -> None:
+    least = replace(known("width", 6e-3, 8e-3, 40e-3, "at least 11 mm"), at_least=11e-3)
+    others = tuple(each for each in found().quantities if each.quantity.name != "width")
+    told = forecast(replace(found(), quantities=(*others, least)), BEARING, GREASE, SERVICE)
+    assert told.remaining[0] < SOON
+    assert "take it out now" in told.sentences[0]
+
+
+def test_a_spall_that_is_narrow_or_wide_has_no_mileage_and_is_not_called_out() -> None:
+    least = replace(known("width", 5e-3, 6e-3, 40e-3, "at least 5 mm"), at_least=5e-3)
+    others = tuple(each for each in found().quantities if each.quantity.name != "width")
+    told = forecast(replace(found(), quantities=(*others, least)), BEARING, GREASE, SERVICE)
+    assert isnan(told.remaining[0])
+    assert "no mileage is given" in told.sentences[0]
+
+
+def test_a_spall_of_unknown_width_is_said_to_have_no_forecast() -> None:
+    blurred = known("width", 2e-3, 8e-3, 30e-3, "not identifiable")
+    others = tuple(each for each in found().quantities if each.quantity.name != "width")
+    told = forecast(replace(found(), quantities=(*others, blurred)), BEARING, GREASE, SERVICE)
+    assert isnan(told.remaining[1])
+    assert "how wide it can be is not known" in told.sentences[0]
 
 
 def test_nine_of_ten_spalls_that_grow_by_the_law_come_to_the_width_within_the_interval() -> None:
