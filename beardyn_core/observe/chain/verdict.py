@@ -143,9 +143,7 @@ def _verdict_on(
     fits = explanations(order, patterns, speed, settings.speed_doubt, stranger.pattern.fault)
     own = any(not each.bearing for each in fits)
     other = any(each.bearing for each in fits)
-    strong = (
-        not stranger.strikes < settings.foreign_strikes or stranger.sharpest >= settings.foreign_sharpest
-    )
+    strong = not stranger.strikes < settings.foreign_strikes or stranger.sharpest >= settings.foreign_sharpest
     sure = strong or (own and not other)
     would = " or ".join(each.sentence(speed) for each in fits) or "no part of this or a shipped bearing"
     share = max(stranger.strikes, stranger.sharpest)
