@@ -158,7 +158,8 @@ class RunFile:
         """Simulated time from which on every topic is recorded, 0 when the whole run is, [s]."""
         if not self.before():
             return 0.0
-        return max(self._first_ns[name] for name in BLOCKS if name in self._first_ns) * 1e-9
+        blocks = [stamp for name, stamp in self._first_ns.items() if name in BLOCKS]
+        return max(blocks or self._first_ns.values()) * 1e-9
 
 
 def run_id_of(truth: str) -> str:

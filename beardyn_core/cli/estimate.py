@@ -60,7 +60,8 @@ def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> No
         "--widest-mm",
         metavar="MM",
         type=float,
-        help="width of a spall at which the bearing is taken out; default 20 mm",
+        help="width of a spall at which the bearing is taken out; default 20 mm, or the distance of two "
+        "rollers where that is less",
     )
     group.add_argument(
         "--growth-mm2",

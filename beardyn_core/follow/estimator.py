@@ -155,7 +155,7 @@ class Estimator:
         strange, unusual = self._unlike(standard)
         if part is not None and self.part is not None and strange > 1.0:
             # in another box no condition is excluded
-            part = replace(part, sets=(self.part.conditions,) * len(LEVELS))
+            part = replace(part, probability=nan, sets=(self.part.conditions,) * len(LEVELS))
         return Estimates(
             part,
             tuple(

@@ -305,8 +305,8 @@ class Follower:
             return WAITING
         if remains is not None and isfinite(remains.remaining[0]):
             self._is_to_come_out = remains.remaining[0] < SOON
-        elif self._strangeness <= 1.0:  # a signal that says nothing takes no warning back
-            self._is_to_come_out = False
+        elif self._strangeness <= 1.0 and not self._spalled:
+            self._is_to_come_out = False  # a stretch that knows less takes no warning back
         if self._is_to_come_out:
             return TAKE_OUT
         if doubts:

@@ -65,9 +65,10 @@ class Forecast:
         """Say it in lines."""
         lines = []
         if self.remaining == _NOTHING:
+            limit = 1e3 * _limit(self.widest)
             lines.append(
-                f"spall of the {self.condition}: can be wider than {1e3 * WIDEST_FORECAST:.0f} mm already: "
-                "take it out now; no mileage is given"
+                f"spall of the {self.condition}: can be wider than {limit:.3g} mm already: take it out now; "
+                "no mileage is given"
             )
         elif isfinite(self.remaining[1]):
             low, middle, high = (f"{each / 1e3:,.0f}" for each in self.remaining)
@@ -138,7 +139,7 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     """Draw mileages until the spall is too wide, and give their quantiles, [m]."""
     width = _estimate(found, "width")
     length = _estimate(found, "length")
-    if width is not None and _must_come_out(width):
+    if width is not None and _must_come_out(width, widest):
         return _NOTHING
     if width is None or not isfinite(width.value) or length is None or not length.intervals:
         return nan, nan, nan
@@ -150,10 +151,15 @@ def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, 
     return low, middle, high
 
 
-def _must_come_out(width: Estimate) -> bool:
-    """Tell whether a width reaches the one from which no mileage is left, or is half of it at least."""
-    reaches = isfinite(width.value) and width.intervals[-1][1] >= WIDEST_FORECAST
-    return reaches or width.at_least >= 0.5 * WIDEST_FORECAST
+def _must_come_out(width: Estimate, widest: float) -> bool:
+    """Tell whether a width reaches the one from which no mileage is left, or is 10 mm at least."""
+    reaches = isfinite(width.value) and width.intervals[-1][1] >= _limit(widest)
+    return reaches or width.at_least >= min(widest, 0.5 * WIDEST_FORECAST)
+
+
+def _limit(widest: float) -> float:
+    """Give the width from which no mileage is left, [m]."""
+    return min(widest, WIDEST_FORECAST)
 
 
 def _estimate(found: Estimates, name: str) -> Estimate | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import floor
+from math import floor, isnan
 from typing import Annotated as A
 
 import numpy as np
@@ -17,12 +17,14 @@ class PartEstimate:
     """What is known of the condition of a bearing."""
 
     condition: A[str, "most probable: healthy, cup, cone or roller"]
-    probability: A[float, "of it"]
+    probability: A[float, "of it; NaN in a box that is not learnt from"]
     sets: A[tuple[tuple[str, ...], ...], "conditions that hold the truth in 50 and in 90 of 100"]
 
     @property
     def sentence(self) -> str:
         """Say it in a line."""
+        if isnan(self.probability):
+            return f"condition: {self.condition} is the likeliest; {' or '.join(self.sets[-1])} is possible"
         return (
             f"condition: {self.condition}, probability {100 * self.probability:.0f} %; "
             f"{' or '.join(self.sets[-1])} in {100 * LEVELS[-1]:.0f} of 100"

@@ -48,9 +48,11 @@ def open_file(path: Path, _reading: Reading) -> Held:
         raise broken(path, "WAV", error) from error
     columns, exact = _comment(str(facts.get("comment", "")), names, rate)
     claims = tuple(claims_in({"sample rate": exact or rate}))
-    named = [split_unit(column) for column in columns] or [(f"channel_{k + 1}", "") for k in range(names)]
-    channels = tuple(Channel(name, "", count, usual(unit), claims) for name, unit in named)
-    whole = subtype not in _FLOATS
+    whole = subtype not in _FLOATS  # another program has scaled them, whatever the comment states
+    named = [split_unit(column) for column in columns]
+    if len({name for name, _ in named}) < names:
+        named = [(f"channel_{k + 1}", "") for k in range(names)]
+    channels = tuple(Channel(name, "", count, "" if whole else usual(unit), claims) for name, unit in named)
     notes = [f"numbers are shares of full scale, 1 is the largest ({subtype})"] if whole else []
     found = _Sound(
         channels, {}, {}, {str(key): str(value) for key, value in facts.items()},
@@ -77,11 +79,11 @@ def _comment(text: str, count: int, rate: float) -> tuple[list[str], float]:
     if not isinstance(said, dict):
         return [], 0.0
     columns, exact = said.get("columns"), said.get("rate_Hz")
-    if not (isinstance(columns, list) and len(columns) == count == len(set(map(str, columns)))):
+    if not (isinstance(columns, list) and len(columns) == count):
         columns = []
-    if not (isinstance(exact, float) and abs(exact - rate) <= _ROUNDED):
+    if isinstance(exact, bool) or not isinstance(exact, int | float) or not abs(exact - rate) <= _ROUNDED:
         exact = 0.0
-    return [str(column) for column in columns], exact
+    return [str(column) for column in columns], float(exact)
 
 
 def _missing_bytes(path: Path) -> int:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.arrays import Float, Int
 from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.record import arrays
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
@@ -161,6 +161,7 @@ class MessageSource:
             there = place[known], here["row"], here["roller"], here["kind"], slice(len(fields))
             numbers[there] = _columns(here, fields)
         numbers[..., len(fields) :] = np.nan  # earlier versions have not the largest load
+        numbers[~np.isin(sample, points["sample"]), ..., LARGEST] = np.nan  # a message that is missing
         return arrays.contacts_of(times, numbers)
 
     def load(self) -> arrays.Load:

@@ -71,6 +71,16 @@ def test_a_spall_that_can_be_20_mm_wide_has_no_mileage_left(width: float, widest
     assert " km" not in told.sentences[0]
 
 
+def test_a_narrower_limit_of_ones_own_is_the_one_that_counts() -> None:
+    told = forecast(found(6e-3), BEARING, GREASE, Service(widest=5e-3))
+    assert told.remaining == (0.0, 0.0, 0.0)
+    assert "can be wider than 5 mm already: take it out now" in told.sentences[0]
+    least = replace(known("width", 6e-3, 8e-3, 40e-3, "at least 6 mm"), at_least=6e-3)
+    others = tuple(each for each in found().quantities if each.quantity.name != "width")
+    told = forecast(replace(found(), quantities=(*others, least)), BEARING, GREASE, Service(widest=5e-3))
+    assert told.remaining == (0.0, 0.0, 0.0)
+
+
 def test_a_width_that_is_known_from_below_alone_has_no_mileage_left() -> None:
     least = replace(known("width", 6e-3, 8e-3, 40e-3, "at least 11 mm"), at_least=11e-3)
     others = tuple(each for each in found().quantities if each.quantity.name != "width")

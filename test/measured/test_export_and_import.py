@@ -48,3 +48,18 @@ def test_the_speed_makes_the_round_trip_too(ending: str, tmp_path: Path) -> None
     np.testing.assert_allclose(again.vibration.values, before.vibration.values, rtol=1e-7)
     expected = np.interp(again.shaft.time, before.shaft.time, before.shaft.speed)
     np.testing.assert_allclose(again.shaft.speed, expected, rtol=1e-6)
+
+
+def test_a_wav_file_that_another_program_has_scaled_asks_for_its_unit(tmp_path: Path) -> None:
+    soundfile = pytest.importorskip("soundfile")
+    columns = {"time_s": np.arange(6000) / RATE, "az [g]": noise(6000)[:, 0]}
+    recording = bd.import_measured(table(tmp_path / "a.csv", columns), tmp_path / "run.mcap", speed_rpm=1800)
+    (wav, _) = bd.read(recording).to_wav(tmp_path / "a.wav")
+    values, rate = soundfile.read(wav)
+    with soundfile.SoundFile(wav) as exported:
+        comment = exported.comment
+    with soundfile.SoundFile(tmp_path / "b.wav", "w", rate, 1, "PCM_16") as scaled:
+        scaled.comment = comment
+        scaled.write(values / np.abs(values).max())
+    with pytest.raises(bd.InputError, match="give --unit"):
+        bd.read_measured(tmp_path / "b.wav")

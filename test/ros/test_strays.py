@@ -16,13 +16,16 @@ from beardyn_core.errors import InputError
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.clouds import encode_points
 from beardyn_core.record.description import RunDescription
+from beardyn_core.record.encoding import force_template
 from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics, encode_string
 from beardyn_core.record.published import published_before
 from beardyn_core.record.topics import topic
 from beardyn_ros.identity import Namesakes
 from beardyn_ros.live_load import encode_wrench
 from beardyn_ros.recording import Recording, free_name, plain_name
+from beardyn_ros.run_file import RunFile
 from beardyn_ros.scenario import says_paused
 from beardyn_ros.sources import Sources
 from test.examples import examples
@@ -243,3 +246,13 @@ def test_a_stranger_on_truth_does_not_stand_for_a_twin_that_has_gone(
     first = sources.count("truth")
     now, node.names = 2.0, then
     assert (first, sources.count("truth")) == counts
+
+
+def test_the_start_of_a_late_recording_is_known_before_its_first_block(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    file = RunFile(path, "/axlebox", None, McapWriter(path, "/axlebox"))
+    stamps = np.array([5_000_000_000], np.int64)
+    (row,) = force_template("axlebox").rows(stamps, wrench=np.zeros((1, 6)))
+    file.add(topic("force"), row.tobytes())
+    assert file.begin_s == 5.0
+    file.close("")
