@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.observe.block import CONTACT_KINDS, Block
+from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, Block
 from beardyn_core.scene.operation import ConstantOperation, Step, SteppedOperation
 from beardyn_core.scene.scene import Scene
 from evidence.santos2017.runs import SETTLED, StepRecord
@@ -67,7 +67,7 @@ def contacts_of(run: StepRecord, kind: str, start: float = SETTLED, end: float =
     bearing = run.scene.bearing
     fields = np.concatenate([_within(block, start, end) for block in run.blocks])[
         :, _INBOARD, :, CONTACT_KINDS.index(kind)
-    ].reshape(-1, 8)
+    ].reshape(-1, len(CONTACT_FIELDS))
     azimuth = np.arctan2(fields[:, 0], fields[:, 2])
     radial, along = {
         "cup": (math.cos(bearing.cup_angle), math.sin(bearing.cup_angle)),

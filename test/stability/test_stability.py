@@ -78,7 +78,7 @@ def test_load_that_reverses_through_the_play_is_carried_by_the_other_side() -> N
     record = run(scene, load, 15)
     sane(record)
     assert last_force(record)[2] == pytest.approx(-5e4 - carried(scene), rel=0.03)
-    cup = record.blocks[-1].contacts[-1, :, :, 0].reshape(-1, 8)
+    cup = record.blocks[-1].contacts[-1, :, :, 0].reshape(-1, 9)
     heaviest = cup[np.argmax(np.linalg.norm(cup[:, 3:6], axis=-1))]
     assert heaviest[2] < -0.8 * math.hypot(heaviest[0], heaviest[2])
 
