@@ -180,9 +180,10 @@ the node that the topic is named for, where there is one, else the first that sp
 that has gone. What is refused is counted (`refused: TOPIC` and `refused_messages` in the diagnostic of every
 node; in that of the twin by reason) and not recorded. A `truth` names a file and chooses no folder.
 `python -m evidence.ros.fuzz --messages 10000` publishes hostile messages on every topic beside a run of all
-nodes and reports whether anything ended, split or is missing. Nothing ended or split in any run. All six nodes
-and the sender fill two cores: in one of four runs there nothing was missing, in three the recorder missed up to
-two thirds of the messages and ended with 5. With twin, load and recorder alone nothing was missing.
+nodes and reports whether anything ended, split or is missing. Nothing ended or split in any run. All six
+nodes and the sender fill two cores: in one of five runs there nothing was missing, in four the recorder
+missed up to two thirds of the messages and ended with 5. With twin, load and
+recorder alone nothing was missing.
 
 A disk that stalls is waited for in the background, up to 128 MB.
 

@@ -36,8 +36,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         action="append",
         default=[],
         help="another set that straightens estimates and sets the intervals, such as a small one of a truer "
-        "tier; may be given again; the validation part of the set widens them where it needs wider ones; default "
-        "none",
+        "tier; may be given again; the validation part of the set widens them where it needs wider ones; "
+        "default none",
     )
     parser.add_argument(
         "--test",
