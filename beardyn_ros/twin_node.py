@@ -91,6 +91,7 @@ class TwinNode(LifecycleNode):
         self._namesakes = Namesakes(self._name)
         self._born = time.monotonic()
         self._settled = self._wanted_active = self._over = False
+        self._refused_at = 0.0
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
@@ -216,13 +217,20 @@ class TwinNode(LifecycleNode):
             self._session.feed.gate.refuse(reason, problem, "/diagnostics")
 
     def _settle(self) -> None:
-        """Let a run begin as soon as no other twin of this name is to be expected."""
-        if self._namesakes.older and not self.finished:
+        """Let a run begin as soon as no other twin of this name is to be expected.
+
+        One that refuses to run says so for a while, for its status may not reach the first twin before.
+        """
+        if self._namesakes.older and not self.finished and not self._refused_at:
+            self._refused_at = time.monotonic()
             self.get_logger().error(
                 f"there is a twin {self._name} already: two of them would feed on one load and publish on "
                 "the same topics; give this one a namespace of its own (-r __ns:=/left)"
             )
-            self.exit_code, self.finished = EXIT_BAD_INPUT, True
+        if self._refused_at:
+            told = time.monotonic() - self._refused_at > SETTLED_AFTER_S
+            self.exit_code, self.finished = EXIT_BAD_INPUT, self.finished or told
+            return
         if not self._settled:
             others = self.count_publishers(self.resolve_topic_name("truth")) > 1
             wait = NAMESAKE_TIMEOUT_S if others else SETTLED_AFTER_S

@@ -256,8 +256,8 @@ def _wide_rule(
     readings[1, way] = readings[2, names.index("louder")] = 1.0
     largest = float(np.nanmax(widths))
     short = ~wide
-    added = float(np.median((widths[teach] - runs.descriptors[teach, way])[short]))
-    doubt = float(np.std(np.log(widths[teach] / (runs.descriptors[teach, way] + added))[short]))
+    added = float(np.median((ways[teach] - runs.descriptors[teach, way])[short]))
+    doubt = float(np.std(np.log(ways[teach] / (runs.descriptors[teach, way] + added))[short]))
     rule = WideRule(readings * spread, readings @ middle, spacings_of(plate), largest, added, doubt)
     chances = chance_of(odds, runs.descriptors[teach, way], spacings[teach])
     return rule.decided(chances, widths[teach], spacings[teach])
