@@ -65,8 +65,10 @@ class Hostile:
     def _true(self, entry: Topic) -> bytes:
         return self._random.choice(self._heard(entry.name)[-50:])
 
-    def _noise(self, _entry: Topic) -> bytes:
-        return b"\x00\x01\x00\x00" + self._random.randbytes(self._random.randrange(200))
+    def _noise(self, entry: Topic) -> bytes:
+        # the middleware drops what is longer than a type of fixed length: on one side or on the other
+        most = _STAMP.size if entry.type in (TIME, CLOCK) else 200
+        return b"\x00\x01\x00\x00" + self._random.randbytes(self._random.randrange(most + 1))
 
     def _bent(self, entry: Topic) -> bytes:
         cdr = bytearray(self._true(entry))
@@ -131,7 +133,7 @@ class Hostile:
         return seconds * 10**9 + nanoseconds % 10**9
 
     def _text(self, entry: Topic) -> bytes:
-        pick, run_id = self._random.choice, self._random.choice(("0badcafe-0", "", "../../tmp/x", "é\n"))
+        pick, run_id = self._random.choice, self._random.choice(("0badcafe-0", "", "../../x", "é\n"))
         texts: tuple[Callable[[], str], ...] = (
             lambda: pick(("[", '{"a":', '[{"b":[')) * pick((100, 5000, 200_000)),
             lambda: pick(("hello", "", "null", "3", '"x"', "[1]", '{"a": NaN}', '{"run_id": "\\ud800"}')),
