@@ -184,6 +184,10 @@ class Estimator:
         low, high = self.card["quantities"][quantity.name].get("ends", (-inf, inf))
         return low, high
 
+    def knows(self, standard: Float) -> NDArray[np.bool_]:
+        """Tell which runs, shape [run], have a box and passages like those learnt from."""
+        return np.asarray((self.box.distance(standard) <= 1.0) & (self.passages.distance(standard) <= 1.0), bool)
+
     def reports(self, quantity: Quantity, standard: Float) -> NDArray[np.bool_]:
         """Tell of which runs, shape [run], the number of a quantity is reported."""
         learnt = self.regressions[quantity.name]
@@ -194,9 +198,7 @@ class Estimator:
             value, low, high = (
                 quantity.restored(each) for each in (guess.value, guess.low[-1], guess.high[-1])
             )
-            reported &= (self.passages.distance(standard) <= 1.0) & (
-                high < AT_EDGE * self.ends_of(quantity)[1]
-            )
+            reported &= self.knows(standard) & (high < AT_EDGE * self.ends_of(quantity)[1])
             if self.wide is not None:
                 reported &= self.wide.chance(standard, value, low, high) <= self.wide.narrow
                 reported &= high < AT_EDGE * self.wide.half(standard)

@@ -68,8 +68,8 @@ class Forest:
 class EventForest(Forest):
     """A forest of the logarithm of a width, that the way between two events makes sharper.
 
-    The way is that of entry and exit if the trees give about as much: it is read to a few per cent, but of
-    small spalls, which make one event, and of noise it is any way.
+    The way is that of entry and exit if the trees give about as much and agree that the spall is not a small
+    one: it is read to a few per cent, but of small spalls, which make one event, and of noise it is any way.
     """
 
     reading: A[Float, "shape [descriptor], to the way, [m]"]
@@ -79,20 +79,21 @@ class EventForest(Forest):
 
     def value(self, standardised: Float) -> Float:
         """Give the logarithm of the width, shape [run]."""
-        by_trees = self._ends(standardised).mean(axis=1)
-        way, sharp = self._way(standardised, by_trees)
+        by_trees, way, sharp = self._read(standardised)
         width = np.log(np.maximum(way + self.added, LEAST_FOLDED))
         return np.asarray(self.offset + self.slope * np.where(sharp, width, by_trees), np.float64)
 
     def expected_error(self, standardised: Float) -> Float:
         """Give the error to be expected, shape [run]."""
-        _, sharp = self._way(standardised, self._ends(standardised).mean(axis=1))
+        sharp = self._read(standardised)[2]
         return np.asarray(np.where(sharp, self.doubt, super().expected_error(standardised)), np.float64)
 
-    def _way(self, standardised: Float, by_trees: Float) -> tuple[Float, NDArray[np.bool_]]:
-        """Read the way, and whether it agrees with the trees."""
-        way, width = standardised @ self.reading + self.start, np.exp(by_trees)
-        return way, agree(way, width) & (width >= LEAST_OF_TWO)
+    def _read(self, standardised: Float) -> tuple[Float, Float, NDArray[np.bool_]]:
+        """Read what the trees give and the way, and whether the way is believed."""
+        ends = self._ends(standardised)
+        by_trees, spread = ends.mean(axis=1), ends.std(axis=1)
+        way = standardised @ self.reading + self.start
+        return by_trees, way, agree(way, np.exp(by_trees)) & (np.exp(by_trees - spread) >= LEAST_OF_TWO)
 
 
 def forest_of(trees: Any, columns: NDArray[np.int64]) -> Forest:

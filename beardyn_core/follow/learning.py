@@ -73,7 +73,7 @@ def trained(
     found, card = {}, {}
     wide = _wide_rule(train, plate, names_of(axes), middle, spread)
     for quantity in QUANTITIES:
-        values, inside = _judging(quantity, train, wide, learning=True)
+        values, inside = _taught(quantity, train, wide)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
@@ -106,14 +106,20 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
     any more.
     """
     standard = estimator.standardised(runs.descriptors)
+    spalled = runs.conditions != HEALTHY
+    estimator = replace(
+        estimator,
+        box=estimator.box.bounded(standard) if len(standard) else estimator.box,
+        passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
+    )
     found, card = {}, {name: dict(each) for name, each in estimator.card["quantities"].items()}
     for quantity in QUANTITIES:
         if quantity.name not in card:
             continue
-        values, inside = _judging(quantity, runs, estimator.wide)
+        learnt = estimator.regressions.get(quantity.name)
+        values, inside = _judging(quantity, runs, estimator, standard)
         if not inside.any():  # nothing judges it, so nothing is told
             continue
-        learnt = estimator.regressions.get(quantity.name)
         best = None
         # a way of events is the same in every tier
         truer = straightened and not (quantity.of_passages and estimator.wide is not None)
@@ -138,14 +144,8 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         places = [part.conditions.index(each) for each in runs.conditions[inside]]
         truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
         part = replace(part, least=least_of(truth))
-    spalled = runs.conditions != HEALTHY
     return replace(
-        estimator,
-        regressions=found,
-        part=part,
-        box=estimator.box.bounded(standard) if len(standard) else estimator.box,
-        passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
-        card={**estimator.card, "quantities": card},
+        estimator, regressions=found, part=part, card={**estimator.card, "quantities": card}
     )
 
 
@@ -159,27 +159,36 @@ def widened(estimator: Estimator, runs: Described) -> Estimator:
     standard = estimator.standardised(runs.descriptors)
     found = {}
     for name, each in estimator.regressions.items():
-        values, inside = _judging(BY_NAME[name], runs, estimator.wide)
+        values, inside = _judging(BY_NAME[name], runs, estimator, standard)
         shown = standard[inside]
         needed = reach_of(values[inside] - each.value(shown), each.expected_error(shown))
         found[name] = replace(each, reach=np.maximum(each.reach, needed))
     return replace(estimator, regressions=found)
 
 
-def _judging(
-    quantity: Quantity, runs: Described, wide: WideRule | None, *, learning: bool = False
-) -> tuple[Float, NDArray[np.bool_]]:
-    """Give the truth of a quantity on the scale of learning, and of which runs it is used.
-
-    A width is learnt folded, from all spalls; intervals are those of the narrow ones, whose numbers are
-    reported.
-    """
+def _taught(quantity: Quantity, runs: Described, wide: WideRule | None) -> tuple[Float, NDArray[np.bool_]]:
+    """Give what is learnt of a quantity, on the scale of learning, and from which runs: a width folded."""
     values, inside = known(quantity, runs)
     if wide is not None and quantity.of_passages:
-        widths, spacings = runs.truth[quantity.name], _spacings(runs, wide.spacings)
-        ways = folded(widths, spacings)
+        ways = folded(runs.truth[quantity.name], _spacings(runs, wide.spacings))
         values = quantity.scaled(np.maximum(ways, LEAST_FOLDED))
-        inside = inside & (learning | (widths < 0.5 * spacings))
+    return values, inside
+
+
+def _judging(
+    quantity: Quantity, runs: Described, estimator: Estimator, standard: Float
+) -> tuple[Float, NDArray[np.bool_]]:
+    """Give the truth of a quantity on the scale of learning, and which runs judge it.
+
+    A width is judged by the runs whose number would be reported, whatever they are: of passages like those
+    learnt from, and taken for narrow spalls.
+    """
+    values, inside = known(quantity, runs)
+    learnt, wide = estimator.regressions.get(quantity.name), estimator.wide
+    if wide is not None and quantity.of_passages and learnt is not None:
+        value, doubt = learnt.value(standard), learnt.expected_error(standard)
+        ends = (quantity.restored(each) for each in (value, value - doubt, value + doubt))
+        inside = inside & (wide.chance(standard, *ends) <= wide.narrow) & estimator.knows(standard)
     return values, inside
 
 
