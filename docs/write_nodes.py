@@ -180,9 +180,9 @@ the node that the topic is named for, where there is one, else the first that sp
 that has gone. What is refused is counted (`refused: TOPIC` and `refused_messages` in the diagnostic of every
 node; in that of the twin by reason) and not recorded. A `truth` names a file and chooses no folder.
 `python -m evidence.ros.fuzz --messages 10000` publishes hostile messages on every topic beside a run of all
-nodes and reports whether anything ended, split or is missing: nothing in three runs of 10 000 of them at half of
-real time. In real time all six nodes and the sender are more than two cores can carry: receive buffers overflow and
-a recorder that falls behind lacks up to two thirds of the messages, says so and ends with 5.
+nodes and reports whether anything ended, split or is missing: nothing in three runs of 10 000 of them at half
+of real time. In real time all six nodes and the sender are more than two cores can carry: receive buffers
+overflow, and a recorder that falls behind lacks up to two thirds of the messages, says so and ends with 5.
 
 A disk that stalls is waited for in the background, up to 128 MB.
 

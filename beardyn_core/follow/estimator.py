@@ -186,7 +186,9 @@ class Estimator:
 
     def knows(self, standard: Float) -> NDArray[np.bool_]:
         """Tell which runs, shape [run], have a box and passages like those learnt from."""
-        return np.asarray((self.box.distance(standard) <= 1.0) & (self.passages.distance(standard) <= 1.0), bool)
+        return np.asarray(
+            (self.box.distance(standard) <= 1.0) & (self.passages.distance(standard) <= 1.0), bool
+        )
 
     def reports(self, quantity: Quantity, standard: Float) -> NDArray[np.bool_]:
         """Tell of which runs, shape [run], the number of a quantity is reported."""

@@ -144,9 +144,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
         places = [part.conditions.index(each) for each in runs.conditions[inside]]
         truth = part.probabilities(standard[inside])[np.arange(len(places)), places]
         part = replace(part, least=least_of(truth))
-    return replace(
-        estimator, regressions=found, part=part, card={**estimator.card, "quantities": card}
-    )
+    return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
 
 
 def widened(estimator: Estimator, runs: Described) -> Estimator:

@@ -3,10 +3,10 @@
 They go to every topic that any node subscribes to. Nothing may end or be missing in the recording, and every
 one that is not of the run is refused and counted.
 
-They come 150 times a second beside a run that plays at half of real time, 850 messages a second. Six nodes and
-a listener to every topic fill two cores in real time: receive buffers overflow (`RcvbufErrors` of
-``/proc/net/snmp``), and messages are missing without a hostile one too. A text of 5 MB is one in some 400 on a
-topic of texts: it is refused by its length, and what it costs is the middleware's.
+They come 150 times a second beside a run that plays at half of real time, 850 messages a second. Six nodes
+and a listener to every topic fill two cores in real time: receive buffers overflow (`RcvbufErrors` of
+``/proc/net/snmp``), and messages are missing without a hostile one too. A text of 5 MB is one in some 400
+on a topic of texts: it is refused by its length, and what it costs is the middleware's.
 """
 
 from __future__ import annotations
