@@ -175,8 +175,8 @@ def test_a_force_along_the_axle_tells_the_rows_apart() -> None:
 
 
 @pytest.mark.slow
-def test_high_waves_turn_the_mean_of_the_roller_loads() -> None:
-    assert all(turns(row) for row in wheel_waves.mean_loads(wheel_waves.HIGHER))
+def test_high_waves_turn_the_mean_of_the_roller_loads_of_one_row() -> None:
+    assert [turns(row) for row in wheel_waves.mean_loads(wheel_waves.HIGHER)] == [False, True]
 
 
 @pytest.mark.slow
