@@ -149,8 +149,8 @@ TRENDS = (
         "their mean goes up and down with it, too",
         HOU,
         mean_turns,
-        misses="the height of the waves, perhaps, which the abstract does not tell: on waves of 80 um instead "
-        "of 20 it does outboard, but not inboard",
+        misses="the height of the waves, perhaps, which the abstract does not tell: on waves of 80 um "
+        "instead of 20 it does outboard, but not inboard",
     ),
     Trend(
         "roller loads",
