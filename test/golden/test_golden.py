@@ -22,7 +22,7 @@ RELATIVE = {
     "load.rib.at *90 deg": 0.03,
     "force.fx.rms": 0.1,
     "shaft_torque.mean": 0.01,
-    "shaft_torque.rms": 0.02,
+    "shaft_torque.rms": 0.03,
 }
 RELATIVE_ELSEWHERE = 5e-3
 
