@@ -17,7 +17,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.arrays import Bool, Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.inputs import MonitorSettings
 from beardyn_core.observe.chain.rivals import LOWEST_COMB, Rival, explained, reach, shaft_of, strongest_rival
@@ -98,6 +98,11 @@ class Candidate:
         return np.array(
             [h * self.order + k * self.pattern.sideband for h, k in self.pattern.lines(harmonics)]
         )
+
+    def explains(self, orders: Float, resolution: float) -> Bool:
+        """Tell which orders are its harmonics, or sidebands of these that its fault may have."""
+        own = self.pattern
+        return explained(orders, self.order / own.divided, own.sideband, own.explained, resolution)
 
 
 @dataclass(frozen=True)
@@ -212,10 +217,7 @@ def _combs(
     known = np.zeros(len(spectrum.order), dtype=bool)
     for each in neighbours:
         if each.evidence > -np.log(settings.false_alarm_rate):
-            own = each.pattern
-            known |= explained(
-                spectrum.order, each.order / own.divided, own.sideband, own.explained, spectrum.resolution
-            )
+            known |= each.explains(spectrum.order, spectrum.resolution)
     best = strongest_rival(spectrum, _over_noise(spectrum), known, settings.harmonics)
     if not best.own > -np.log(settings.false_alarm_rate):
         return ()

@@ -27,6 +27,9 @@ def with_strikes(found: FaultLines, stretch: Stretch, band: Band, settings: Moni
     surfaces with it, has one harmonic, and next to nothing is left without it.
 
     A loud tone or track fills the whole band, but not every octave.
+
+    Orders of parts are near simple ratios: three times BPFI is four times BPFO in many bearings. Lines that
+    belong to a part with more evidence do not count for the others.
     """
     found = _measured_in(found, stretch, (band.low, band.high), settings)
     sure = any(each.score >= each.threshold for each in (*found.candidates, *found.elsewhere))
@@ -56,20 +59,32 @@ def _measured_in(
     tracked = by_angle(power, stretch, settings)
     spectrum = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
     noise = local_background(spectrum.amplitude, settings.background_width / spectrum.order[1])
-    measured = found.with_each(
-        lambda each: replace(each, strikes=_strikes(each, spectrum, noise, settings) / mean)
-    )
+    surest = max(found.candidates, key=lambda candidate: candidate.evidence)
+    others = [each for each in found.candidates if each is not surest]
+
+    def with_strikes_of(each: Candidate) -> Candidate:
+        apart_from = surest if any(each is other for other in others) else None
+        return replace(each, strikes=_strikes(each, apart_from, spectrum, noise, settings) / mean)
+
+    measured = found.with_each(with_strikes_of)
     return replace(measured, deepest=float(spectrum.amplitude.max()) / mean)
 
 
-def _strikes(candidate: Candidate, spectrum: OrderSpectrum, noise: Float, settings: MonitorSettings) -> float:
+def _strikes(
+    candidate: Candidate,
+    surer: Candidate | None,
+    spectrum: OrderSpectrum,
+    noise: Float,
+    settings: MonitorSettings,
+) -> float:
     """Compute what the harmonics but the loudest make, with their sidebands, in the unit of the spectrum."""
     step = spectrum.order[1]
     reach = max(1, round(spectrum.resolution / step))
-    index = np.minimum(
-        np.rint(candidate.places(settings.strike_harmonics) / step).astype(int), len(noise) - 1
-    )
+    places = candidate.places(settings.strike_harmonics)
+    index = np.minimum(np.rint(places / step).astype(int), len(noise) - 1)
     around = np.clip(index[:, None] + np.arange(-reach, reach + 1), 0, len(noise) - 1)
     power = spectrum.amplitude[around].max(axis=1) ** 2 - (_NOISE * noise[index]) ** 2
+    if surer is not None:
+        power[surer.explains(places, spectrum.resolution)] = 0.0
     harmonics = np.maximum(power, 0.0).reshape(settings.strike_harmonics, -1).sum(axis=1)
     return float(np.sqrt(harmonics.sum() - harmonics.max()))
