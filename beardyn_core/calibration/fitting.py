@@ -52,7 +52,7 @@ class Fit:
         if self.reason:
             return f"{self.unknown.words}: left at {show(self.base)}, {self.reason}"
         return (
-            f"{self.unknown.words}: {show(self.value)}, {show(low)} to {show(high)} in 90 of 100; "
+            f"{self.unknown.words}: {show(self.value)}, 90 % interval {show(low)} to {show(high)}; "
             f"{show(self.base)} in the scene"
         ) + ("; best so far, how well it is known was not worked out" if self.unjudged else "")
 

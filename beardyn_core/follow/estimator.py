@@ -83,8 +83,8 @@ class Estimate:
             return f"{self.quantity.words}: {self.reason}"
         show, (low, high) = self.quantity.text, self.intervals[-1]
         return (
-            f"{self.quantity.words}: {show(self.value)}, {show(low)} to {show(high)} in "
-            f"{100 * LEVELS[-1]:.0f} of 100"
+            f"{self.quantity.words}: {show(self.value)}, {100 * LEVELS[-1]:.0f} % interval {show(low)} to "
+            f"{show(high)}"
         )
 
 

@@ -74,8 +74,8 @@ class Forecast:
             low, middle, high = (f"{each / 1e3:,.0f}" for each in self.remaining)
             when = "take it out now" if self.remaining[0] < SOON else "by then it must come out"
             lines.append(
-                f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, {low} to "
-                f"{high} km in 90 of 100; {when}"
+                f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, 90 % "
+                f"interval {low} to {high} km; {when}"
             )
         elif self.condition != HEALTHY:
             lines.append(

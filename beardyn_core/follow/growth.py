@@ -57,6 +57,6 @@ class GrowthLaw:
 
 
 def drawn_between(interval: tuple[float, float], count: int, random: np.random.Generator) -> Float:
-    """Draw a positive number that lies in an interval in 90 of 100, lognormal, shape [count]."""
+    """Draw a positive number that has this 90 % interval, lognormal, shape [count]."""
     low, high = np.log(np.maximum(interval, 1e-9))
     return np.exp(random.normal(0.5 * (low + high), max(high - low, 0.0) / (2.0 * NORMAL_90), count))

@@ -18,7 +18,7 @@ class PartEstimate:
 
     condition: A[str, "most probable: healthy, cup, cone or roller"]
     probability: A[float, "of it; NaN in a box that is not learnt from"]
-    sets: A[tuple[tuple[str, ...], ...], "conditions that hold the truth in 50 and in 90 of 100"]
+    sets: A[tuple[tuple[str, ...], ...], "conditions that hold the truth in 50 % and in 90 % of runs"]
 
     @property
     def sentence(self) -> str:
@@ -27,7 +27,7 @@ class PartEstimate:
             return f"condition: {self.condition} is the likeliest; {' or '.join(self.sets[-1])} is possible"
         return (
             f"condition: {self.condition}, probability {100 * self.probability:.0f} %; "
-            f"{' or '.join(self.sets[-1])} in {100 * LEVELS[-1]:.0f} of 100"
+            f"{100 * LEVELS[-1]:.0f} % set: {' or '.join(self.sets[-1])}"
         )
 
 

@@ -18,7 +18,7 @@ ESTIMATES = "follower/estimates"
 RESIDUAL = "follower/residual"
 HEALTH = "follower/health"
 WIDTH, HEIGHT, BETWEEN = 1000.0, 220.0, 60.0
-_CURVES = ("estimate", "50 of 100, from", "to", "90 of 100, from", "to ")
+_CURVES = ("estimate", "50 % interval, from", "to", "90 % interval, from", "to ")
 _COLOURS = ((80, 145, 255), *2 * ((120, 170, 235),), *2 * ((150, 165, 190),))
 _HEARD, _TWIN, _TOLERANCE, _FRAME = (80, 145, 255), (230, 155, 30), (230, 155, 30, 110), (128, 134, 148)
 # ending of a key -> unit that is shown, factor from SI to it, and what is taken away before

@@ -20,7 +20,7 @@ BEGIN, END = "<!-- evidence.calibration.page -->\n", "<!-- end of evidence.calib
 def table(results: dict[Hidden, dict[str, Any]]) -> str:
     """Write the tables."""
     lines = [
-        "| box | number | truth | fitted | 90 of 100 | interval over range |",
+        "| box | number | truth | fitted | 90 % interval | interval over range |",
         "|---|---|--:|--:|---|--:|",
         *(line for box, found in results.items() for line in rows(box, found)),
         "",

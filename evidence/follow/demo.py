@@ -48,7 +48,7 @@ def table(found: Following) -> str:
     last = found.steps[-1]
     part = last.estimates.part
     lines = [
-        f"{'truth':32} {'estimate':>10}  90 of 100",
+        f"{'truth':32} {'estimate':>10}  90 % interval",
         f"{'condition cup':32} {part.condition if part else ''}",
     ]
     for name, truth in TRUTH.items():
@@ -84,7 +84,7 @@ def draw(found: Following, path: Path) -> None:
         axis.axhline(scale * TRUTH[name], color="black", ls="--", lw=1)
         axis.set_ylabel(f"{name.replace('_', ' ')}\n[{quantity.shown}]")
     axes[0].set_title(
-        "estimates, 50 and 90 of 100; crosses: one stretch alone; dashed: hidden truth", fontsize=10
+        "estimates, 50 and 90 % intervals; crosses: one stretch alone; dashed: hidden truth", fontsize=10
     )
     axes[-2].set_xlabel("time [s]")
     if found.residual is not None:

@@ -213,7 +213,7 @@ def section(rows: Sequence[str], growth: str) -> str:
         "interval of 90 % and stays there."
     )
     table = [
-        "| drift | number | truth | at the end, 90 of 100 | lag | condition named | health |",
+        "| drift | number | truth | at the end, 90 % interval | lag | condition named | health |",
         "|---|---|---|---|---|---|---|",
         *rows,
     ]

@@ -70,7 +70,7 @@ def test_depth_that_nothing_tells_is_called_not_identifiable(estimator: Estimato
     spalled = estimator.estimates(runs.descriptors[runs.conditions == "cup"][:1])
     assert np.isnan(spalled["depth"].value)
     assert "not identifiable" in spalled["depth"].sentence
-    assert "in 90 of 100" in spalled["width"].sentence
+    assert "90 % interval" in spalled["width"].sentence
     sound = estimator.estimates(runs.descriptors[runs.conditions == "healthy"][:1])
     assert sound["width"].sentence.endswith("no part is called spalled")
 

@@ -28,7 +28,7 @@ def known(name: str, low: float, value: float, high: float, reason: str = "") ->
 
 
 def found(width: float = 8e-3, factor: float = 1.2, condition: str = "cup") -> Estimates:
-    """Estimates of a spall that is so wide, within a factor in 90 of 100."""
+    """Estimates of a spall that is so wide, whose 90 % interval is a factor to both sides."""
     return Estimates(
         PartEstimate(condition, 0.9, ((condition,),) * 2),
         (
