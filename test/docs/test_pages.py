@@ -94,6 +94,7 @@ def test_the_tutorial_shows_an_answer_to_every_command_that_is_to_be_read() -> N
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("shipped_configuration")  # what a user has who follows it
 def test_every_command_of_the_tutorial_runs() -> None:
     assert load("write_tutorials").main(["--check"]) == 0  # type: ignore[attr-defined]
 
