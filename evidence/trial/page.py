@@ -48,8 +48,11 @@ the revolutions at each angle of the wheel, which holds every whole order, and l
 which the wheel strikes in three of four revolutions: flats and polygons. A score adds five harmonics of
 BPFO, or of BPFI or 2 BSF with a sideband on both sides, less the strongest line. Evidence is how seldom
 noise has such a sum anywhere. A part is not called when a rival has more: a comb of five harmonics of any
-order that the part's lines and sidebands do not explain. What strikes like clockwork is tones, which
-whitening takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
+order that the part's lines and sidebands do not explain, the same comb with the sidebands of another part,
+or a part at another speed. A comb that strikes and fits no part is `unexplained`
+([when speed or bearing may be wrong](measured.md#when-speed-or-bearing-may-be-wrong)). Lines that belong to
+a part with more evidence are no strikes of another. What strikes like clockwork is tones, which whitening
+takes away; where nothing else is found and lines make {clockwork:g} of the power, it is sought as
 measured, and must strike with {deep:g} of it. [monitor_measured.md](monitor_measured.md) has what the chain
 says of measured bearings.
 
