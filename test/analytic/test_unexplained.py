@@ -13,8 +13,12 @@ from hypothesis import strategies as st
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.config import load_plate
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorResult, Stretch
+from beardyn_core.observe.chain.chain import squared_envelope
 from beardyn_core.observe.chain.explanations import explanations
-from beardyn_core.observe.chain.fault_lines import fault_patterns
+from beardyn_core.observe.chain.fault_lines import comb_score, fault_patterns
+from beardyn_core.observe.chain.strikes import with_strikes
+from beardyn_core.observe.chain.tracking import logarithm_by_angle
+from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.study.monitored_recording import EXIT_CODES, Finding, conclude, worst
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
@@ -87,6 +91,24 @@ def test_strikes_of_a_bearing_on_the_same_shaft_are_those_of_the_neighbour() -> 
     assert found.verdict == "healthy"
     faulty = REFERENCE(stretch, ORDERS, ROLLERS, replace(SETTINGS, neighbours=(other,)))
     assert faulty.verdict == "cup"  # a neighbour explains nothing that is our own
+
+
+def test_lines_of_a_surer_part_are_no_strikes_of_another() -> None:
+    """Three times BPFI is four times BPFO: what strikes there strikes for the part with more evidence."""
+    stretch = struck("cup")
+    band = whole_band(stretch, SETTINGS)
+    tracked = logarithm_by_angle(squared_envelope(by_cepstrum(stretch, SETTINGS), band), stretch, SETTINGS)
+    found = comb_score(tracked, ORDERS, ROLLERS, stretch.shaft_frequency, SETTINGS)
+    cup, cone, roller = found.candidates
+    cone = replace(cone, order=4.0 / 3.0 * cup.order)
+
+    def strikes_of_cone(evidence: float) -> float:
+        both = replace(found, candidates=(cup, replace(cone, evidence=evidence), roller))
+        return with_strikes(both, stretch, band, SETTINGS).candidates[1].strikes
+
+    least = SETTINGS.least_strikes
+    assert strikes_of_cone(cup.evidence - 1.0) < 0.3 * least  # noise on its other lines, 0.04
+    assert strikes_of_cone(cup.evidence + 1.0) > least
 
 
 def test_explanations_begin_with_the_likely_part_and_the_nearest_speed() -> None:

@@ -60,11 +60,10 @@ def _measured_in(
     spectrum = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
     noise = local_background(spectrum.amplitude, settings.background_width / spectrum.order[1])
     surest = max(found.candidates, key=lambda candidate: candidate.evidence)
-    others = [each for each in found.candidates if each is not surest]
 
     def with_strikes_of(each: Candidate) -> Candidate:
-        apart_from = surest if any(each is other for other in others) else None
-        return replace(each, strikes=_strikes(each, apart_from, spectrum, noise, settings) / mean)
+        surer = surest if each in found.candidates and each is not surest else None
+        return replace(each, strikes=_strikes(each, surer, spectrum, noise, settings) / mean)
 
     measured = found.with_each(with_strikes_of)
     return replace(measured, deepest=float(spectrum.amplitude.max()) / mean)
