@@ -11,6 +11,9 @@ What a Python program uses is here and explained in docs/python.md::
 module        responsibility
 ============= ===================================================================
 jit           how kernels are compiled
+machine_code  what a kernel's machine code comes from, as a digest
+kernel_cache  compiled kernels on disk
+cache_root    where everything lies that is kept from run to run
 errors        errors a user sees
 units         units of numbers in files, and the way to SI
 edge          unit, limits and words of a number, on the field that holds it

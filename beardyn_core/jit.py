@@ -1,20 +1,11 @@
-"""How kernels are compiled: flags, inlining, and a disk cache that sees every edit.
-
-numba's own cache looks only at the file of the entry point and would return stale code after an edit
-of a function it calls. Here the cache folder is named by a hash of all sources it may come from instead.
-"""
+"""How kernels are compiled: flags, inlining, and the disk cache."""
 
 from __future__ import annotations
 
 import gc
-import hashlib
-import inspect
-import os
-import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numba
@@ -24,6 +15,7 @@ from numba.core.compiler import Compiler, Flags
 from numba.core.registry import CPUDispatcher
 
 from beardyn_core.interrupts import held_back, seal, unseal
+from beardyn_core.kernel_cache import KernelCache
 
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.
@@ -43,74 +35,6 @@ def lane_width() -> int:
 
 
 LANE_WIDTH = lane_width()
-
-_CORE = Path(__file__).resolve().parent
-_IMPORT = re.compile(rb"^ *(?:from|import) +beardyn_core([.\w]*)(?: +import +([\w, ]+)$)?", re.MULTILINE)
-_TUPLE = re.compile(rb"^class \w+\(NamedTuple\):\n(?:(?: .*)?\n)*", re.MULTILINE)
-
-
-@cache
-def source_hash(source: Path) -> str:
-    """Hash all that the compiled code of a file may come from, and numba's version.
-
-    That is the file itself, what it imports from this package, directly or not, and every named tuple of
-    the package, for kernels are compiled for the tuples they are called with. Of other files that define
-    tuples only these definitions count, so that an edit of what fills them keeps the compiled kernels.
-
-    Parameters
-    ----------
-    source : Path
-        File of an entry point.
-    """
-    waiting = [source.resolve()]
-    reached: set[Path] = set()
-    while waiting:
-        path = waiting.pop()
-        if path not in reached:
-            reached.add(path)
-            waiting += _imported(path)
-    digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(reached):
-        digest.update(path.name.encode())
-        digest.update(_text(path))
-    for path in _sources():
-        for definition in _TUPLE.findall(_text(path)):
-            digest.update(path.relative_to(_CORE).as_posix().encode())
-            digest.update(definition)
-    return digest.hexdigest()[:16]
-
-
-@cache
-def _sources() -> tuple[Path, ...]:
-    return tuple(sorted(_CORE.glob("*/*.py")))
-
-
-@cache
-def _text(path: Path) -> bytes:
-    return path.read_bytes()
-
-
-@cache
-def _imported(source: Path) -> tuple[Path, ...]:
-    """List the files of this package that a file imports: of a room its modules that are named, else all."""
-    found: list[Path] = []
-    for match in _IMPORT.finditer(_text(source)):
-        place = _CORE.joinpath(*match.group(1).decode().split(".")[1:])
-        modules = [place / f"{name.strip()}.py" for name in (match.group(2) or b"").decode().split(",")]
-        if not place.is_dir():
-            modules = [place.with_suffix(".py")]
-        elif not all(module.is_file() for module in modules):
-            modules = sorted(place.glob("*.py"))
-        found += modules
-    return tuple(found)
-
-
-def cache_folder(source: Path) -> Path:
-    """Name the folder of compiled kernels of a file: in ``$BEARDYN_CACHE_DIR`` or the user's cache."""
-    root = os.environ.get("BEARDYN_CACHE_DIR")
-    if root is None:
-        root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
-    return Path(root) / "kernels" / source_hash(source)
 
 
 class _PartLibrary(JITCodeLibrary):
@@ -222,15 +146,18 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH, allo
     callable
         The compiled function.
     """
-    folder = cache_folder(Path(inspect.getfile(function)))
-    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-    numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
-    try:
-        options = {**OPTIONS, "fastmath": set(flags), "_nrt": allocates, "no_cfunc_wrapper": True}
-        compiled = numba.njit(cache=True, **options)(function)
-    finally:
-        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
-    return compiled if numba.config.DISABLE_JIT else _with_set_flags(compiled)  # type: ignore[attr-defined]
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return function
+    options = {**OPTIONS, "fastmath": set(flags), "_nrt": allocates, "no_cfunc_wrapper": True}
+    compiled = numba.njit(**options)(function)
+    compiled._cache = KernelCache(
+        function, repr(sorted((key, _sorted(value)) for key, value in options.items()))
+    )
+    return _with_set_flags(compiled)
+
+
+def _sorted(value: Any) -> Any:
+    return sorted(value) if isinstance(value, set) else value
 
 
 class _Sealed(event.Listener):

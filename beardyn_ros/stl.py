@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from beardyn_core.cache_root import cache_root
 from beardyn_core.record import meshes
 from beardyn_core.record.description import BearingShape
 from beardyn_core.record.meshes import CUT_OPEN, Mesh
@@ -19,11 +20,8 @@ HOUSING_WALL = 0.15  # of the outer diameter of the bearing
 
 
 def mesh_folder() -> Path:
-    """Name the folder of meshes: in ``$BEARDYN_CACHE_DIR`` or the user's cache."""
-    root = os.environ.get("BEARDYN_CACHE_DIR")
-    if root is None:
-        root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
-    return Path(root) / "meshes"
+    """Name the folder of meshes."""
+    return cache_root() / "meshes"
 
 
 def part_meshes(shape: BearingShape) -> dict[str, Mesh]:

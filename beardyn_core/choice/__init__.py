@@ -21,6 +21,7 @@ sampling      the rate that holds the third octaves that are asked for
 numerics      what a tier or a lamina count leaves out; the step
 choose        scene in, the cheapest alternatives within the limits out
 kept          choices made before, beside the compiled kernels
+source_hash   hash of the sources that a choice may come from
 load          scenes ready to run: read by `config`, what they leave open closed
 trial         the scenes of a trial
 ============= =================================================================

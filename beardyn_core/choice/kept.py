@@ -18,8 +18,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.cache_root import cache_root
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.choice.rule import Choice
+from beardyn_core.choice.source_hash import source_hash
 from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.outputs import as_a_whole
@@ -84,15 +86,11 @@ def kept(scene: Scene, free: Free, given: EffectSet | None, work_out: Callable[[
 
 def folder() -> Path:
     """Name the folder of the choices by these rules: in ``$BEARDYN_CACHE_DIR`` or the user's cache."""
-    from beardyn_core.jit import cache_folder  # brings the compiler along
-
-    return cache_folder(_RULES).parents[1] / "choices" / _rules()
+    return cache_root() / "choices" / _rules()
 
 
 @cache
 def _rules() -> str:
-    from beardyn_core.jit import source_hash
-
     digest = hashlib.sha256(source_hash(_RULES).encode())
     digest.update(COST_FILE.read_bytes())
     for package in _NUMBERS:

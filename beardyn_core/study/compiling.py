@@ -6,10 +6,14 @@ import hashlib
 import threading
 from collections.abc import Hashable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 
-from beardyn_core import twin
-from beardyn_core.jit import cache_folder
+from beardyn_core.cache_root import cache_root
+from beardyn_core.integrate.imex import advance
+from beardyn_core.integrate.lumped import advance_lumped
+from beardyn_core.integrate.quasistatic import advance_quasistatic
+from beardyn_core.machine_code import code_digest
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 
@@ -18,9 +22,6 @@ try:
 except ImportError:  # a system without file locks
     fcntl = None  # type: ignore[assignment]
 
-# of this version of all that is compiled, and of this place: numba keeps kernels by the path of their source
-_PLACE = hashlib.sha256(str(Path(twin.__file__).resolve().parent).encode()).hexdigest()[:16]
-_KINDS = cache_folder(Path(twin.__file__)) / "kinds" / _PLACE
 _ready: set[Hashable] = set()
 _readying = threading.Lock()
 
@@ -67,7 +68,14 @@ def _kind_of(scene: Scene) -> Hashable:
 
 
 def _known(kind: Hashable) -> Path:
-    return _KINDS / hashlib.sha256(repr(kind).encode()).hexdigest()[:16]
+    key = hashlib.sha256(repr((kind, _steps())).encode()).hexdigest()[:32]
+    return cache_root() / "kernels" / "kinds" / key
+
+
+@cache
+def _steps() -> tuple[str, ...]:
+    steps = (advance, advance_quasistatic, advance_lumped)
+    return tuple(code_digest(getattr(each, "py_func", each)) for each in steps)
 
 
 @contextmanager
@@ -76,7 +84,7 @@ def alone_on_this_machine() -> Iterator[None]:
     if fcntl is None:
         yield
         return
-    folder = cache_folder(Path(__file__)).parent
+    folder = cache_root() / "kernels"
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "compiling.lock").open("ab") as file:
         fcntl.flock(file, fcntl.LOCK_EX)

@@ -18,7 +18,6 @@ def warmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     """Tiers of the scenes whose kernels were asked for, by a stand-in, in a cache of its own."""
     seen: list[str] = []
     monkeypatch.setenv("BEARDYN_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(compiling, "_KINDS", tmp_path / "kinds")
     monkeypatch.setattr(compiling, "_ready", set())
     monkeypatch.setattr(Twin, "warm", lambda twin: seen.append(twin.scene.tier))
     return seen

@@ -1,0 +1,246 @@
+"""Compiled kernels are found again after edits that cannot reach them, and after no other."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+CORE = Path(__file__).resolve().parents[2] / "beardyn_core"
+# the step of the full tier: what it comes from, and the types of all that it may be called with
+DIGEST = """
+import json, sys
+from beardyn_core.integrate.imex import advance
+from beardyn_core.machine_code import code_digest
+print(json.dumps(code_digest(advance.py_func)))
+"""
+SMALL = {
+    "__init__.py": "",
+    "layout.py": '"""Where numbers stand."""\nFIRST = 0\nTHIRD = 2\nBUILT = 5\n',
+    "deep/__init__.py": "",
+    "deep/tuples/__init__.py": "",
+    "deep/tuples/ribs.py": "from typing import NamedTuple\n\n\nclass Rib(NamedTuple):\n    stiffness: float\n"
+    "    play: float\n\n\ndef build(scene):\n    return Rib(1e8 * scene, 1e-5)\n",
+    "deep/force.py": "from beardyn_core.jit import inline\n\n_SMALLEST = 1e-15\n\n\n@inline\n"
+    'def force(rib, gap):\n    """Give the force."""\n'
+    "    # against the way\n    return rib.stiffness * max(gap - rib.play, _SMALLEST)\n",
+    "step.py": "from beardyn_core.jit import entry\nfrom small import layout\n"
+    'from small.deep.force import force\n\n\n@entry\ndef step(state, rib):\n    """Advance."""\n'
+    "    state[layout.THIRD] += force(rib, state[layout.FIRST])\n    return state[layout.THIRD]\n",
+    "run.py": "import json\n\nimport numpy as np\n\nfrom small.deep.tuples.ribs import build\n"
+    "from small.step import step\nfrom beardyn_core.jit import when_compiling\n\nwith when_compiling(lambda: None) as compiled:\n"
+    "    found = step(np.array([1e-3, 0.0, 1.0, 0.0]), build(1.0))\n"
+    "print(json.dumps([bool(compiled), float(found)]))\n",
+}
+
+
+class Small:
+    """A small package with kernels of its own, and a cache of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        for name, text in SMALL.items():
+            path = folder / "small" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+
+    def run(self) -> tuple[Any, ...]:
+        """Tell whether anything was compiled, and give the number that came out."""
+        environment = {
+            **os.environ,
+            "PYTHONPATH": f"{self._folder}:{CORE.parent}",
+            "BEARDYN_CACHE_DIR": str(self._folder / "cache"),
+        }
+        done = subprocess.run(
+            [sys.executable, "-m", "small.run"],
+            env=environment,
+            cwd=self._folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        compiled, value = json.loads(done.stdout)
+        return compiled, value
+
+    def edit(self, name: str, old: str, new: str) -> None:
+        path = self._folder / "small" / name
+        text = path.read_text()
+        assert old in text
+        path.write_text(text.replace(old, new))
+
+    def move(self, old: str, new: str) -> None:
+        (self._folder / "small" / new).parent.mkdir(exist_ok=True)
+        shutil.move(self._folder / "small" / old, self._folder / "small" / new)
+
+    @property
+    def files(self) -> list[Path]:
+        return sorted((self._folder / "cache" / "kernels").iterdir())
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("compiled")
+    assert Small(folder).run() == (True, pytest.approx(1.0 + 1e8 * (1e-3 - 1e-5)))
+    return folder
+
+
+@pytest.fixture
+def small(compiled: Path, tmp_path: Path) -> Small:
+    shutil.copytree(compiled, tmp_path / "copy")
+    found = Small(tmp_path / "copy")
+    assert not found.run()[0]  # nor does it matter where it lies
+    return found
+
+
+def _moved_kernels(small: Small) -> None:
+    small.move("deep/force.py", "deep/pressing.py")
+    small.edit("step.py", "small.deep.force", "small.deep.pressing")
+
+
+def _moved_tuples(small: Small) -> None:
+    small.move("deep/tuples/ribs.py", "deep/ribs.py")
+    small.edit("run.py", "small.deep.tuples.ribs", "small.deep.ribs")
+
+
+def _moved_entry(small: Small) -> None:
+    small.move("step.py", "deep/advance.py")
+    small.edit("run.py", "small.step", "small.deep.advance")
+
+
+def _split(small: Small) -> None:
+    small.move("layout.py", "numbers.py")
+    small.edit("step.py", "import layout", "import numbers as layout")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        pytest.param(lambda small: small.edit("step.py", "Advance.", "Go on."), id="docstring of an entry"),
+        pytest.param(
+            lambda small: small.edit("step.py", "\n\n\n@", "\n\n# here\n\n\n@"), id="place of an entry"
+        ),
+        pytest.param(lambda small: small.edit("deep/force.py", "Give the", "Find the"), id="docstring"),
+        pytest.param(lambda small: small.edit("deep/force.py", "# against the way", "# back"), id="comment"),
+        pytest.param(
+            lambda small: small.edit("deep/force.py", '"""Give the force."""\n', ""), id="no docstring"
+        ),
+        pytest.param(
+            lambda small: small.edit("deep/tuples/ribs.py", "return Rib(", "return Rib(1.0 * "), id="builder"
+        ),
+        pytest.param(
+            lambda small: small.edit("layout.py", "BUILT = 5", "BUILT = 6"), id="layout of builders"
+        ),
+        pytest.param(_moved_kernels, id="kernels moved"),
+        pytest.param(_moved_tuples, id="tuples moved"),
+        pytest.param(_moved_entry, id="entry moved"),
+        pytest.param(_split, id="layout moved"),
+    ],
+)
+def test_what_cannot_reach_machine_code_keeps_it(small: Small, change: Callable[[Small], None]) -> None:
+    change(small)
+    assert small.run() == (False, pytest.approx(1.0 + 1e8 * (1e-3 - 1e-5)))
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "value"),
+    [
+        pytest.param("deep/force.py", "gap - rib.play", "gap + rib.play", 1.0 + 1e8 * 1.01e-3, id="formula"),
+        pytest.param("deep/force.py", "1e-15", "2e-3", 1.0 + 1e8 * 2e-3, id="constant"),
+        pytest.param("layout.py", "THIRD = 2", "THIRD = 1", 1e8 * (1e-3 - 1e-5), id="layout"),
+        pytest.param(
+            *(
+                "deep/tuples/ribs.py",
+                "    stiffness: float\n    play: float",
+                "    play: float\n    stiffness: float",
+            ),
+            1.0 + 1e-5 * max(1e-3 - 1e8, 1e-15),
+            id="order of a tuple",
+        ),
+        pytest.param(
+            *("deep/tuples/ribs.py", "play: float\n", "play: float\n    wear: float = 0.0\n"),
+            1.0 + 1e8 * (1e-3 - 1e-5),
+            id="field of a tuple",
+        ),
+        pytest.param(
+            *("step.py", "state[layout.FIRST])", "state[layout.FIRST] + 1e-3)"),
+            1.0 + 1e8 * (2e-3 - 1e-5),
+            id="entry",
+        ),
+    ],
+)
+def test_what_reaches_machine_code_compiles_it_anew(
+    small: Small, name: str, old: str, new: str, value: float
+) -> None:
+    small.edit(name, old, new)
+    assert small.run() == (True, pytest.approx(value))
+    assert not small.run()[0]
+
+
+@pytest.mark.parametrize("left", [0, 40, -1])
+def test_a_file_that_is_cut_counts_as_none_and_is_written_again(small: Small, left: int) -> None:
+    (path,) = small.files
+    path.write_bytes(path.read_bytes()[:left])
+    assert small.run()[0]
+    assert not small.run()[0]
+
+
+def test_a_folder_that_cannot_be_written_keeps_nothing(small: Small, tmp_path: Path) -> None:
+    shutil.rmtree(tmp_path / "copy" / "cache")
+    (tmp_path / "copy" / "cache").write_text("a file is in the way")
+    assert small.run()[0]
+
+
+# --- the step of the full tier ---------------------------------------------------------------------
+
+
+def digest_after(folder: Path, name: str, old: str, new: str) -> str:
+    """Digest of `advance` in a copy of the package with one edit."""
+    core = folder / "beardyn_core"
+    if not core.exists():
+        shutil.copytree(CORE, core, ignore=shutil.ignore_patterns("__pycache__"))
+    path = core / (name or "jit.py")
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+    try:
+        environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(
+            [sys.executable, "-c", DIGEST],
+            env=environment,
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+    finally:
+        path.write_text(text)
+    return str(json.loads(done.stdout))
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "changes"),
+    [
+        ("kernels/pocket.py", "0.5 * cage.stiffness", "0.6 * cage.stiffness", True),
+        ("kernels/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
+        ("model/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
+        ("kernels/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
+        ("jit.py", '"forceinline": True', '"forceinline": False', True),
+        ("model/layout.py", "# --- where energy is lost", "# --- where energy goes", False),
+        ("kernels/pocket.py", '"""', '"""Anew: ', False),
+        ("model/ribs.py", "return ", "return 1.0 * ", False),
+    ],
+)
+def test_the_step_of_the_full_tier_follows_what_reaches_it(
+    tmp_path_factory: pytest.TempPathFactory, name: str, old: str, new: str, changes: bool
+) -> None:
+    folder = tmp_path_factory.getbasetemp() / "copied"
+    folder.mkdir(exist_ok=True)
+    assert (digest_after(folder, name, old, new) != digest_after(folder, "", "", "")) is changes
