@@ -44,12 +44,12 @@ def code_digest(function: Callable[..., Any]) -> str:
 
 def spelled_type(kind: Any) -> str:
     """Spell the type of an argument, with the fields of named tuples and the source of types of one's own."""
-    if isinstance(kind, types.BaseNamedTuple):
+    if isinstance(kind, (types.NamedTuple, types.NamedUniTuple)):
         members = (
             f"{name}: {spelled_type(each)}" for name, each in zip(kind.fields, kind.types, strict=True)
         )
         return f"{kind.instance_class.__name__}({', '.join(members)})"
-    if isinstance(kind, types.BaseTuple):
+    if isinstance(kind, (types.Tuple, types.UniTuple)):
         return f"({', '.join(map(spelled_type, kind.types))})"
     if isinstance(kind, types.Optional):
         return f"{spelled_type(kind.type)} or none"

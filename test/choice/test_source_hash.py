@@ -35,9 +35,7 @@ def hash_after(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Call
     forget()
 
 
-@pytest.mark.parametrize(
-    "edited", [RULES, "choice/losses.py", "choice/ringing.py", "bearing/geometry.py"]
-)
+@pytest.mark.parametrize("edited", [RULES, "choice/losses.py", "choice/ringing.py", "bearing/geometry.py"])
 def test_an_edit_of_what_the_rules_import_changes_the_hash(
     hash_after: Callable[..., str], edited: str
 ) -> None:

@@ -35,7 +35,8 @@ SMALL = {
     'from small.deep.force import force\n\n\n@entry\ndef step(state, rib):\n    """Advance."""\n'
     "    state[layout.THIRD] += force(rib, state[layout.FIRST])\n    return state[layout.THIRD]\n",
     "run.py": "import json\n\nimport numpy as np\n\nfrom small.deep.tuples.ribs import build\n"
-    "from small.step import step\nfrom beardyn_core.jit import when_compiling\n\nwith when_compiling(lambda: None) as compiled:\n"
+    "from small.step import step\nfrom beardyn_core.jit import when_compiling\n\n"
+    "with when_compiling(lambda: None) as compiled:\n"
     "    found = step(np.array([1e-3, 0.0, 1.0, 0.0]), build(1.0))\n"
     "print(json.dumps([bool(compiled), float(found)]))\n",
 }
