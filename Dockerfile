@@ -10,7 +10,7 @@ RUN apt-get update \
     && rm -rf /var/lib/apt/lists/*
 
 COPY . /source
-RUN pip install --no-cache-dir "/source[ros,data,sweep,structure,measured]" && rm -rf /source
+RUN pip install --no-cache-dir "/source[ros,view,plot,data,sweep,structure,measured]" && rm -rf /source
 
 RUN useradd --uid 1000 --create-home beardyn && mkdir /runs && chown 1000 /runs
 USER 1000

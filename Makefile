@@ -15,6 +15,8 @@ METADATA := setup.py setup.cfg pyproject.toml package.xml
 # Inside a sourced ROS 2 its own rclpy is used; the wheels would bring a second one.
 ROS := $(if $(ROS_DISTRO),,ros)
 VENV_OPTIONS := $(if $(ROS_DISTRO),--system-site-packages)
+# what the demo draws with
+DRAWING := view plot
 COMMA := ,
 EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
@@ -138,7 +140,7 @@ define install
 endef
 
 $(VENV)/.ready: $(METADATA) | $(BIN)/python
-	$(call install,$(call extras))
+	$(call install,$(call extras,$(DRAWING)))
 
 $(VENV)/.ready-test: $(METADATA) | $(BIN)/python
 	$(call install,$(call extras,test))
@@ -149,11 +151,11 @@ $(VENV)/.ready-dev: $(METADATA) | $(BIN)/python
 	@touch $(VENV)/.ready $(VENV)/.ready-test
 
 $(VENV)/.ready-release: $(METADATA) | $(BIN)/python
-	$(call install,$(call extras,release))
+	$(call install,$(call extras,release $(DRAWING)))
 	@touch $(VENV)/.ready
 
 $(VENV)/.ready-docs: $(METADATA) | $(BIN)/python
-	$(call install,$(call extras,docs sweep))
+	$(call install,$(call extras,docs sweep $(DRAWING)))
 	@touch $(VENV)/.ready
 
 $(BIN)/python:
@@ -166,5 +168,5 @@ $(BIN)/python:
 		echo "$(PYTHON) cannot make virtual environments: sudo apt-get install python3-venv, then again."; exit 2; }
 	@test -n "$(ROS_DISTRO)" || test "$$(uname -sm)" = "Linux x86_64" || { \
 		echo "The ROS 2 wheels exist for Linux on x86_64 only: source a ROS 2 installation first, or use the desk"; \
-		echo "commands alone: $(PYTHON) -m venv $(VENV) && $(BIN)/pip install . && $(BIN)/beardyn demo"; exit 2; }
+		echo "commands alone: $(PYTHON) -m venv $(VENV) && $(BIN)/pip install '.[view,plot]' && $(BIN)/beardyn demo"; exit 2; }
 	$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV)

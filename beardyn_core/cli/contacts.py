@@ -11,6 +11,7 @@ from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.interrupts import last_words, may_be_left
+from beardyn_core.optional import missing
 from beardyn_core.outputs import file_problems, folder_problems, write_whole
 
 DONE = 0
@@ -94,6 +95,10 @@ def run(args: argparse.Namespace) -> int:
 def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> list[str]:
     """List what is wrong with the options; nothing is created."""
     problems = folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
+    if args.output is not None:
+        problems += missing("matplotlib", "--output", "plot")
+    if args.rrd is not None:
+        problems += missing("rerun", "--rrd", "view")
     if args.rrd is not None and (args.rrd.parent != args.output or args.output.is_dir()):
         # a folder that is missing is made before the file is written
         problems += file_problems("--rrd", args.rrd, inputs=inputs, force=args.force, ending=".rrd")

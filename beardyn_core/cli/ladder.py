@@ -15,6 +15,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, names
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
+from beardyn_core.optional import missing
 from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
@@ -145,6 +146,9 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
     problems += [
         f"--quantities: {name!r} is not known; known are {', '.join(QUANTITIES)}" for name in unknown
     ]
+    problems += missing("distributed", "a ladder", "sweep")
+    if args.output is not None:
+        problems += missing("matplotlib", "--output", "plot")
     return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
 
 

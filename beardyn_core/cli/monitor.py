@@ -22,6 +22,7 @@ from beardyn_core.cli.measured_options import (
 from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.errors import InputError
+from beardyn_core.optional import missing
 from beardyn_core.outputs import as_a_whole, file_problems
 
 if TYPE_CHECKING:
@@ -216,7 +217,8 @@ def _is_recorded(args: argparse.Namespace) -> bool:
 def _picture_problems(args: argparse.Namespace) -> list[str]:
     """List why the picture cannot be written."""
     inputs = [Path(each) for each in args.files]
-    return file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
+    problems = [] if args.picture is None else missing("matplotlib", "--picture", "plot")
+    return problems + file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
 
 
 def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> None:

@@ -13,6 +13,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words, may_be_left
+from beardyn_core.optional import missing
 
 if TYPE_CHECKING:
     from beardyn_core.structure.build import Built
@@ -75,6 +76,7 @@ def run(args: argparse.Namespace) -> int:
         lambda inputs: [
             *_problems(args),
             *file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".csv"),
+            *(missing("rerun", "a view", "view") if args.save or args.view else []),
             *file_problems("--save", args.save, inputs=inputs, force=args.force, ending=".rrd"),
         ]
     ):

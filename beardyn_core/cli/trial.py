@@ -12,6 +12,7 @@ from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, add_monitor
 from beardyn_core.interrupts import last_words
+from beardyn_core.optional import missing
 from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
@@ -141,6 +142,9 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
     runs = None if args.output is None else args.output / RUNS_FILE
     goes_on = runs is not None and runs.is_file() and runs.stat().st_size > 0
+    problems += missing("distributed", "a trial", "sweep")
+    if args.output is not None:
+        problems += missing("matplotlib", "--output", "plot")
     return problems + folder_problems(
         "--output", args.output, FILES, inputs=inputs, force=args.force or goes_on
     )

@@ -12,6 +12,7 @@ from pathlib import Path
 from beardyn_core.cli.options import add_box, add_force, port
 from beardyn_core.errors import InputError
 from beardyn_core.interrupts import last_words
+from beardyn_core.optional import missing
 from beardyn_core.outputs import file_problems
 
 
@@ -50,10 +51,11 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.record import viewer
     from beardyn_core.record.reading import read_run
-    from beardyn_core.record.rerun_view import save
 
     if problems := option_problems(args):
         raise InputError(problems)
+    from beardyn_core.record.rerun_view import save
+
     if not (args.web or args.save or args.screenshot):
         viewer.require_display()
     recording = read_run(args.recording, args.box)
@@ -80,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
 
 def option_problems(args: argparse.Namespace) -> list[str]:
     """List what is wrong with the options; nothing is created."""
-    problems = []
+    problems = missing("rerun", "a view", "view")
     if args.port is not None and not args.web:
         problems.append("--port: is that of --web; give both")
     for option, file, ending in (("--save", args.save, ".rrd"), ("--screenshot", args.screenshot, ".png")):

@@ -16,6 +16,8 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
+from beardyn_core.optional import missing
+
 MOST_WORKERS = 1024
 _SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
 _STARTING_S = 120.0
@@ -52,7 +54,7 @@ class Cluster:
 
     def problems(self) -> list[str]:
         """List what is wrong with it, in the words of the command line."""
-        found = []
+        found = missing("distributed", "many runs at once", "sweep")
         if self.workers is not None and not 1 <= self.workers <= MOST_WORKERS:
             found.append(f"--workers {self.workers}: allowed is 1 to {MOST_WORKERS}")
         if self.memory is not None and not self.memory >= 2.5e8:

@@ -18,6 +18,7 @@ from typing import Annotated as A
 from typing import Any, Generic, TypeVar
 
 from beardyn_core.engine.cluster import Cluster, LocalCluster, wait_until
+from beardyn_core.optional import library
 
 Task = TypeVar("Task")
 # tasks that wait at the scheduler for each worker: enough that none is idle, few enough to be forgotten soon
@@ -211,6 +212,7 @@ class Engine:
         self._connect()
 
     def _connect(self) -> None:
+        library("distributed", "many runs at once", "sweep")
         from distributed import Client
 
         cluster = self.cluster
@@ -238,8 +240,7 @@ class Engine:
 
     def _quiet(self) -> None:
         """Keep what Dask logs about comers and goers from the user, who is told in a sentence."""
-        import distributed  # noqa: F401 (it sets its levels when it is imported)
-
+        library("distributed", "many runs at once", "sweep")  # it sets its levels when it is imported
         names = ("distributed", "distributed.client", "distributed.core", "distributed.comm")
         for name in (*names, "tornado", "tornado.application"):
             logging.getLogger(name).setLevel(logging.CRITICAL)

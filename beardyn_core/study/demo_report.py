@@ -7,19 +7,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import chain, count
 from pathlib import Path
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 import numpy as np
 
 from beardyn_core.errors import InputError
 from beardyn_core.observe.summary import SETTLING_S
+from beardyn_core.optional import missing
 from beardyn_core.outputs import folder_problems
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect
 from beardyn_core.study.monitored_recording import HEALTHY, Conclusion, Finding, conclude
-from beardyn_core.study.summary_picture import SummaryData, summary_picture
+
+if TYPE_CHECKING:
+    from beardyn_core.study.summary_picture import SummaryData
 
 RECORDING_NAME = "run.mcap"
 RERUN_NAME = "run.rrd"
@@ -56,8 +60,10 @@ def demo_folder(given: Path | None, say: Say, *, inputs: Sequence[Path] = (), fo
     Raises
     ------
     InputError
-        It cannot be made or written, or it holds results already.
+        It cannot be made or written, it holds results already, or a library is missing that draws them.
     """
+    if problems := missing("matplotlib", "the demo", "plot") + missing("rerun", "the demo", "view"):
+        raise InputError(problems)
     folder = _free_folder(force) if given is None else given
     if given is None and folder != USUAL_FOLDER:
         say(
@@ -107,6 +113,7 @@ def report(folder: Path, pace: Pace, say: Say, picture_of_view: bool = True) -> 
     """
     from beardyn_core.record.rerun_view import save
     from beardyn_core.record.viewer import picture_problem, take_picture
+    from beardyn_core.study.summary_picture import summary_picture
 
     recording = folder / RECORDING_NAME
     run = read_run(recording)
@@ -197,6 +204,8 @@ def summary_data(run: Run, conclusion: Conclusion) -> SummaryData:
     centre = run.bodies.pose[settled, 4:, :3].reshape(int(settled.sum()), 2, shape.roller_count, 3)
     spectrum = envelope_order_spectrum(run.vibration, run.shaft, HIGHEST_HARMONIC * orders["BPFI"])
     finding = conclusion.finding
+    from beardyn_core.study.summary_picture import SummaryData
+
     return SummaryData(
         title=f"{run.described().scene}: {shape.name}",
         verdict=finding.reason if finding else "monitor: not enough signal for a verdict",

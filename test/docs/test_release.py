@@ -13,7 +13,6 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
-OTHER_NAMES = {"matplotlib": "matplotlib-base"}  # of conda-forge
 
 
 def setup_words() -> dict[str, Any]:
@@ -57,16 +56,15 @@ def test_the_conda_recipe_asks_for_what_setup_asks_for() -> None:
     wanted = requirements(SETUP["install_requires"])
     given = requirements(recipe()["requirements"]["run"])
     assert given.pop("python") == SETUP["python_requires"]
-    assert given == {OTHER_NAMES.get(name, name): versions for name, versions in wanted.items()}
+    assert given == wanted
 
 
 def test_the_pixi_environment_allows_what_setup_asks_for() -> None:
     whole = tomllib.loads((ROOT / "release/pixi.toml").read_text(encoding="utf-8"))
     wanted = requirements(SETUP["install_requires"])
-    names = {other: name for name, other in OTHER_NAMES.items()}
     for package, versions in whole["dependencies"].items():
         if package not in ("python", "pip"):
-            assert versions == wanted[names.get(package, package)], package
+            assert versions == wanted[package], package
     assert (ROOT / "release" / whole["pypi-dependencies"]["beardyn"]["path"] / "setup.py").is_file()
 
 
