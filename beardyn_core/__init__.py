@@ -7,49 +7,34 @@ What a Python program uses is here and explained in docs/python.md::
     run = bd.simulate("cup_spall", tier="quasistatic", duration=2.0)
     run.vibration.values, run.vibration.time, run.truth
 
-============= ===================================================================
-module        responsibility
-============= ===================================================================
-jit           how kernels are compiled
-machine_code  what a kernel's machine code comes from, as a digest
-kernel_cache  compiled kernels on disk
-cache_root    where everything lies that is kept from run to run
-errors        errors a user sees
-units         units of numbers in files, and the way to SI
-edge          unit, limits and words of a number, on the field that holds it
-inputs        files that are read: no pipe, no device
-outputs       files that a command writes: nothing is replaced unasked
-announcements lines on standard error about what takes long
-interrupts    Ctrl-C, also while something is compiled
-versions      versions of what computed a run
-arrays        names of array types in signatures
-optional      libraries of an extra, imported when they are needed
-packed        a small file as one word of text, in a recorded scene
-plain_json    what strict JSON can hold
-effects       the catalogue of effects and sets of them
-bearing       geometry, kinematics, materials, lubricants
-scene         one bearing under one operation: loads, mounting, defects, sensors
-structure     modes of axleboxes: meshes, finite elements, tables of modes
-rail          wheel-rail scenario to load on the journal
-config        YAML files to bearings and scenes, all mistakes at once
-model         bearing and scene to kernel parameters, and where each number stands
-kernels       contacts, rollers and rings as compiled lane code
-integrate     static equilibrium, state, time steps, status
-observe       raw signals to channels, sensors, features, monitoring
-choice        tier, effects, laminae and step for an accuracy, with reasons
-laboratory    general contact search against closed forms: `beardyn contacts`
-twin          a scene that advances block by block
-run           the one loop: load, kernels, equilibrium, blocks to the end
-record        the topic table, MCAP files, runs as arrays, the rerun view
-measured      files of measuring programs as recordings and runs
-engine        many runs at once, on all cores or a Dask cluster
-study         desk runs, ladders, trials, summaries, pictures
-population    sweeps: sets of labelled runs, and a learner to compare with
-follow        load, end play and spall from vibration, with intervals
-calibration   the scene of one measured axlebox
-api           the functions of this module
-cli           the beardyn command, a module a subcommand
-============= ===================================================================
+=========== ====================================================================
+module      responsibility
+=========== ====================================================================
+base        errors, units, files, arrays, and how kernels are compiled and kept
+effects     the catalogue of effects and sets of them
+bearing     geometry, kinematics, materials, lubricants
+scene       one bearing under one operation: loads, mounting, defects, sensors
+structure   modes of axleboxes: meshes, finite elements, tables of modes
+rail        wheel-rail scenario to load on the journal
+config      YAML files to bearings and scenes, all mistakes at once
+model       bearing and scene to kernel parameters, and where each number stands
+kernels     contacts, rollers and rings as compiled lane code
+integrate   static equilibrium, state, time steps, status
+observe     raw signals to channels, sensors, features, monitoring
+choice      tier, effects, laminae and step for an accuracy, with reasons
+laboratory  general contact search against closed forms: `beardyn contacts`
+twin        a scene that advances block by block
+run         the one loop: load, kernels, equilibrium, blocks to the end
+record      the topic table, MCAP files, runs as arrays, the rerun view
+measured    files of measuring programs as recordings and runs
+engine      many runs at once, on all cores or a Dask cluster
+study       desk runs, ladders, trials, summaries, pictures
+population  sweeps: sets of labelled runs, and a learner to compare with
+follow      load, end play and spall from vibration, with intervals
+calibration the scene of one measured axlebox
+api         the functions of this module
+cli         the beardyn command, a module a subcommand
+=========== ====================================================================
 
 Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract. This module imports
 nothing before it is asked for.
@@ -80,11 +65,11 @@ if TYPE_CHECKING:
         torque,
     )
     from beardyn_core.api.sweeping import open_set, sweep
+    from beardyn_core.base.errors import InputError, ValidityError
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.effects import EffectSet
-    from beardyn_core.errors import InputError, ValidityError
     from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.follow.forecast import Forecast, Service
     from beardyn_core.follow.growth import GrowthLaw
@@ -138,7 +123,7 @@ _MODULES = {
     "follow.forecast": ("Forecast", "Service"),
     "follow.growth": ("GrowthLaw",),
     "follow.estimator": ("Estimates", "Estimator"),
-    "errors": ("InputError", "ValidityError"),
+    "base.errors": ("InputError", "ValidityError"),
     "observe.block": ("Block",),
     "observe.chain": ("Chain", "MonitorSettings"),
     "observe.summary": ("RunSummary",),

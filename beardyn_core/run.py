@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.announcements import announced_on_stderr
-from beardyn_core.interrupts import sealed
+from beardyn_core.base.announcements import announced_on_stderr
+from beardyn_core.base.interrupts import sealed
 from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_of_run
 from beardyn_core.scene.load import LoadHistory

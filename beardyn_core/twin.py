@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.jit import LANE_WIDTH, when_compiling
+from beardyn_core.base.versions import versions
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.rest import rest_under, weight_on_cone
 from beardyn_core.integrate.snapshot import Snapshot
@@ -21,7 +23,6 @@ from beardyn_core.integrate.state import Output, State, work_space
 from beardyn_core.integrate.status import assess, describe, is_fatal
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.integrate.warming import blocks_between, cold_start, scene_at, warmed
-from beardyn_core.jit import LANE_WIDTH, when_compiling
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.build import BLOCK_NS, build_parameters
@@ -40,7 +41,6 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
-from beardyn_core.versions import versions
 
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 

@@ -13,7 +13,7 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.scene.axleboxes import AXLES_OF_A_CAR, Axleboxes, Box
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.run_state import Rig, scene_rig

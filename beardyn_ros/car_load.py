@@ -12,7 +12,7 @@ from typing import Any
 
 from std_srvs.srv import SetBool
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_ros.car import BOXES, CAR, NodeGroup, boxes_named, train_of
 from beardyn_ros.car_scenario import CarScenario

@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_ros.car import BOXES, CAR, NodeGroup, axleboxes_of, boxes_named
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recorder_node import PARAMETERS as RECORDER_PARAMETERS

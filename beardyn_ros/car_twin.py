@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_ros.car import BOXES, CAR, NodeGroup, box_rig, boxes_named, place_of, train_of
 from beardyn_ros.description_publisher import PARENT, POSE
 from beardyn_ros.frames import FRAME_ID

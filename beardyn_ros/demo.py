@@ -12,7 +12,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available, this_machine_only
@@ -66,8 +66,8 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _demo(args: argparse.Namespace) -> int:
+    from beardyn_core.base.outputs import files_read
     from beardyn_core.config import read_scene
-    from beardyn_core.outputs import files_read
     from beardyn_core.study.demo_report import RECORDING_NAME, Pace, demo_folder, report
 
     wanted = {("effects",): args.effects, ("duration_s",): args.duration}

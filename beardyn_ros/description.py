@@ -14,8 +14,8 @@ from math import atan2, cos, sin
 from pathlib import Path
 from xml.etree import ElementTree
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config.yaml_text import read_mapping
-from beardyn_core.errors import InputError
 from beardyn_core.model.heat import NODES
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import orbit_joints

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import decode, decode_string, encode_string, header_stamp
 from beardyn_core.record.topics import JOINTS

@@ -18,9 +18,9 @@ from rclpy.node import Node
 
 from beardyn_core.api.following import follower_of, residual_beside
 from beardyn_core.api.making import scene as make_scene
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_plate
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.following import SOUND, WAITING, Followed

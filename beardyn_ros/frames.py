@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from re import fullmatch
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.topics import FRAME
 from beardyn_ros.parameters import NodeParameter
 

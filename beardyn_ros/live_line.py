@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.chord_polynomials import between, fitted_polynomials
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.held_load import HeldLoad

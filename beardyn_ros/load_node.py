@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from rclpy.node import Node
 from std_srvs.srv import SetBool, Trigger
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_told, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic

@@ -14,10 +14,10 @@ from collections.abc import Sequence
 import numpy as np
 from rclpy.node import Node
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import InputError
 from beardyn_core.observe.chain import algorithm_named
 from beardyn_core.observe.monitoring import Monitor
 from beardyn_core.record.cloud_layout import cloud_points

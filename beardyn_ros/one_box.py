@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene

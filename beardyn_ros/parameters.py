@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_ros.addressed import own_parameters
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, isfinite, sin
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 from rclpy.node import Node
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.bag_writing import SMALLEST_BYTES, Splitting
 from beardyn_core.record.messages import (
     Diagnostic,

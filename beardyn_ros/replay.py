@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.scene.load import LoadHistory
 
 LAST_SAMPLE = 2**32 - 1  # `sample` on the wire is uint32: five days at 10 kHz

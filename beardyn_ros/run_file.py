@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from beardyn_core.errors import InputError
-from beardyn_core.plain_json import read_object
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import read_object
 from beardyn_core.record.bag_writing import BagWriter
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD

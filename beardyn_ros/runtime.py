@@ -15,7 +15,7 @@ from threading import Event
 from types import FrameType
 from typing import Any, Protocol
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
 
 EXIT_DONE = 0

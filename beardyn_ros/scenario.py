@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.errors import InputError
-from beardyn_core.plain_json import read_object
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import read_object
 from beardyn_core.rail.events import events_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.replay import Replay

@@ -15,7 +15,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.cache_root import cache_root
+from beardyn_core.base.cache_root import cache_root
 from beardyn_core.record import meshes
 from beardyn_core.record.description import BearingShape
 from beardyn_core.record.meshes import CUT_OPEN, Mesh

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from rclpy.node import Node
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import decode, decode_diagnostics, header_stamp

@@ -13,7 +13,7 @@ from typing import Any
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from std_srvs.srv import SetBool, Trigger
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic

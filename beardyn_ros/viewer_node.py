@@ -8,8 +8,8 @@ from pathlib import Path
 
 from rclpy.node import Node
 
-from beardyn_core.errors import InputError
-from beardyn_core.optional import library
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
 from beardyn_core.record.topics import topic, vibration_topic

@@ -14,7 +14,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from beardyn_core.jit import LANE_WIDTH
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.edge import places
+from beardyn_core.base.units import unit_of
 from beardyn_core.cli.measured_options import flag
 from beardyn_core.config import SCHEMA_KINDS, json_schema
-from beardyn_core.edge import places
 from beardyn_core.measured.options import Reading
-from beardyn_core.units import unit_of
 
 PAGE = Path(__file__).with_name("reference.md")
 

@@ -28,9 +28,9 @@ from launch.events.process import SignalProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 from beardyn_core.scene.axleboxes import Box
 from beardyn_ros.car import CAR, boxes_named, place_of
 from beardyn_ros.launching import failure_of

@@ -10,9 +10,12 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core import interrupts
 from beardyn_core.api.making import scene as make_scene
 from beardyn_core.api.reading import heard_of, monitor
+from beardyn_core.base import interrupts
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
+from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.calibration.fitting import FEWEST_RUNS, Fit, Fitted, Fitter, rms
@@ -22,11 +25,8 @@ from beardyn_core.calibration.unknowns import BY_NAME, UNKNOWNS, Unknown
 from beardyn_core.calibration.writing import scene_keys, scene_text
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.folders import find
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.listening import FEWEST_TURNS, alike, sizes_text
-from beardyn_core.optional import library
-from beardyn_core.outputs import as_a_whole, file_problems
 from beardyn_core.record.run import Run
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from beardyn_core.api.reading import heard_of
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import file_problems
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.errors import InputError
 from beardyn_core.follow import forecast as forecasting
 from beardyn_core.follow import training
 from beardyn_core.follow.estimator import Estimates, Estimator, read_estimator
@@ -18,7 +19,6 @@ from beardyn_core.follow.forecast import Forecast, Service
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.listening import estimates_of
 from beardyn_core.follow.shipped import shipped_for
-from beardyn_core.outputs import file_problems
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.record.run import Run
 

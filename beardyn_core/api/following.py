@@ -14,13 +14,13 @@ import numpy as np
 
 from beardyn_core.api.making import scene as make_scene
 from beardyn_core.api.reading import heard_of
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.edge import written
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimates, Estimator, read_estimator
 from beardyn_core.follow.following import Followed, Follower

@@ -9,6 +9,8 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
@@ -18,9 +20,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant, read_noun
 from beardyn_core.config.plates import load_plate
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import EFFECTS, Scene
 
 USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config import load_plate
-from beardyn_core.errors import InputError
 from beardyn_core.measured.about import mounted_in
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
 from beardyn_core.observe.severity import Severity

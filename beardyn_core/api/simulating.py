@@ -10,14 +10,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.announcements import announced_on_stderr
 from beardyn_core.api.making import scene as make_scene
+from beardyn_core.base.announcements import announced_on_stderr
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import files_read, recording_problems
 from beardyn_core.config.content import files_of
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.summary import RunSummary
-from beardyn_core.outputs import files_read, recording_problems
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink, TrainSink

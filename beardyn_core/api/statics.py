@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
@@ -25,7 +26,6 @@ from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import LineFilm, RollingResistance
 from beardyn_core.effects.grease import LAYERS
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
 from beardyn_core.integrate.static import StaticSolution, solve
 from beardyn_core.integrate.torque import entrainment_speeds, running_torque

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from beardyn_core.base.edge import outside
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.contact_law import rib_curvature_radius
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import outside
-from beardyn_core.errors import InputError
 
 
 def check(bearing: Bearing) -> list[str]:

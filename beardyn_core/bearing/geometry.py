@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from typing import Annotated as A
 
+from beardyn_core.base.edge import INTERNAL, At, Vector
 from beardyn_core.bearing.profile import Profile
-from beardyn_core.edge import INTERNAL, At, Vector
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.kinematics import FaultFrequencies

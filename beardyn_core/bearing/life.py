@@ -9,7 +9,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 
 # of C_0r and of C_r: beyond these a force is refused, or doubted

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.edge import At
+from beardyn_core.base.edge import At
 
 _KELVIN_40 = 313.15
 _KELVIN_100 = 373.15

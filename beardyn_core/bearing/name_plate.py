@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from typing import Annotated as A
 
-from beardyn_core.edge import At, refuse
+from beardyn_core.base.edge import At, refuse
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Annotated as A
 from typing import NamedTuple, TypeVar
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 Thickness = TypeVar("Thickness", float, Float)
 

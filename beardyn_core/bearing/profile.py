@@ -10,8 +10,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beardyn_core.arrays import Float
-from beardyn_core.edge import At
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import At
 
 PROFILE_KINDS = ("straight", "crowned", "logarithmic", "lundberg", "johns_gohar", "iso_16281", "fujiwara")
 # The logarithm is singular at the very end of the contact; the drop is held constant beyond this abscissa.

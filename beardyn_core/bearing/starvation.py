@@ -16,7 +16,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid, trapezoid
 from scipy.optimize import brentq
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.oil_layer import CoupleShares
 
 _FAR = 1e5  # where nothing is missed by the flooded inlet

@@ -15,10 +15,10 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import At
+from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import At
-from beardyn_core.units import UNITS
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 

@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.calibration.identify import Identified, common_slope, identified
 from beardyn_core.calibration.search import Tried, misfit, search, weights
 from beardyn_core.calibration.spectra import tolerance_of
 from beardyn_core.calibration.twin import Beside
 from beardyn_core.calibration.unknowns import NOISE, UNKNOWNS, Unknown
-from beardyn_core.errors import ValidityError
 
 SEEDS = 4  # twins on other tracks with other bearings of the lot
 _STEPS = 3  # of least squares, behind the search

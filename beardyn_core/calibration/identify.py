@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.stats import t as student
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.calibration.spectra import SHARE
 
 PRIOR = 1.0 / np.sqrt(12.0)  # standard deviation of what is anywhere in the unit box alike

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.optional import library
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 
 _SPREAD = 0.2  # of the first points, of the unit box
 _POPULATION = 8

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.descriptors import band_levels
 from beardyn_core.follow.listening import stretches_of
 from beardyn_core.record.run import Run

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.calibration.spectra import Hearing, Ride, levels_of
 from beardyn_core.calibration.unknowns import BY_NAME, NOISE
 from beardyn_core.choice import scene_from_mapping
-from beardyn_core.edge import written
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.population.batch import simulated
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.edge import written
+from beardyn_core.base.edge import written
 from beardyn_core.effects import ModalStructure
 from beardyn_core.population.places import Place, with_value
 from beardyn_core.scene.scene import Scene

@@ -7,9 +7,9 @@ from typing import Any
 
 import yaml
 
+from beardyn_core.base.edge import written
 from beardyn_core.calibration.fitting import Fit
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import written
 from beardyn_core.scene.scene import Scene
 
 

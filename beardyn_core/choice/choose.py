@@ -13,13 +13,13 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import product
 from typing import Any
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import bending, friction, guidance, motion, numerics
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
 from beardyn_core.choice.sampling import rate_for
 from beardyn_core.effects import Audit, EffectSet
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.scene.scene import QUANTITIES, Free, Scene
 from beardyn_core.scene.sensor import RATES

@@ -7,8 +7,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.build import load_of_scene
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.operation import ConstantOperation, MeasuredOperation, SteppedOperation

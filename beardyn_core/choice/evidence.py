@@ -9,13 +9,13 @@ from typing import Annotated as A
 
 import numpy as np
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import Circumstances, circumstances
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.ringing import Bounce, bounce
 from beardyn_core.choice.statics import Statics
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.integrate.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import Patch, WornPocket

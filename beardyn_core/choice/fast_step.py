@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.integrate.friction_steps import StepChoice

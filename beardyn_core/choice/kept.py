@@ -18,13 +18,13 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.cache_root import cache_root
+from beardyn_core.base.cache_root import cache_root
+from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.choice.rule import Choice
 from beardyn_core.choice.source_hash import source_hash
 from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.outputs import as_a_whole
 from beardyn_core.scene.scene import Free, Scene
 
 _RULES = Path(__file__).with_name("choose.py")

@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading

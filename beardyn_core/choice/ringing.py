@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config.structure import seat_of
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.journal import journal_shapes, modes_of

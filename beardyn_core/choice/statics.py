@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.rest import rest_under
 from beardyn_core.integrate.roller_equilibrium import spring_params
 from beardyn_core.integrate.static import StaticSolution

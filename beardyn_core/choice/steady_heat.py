@@ -11,13 +11,13 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
 from beardyn_core.choice.circumstances import LoadCase, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Thermal
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.warming import cold_start, film_temperature
 from beardyn_core.model.heat import (
     BOX_NODE,

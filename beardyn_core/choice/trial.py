@@ -9,6 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import UNITS
 from beardyn_core.choice.load import choice_for, closed
 from beardyn_core.config import automatic
 from beardyn_core.config.folders import find
@@ -16,13 +19,10 @@ from beardyn_core.config.load import OpenScene, read_scene_mapping
 from beardyn_core.config.nouns import read_trial
 from beardyn_core.config.scene_file import overlay
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.errors import InputError
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import EFFECTS, Scene
 from beardyn_core.scene.trial import CAGE, HEALTHY, SLOT, Cell, Spall, Trial, TrialChoice
-from beardyn_core.units import UNITS
 
 # a spall of the cup is where the load is
 _LOAD_ZONE_DEG = 30.0

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.bearing_options import operation_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 from beardyn_core.cli.quantities import NEGATIVE_QUANTITY
-from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing

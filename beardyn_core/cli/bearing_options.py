@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 import math
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.quantities import read_quantity
-from beardyn_core.errors import InputError
 
 _DEFAULT_LOAD = ("0", "0", "80")  # [kN]
 
 
 def operation_of(args: argparse.Namespace) -> tuple[tuple[float, float, float], float | None, float]:
     """Read load, end play and speed; raise `InputError` with everything that makes no sense."""
+    from beardyn_core.base.units import UNITS
     from beardyn_core.scene.operation import MOST_RPM
-    from beardyn_core.units import UNITS
 
     problems: list[str] = []
 
@@ -50,8 +50,8 @@ def operation_of(args: argparse.Namespace) -> tuple[tuple[float, float, float], 
 
 def _end_play_problems(end_play: float) -> list[str]:
     """Say why a bearing cannot have an end play, [m]: the limits are those of bearing files."""
+    from beardyn_core.base.edge import places
     from beardyn_core.bearing.geometry import Bearing
-    from beardyn_core.edge import places
 
     at = next(place.at for place in places(Bearing) if place.field == "end_play")
     written, least, most = at.scale.to_edge(end_play), at.limits["ge"], at.limits["le"]

@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import file_problems, files_read
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_force, add_json, names
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import file_problems, files_read
 
 if TYPE_CHECKING:
     from beardyn_core.api.calibrating import Calibration

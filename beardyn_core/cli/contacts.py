@@ -7,12 +7,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from beardyn_core.base.interrupts import last_words, may_be_left
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import file_problems, folder_problems, write_whole
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
-from beardyn_core.interrupts import last_words, may_be_left
-from beardyn_core.optional import missing
-from beardyn_core.outputs import file_problems, folder_problems, write_whole
 
 DONE = 0
 _BEARING = "HS130x230"
@@ -62,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
     with checked(lambda inputs: option_problems(args, inputs)):
         bearing = load_bearing(args.bearing)
 
-    from beardyn_core.jit import when_compiling
+    from beardyn_core.base.jit import when_compiling
     from beardyn_core.laboratory.findings import find
     from beardyn_core.study.contacts_report import json_object, report
 

@@ -9,9 +9,9 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.outputs import files_read
 from beardyn_core.cli.files import tell_doubts
-from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import files_read
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
-from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimates

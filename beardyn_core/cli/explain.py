@@ -79,7 +79,7 @@ def text(found: Explanation) -> str:
 
 def _heard(explanation: Explanation) -> list[str]:
     """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
-    from beardyn_core.edge import written
+    from beardyn_core.base.edge import written
 
     scene, found = explanation.scene, list(explanation.current.told)
     if scene.background is not None:

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import files_read
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import files_read
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.estimate import add_hearing, add_service, service_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
-from beardyn_core.errors import InputError
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -7,12 +7,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.outputs import recording_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import add_plates, add_reading, mounted_of, reading_of
 from beardyn_core.cli.options import add_force, add_json
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import recording_problems
 
 if TYPE_CHECKING:
     from beardyn_core.measured.writing import Imported

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from beardyn_core.plain_json import strict_text
+from beardyn_core.base.plain_json import strict_text
 
 SCHEMA_VERSION = 1
 """Raised when a key is renamed, removed or changes its meaning; a new key does not raise it."""

@@ -10,13 +10,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
 from beardyn_core.cli.files import checked, made_folder, tell_doubts
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, names
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words
-from beardyn_core.optional import missing
-from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene

@@ -12,8 +12,8 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from beardyn_core import interrupts
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base import interrupts
+from beardyn_core.base.errors import InputError, ValidityError
 
 # The rest is imported inside `main`, where a Ctrl-C while it loads is answered.
 if TYPE_CHECKING:

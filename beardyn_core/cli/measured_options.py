@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.edge import Place, places
-from beardyn_core.errors import InputError
+from beardyn_core.base.edge import Place, places
+from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate

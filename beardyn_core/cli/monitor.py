@@ -9,6 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.json_output import json_text, renamed
 from beardyn_core.cli.measured_options import (
@@ -21,9 +24,6 @@ from beardyn_core.cli.measured_options import (
 )
 from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
 from beardyn_core.cli.trend import add_trend, run_trend
-from beardyn_core.errors import InputError
-from beardyn_core.optional import missing
-from beardyn_core.outputs import as_a_whole, file_problems
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing

@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.cli.options import add_force
 from beardyn_core.cli.scenes import KINDS
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import as_a_whole, file_problems
 
 _NAME_KEY = {"scenes": "scene", "trials": "trial", "sweeps": "sweep"}
 _HOW = {

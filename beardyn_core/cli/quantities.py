@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 # dimension -> unit -> factor and divisor to SI, as a division by 1000 keeps the number nearest to the decimal
 # one; the first is the unit of a number without one

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import is_being_written
 from beardyn_core.cli.json_output import json_text, renamed
 from beardyn_core.cli.options import add_box, add_force, add_json
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import is_being_written
 
 if TYPE_CHECKING:
     from beardyn_core.record.reporting import Report

@@ -9,9 +9,9 @@ import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
-from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -249,8 +249,8 @@ def _sensor(name: str) -> dict[str, Any]:
 
 
 def _background(name: str) -> dict[str, Any]:
+    from beardyn_core.base.edge import written
     from beardyn_core.config.nouns import load_background
-    from beardyn_core.edge import written
 
     background = load_background(name)
     parts = [part for part in written(background) if part not in ("name", "description", "sources")]

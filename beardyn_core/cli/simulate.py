@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.outputs import recording_problems
 from beardyn_core.cli.files import checked, tell_doubts
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_choice, add_force, add_json, chosen
-from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import recording_problems
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block

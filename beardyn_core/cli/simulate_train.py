@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.interrupts import last_words
 from beardyn_core.cli.files import tell_doubts
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.interrupts import last_words
 
 if TYPE_CHECKING:
     from beardyn_core.observe.block import Block

@@ -8,12 +8,12 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words, may_be_left
+from beardyn_core.base.optional import missing
 from beardyn_core.cli.files import checked
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words, may_be_left
-from beardyn_core.optional import missing
 
 if TYPE_CHECKING:
     from beardyn_core.structure.build import Built
@@ -63,8 +63,8 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.base.outputs import file_problems, write_whole
     from beardyn_core.config.nouns import load_bearing, load_box
-    from beardyn_core.outputs import file_problems, write_whole
     from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box
     from beardyn_core.structure.build import HIGHEST, MESH, modes_of

@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.outputs import folder_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words
-from beardyn_core.outputs import folder_problems
 
 if TYPE_CHECKING:
     from beardyn_core.engine import Cluster

@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import file_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import file_problems
 
 if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimator

@@ -8,9 +8,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.json_output import json_text, renamed
 from beardyn_core.cli.measured_options import plate_options, reading_of
-from beardyn_core.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.observe.trend import TrendPoint

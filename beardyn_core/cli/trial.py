@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
 from beardyn_core.cli.files import checked, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, add_monitor
-from beardyn_core.interrupts import last_words
-from beardyn_core.optional import missing
-from beardyn_core.outputs import as_a_whole, folder_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.scene.trial import Trial

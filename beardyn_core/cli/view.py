@@ -9,11 +9,11 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import file_problems
 from beardyn_core.cli.options import add_box, add_force, port
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import last_words
-from beardyn_core.optional import missing
-from beardyn_core.outputs import file_problems
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

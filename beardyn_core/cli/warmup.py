@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from beardyn_core.interrupts import last_words
+from beardyn_core.base.interrupts import last_words
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -37,8 +37,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.base.jit import when_compiling
     from beardyn_core.choice import load_scene
-    from beardyn_core.jit import when_compiling
     from beardyn_core.twin import Twin
 
     if args.scene:

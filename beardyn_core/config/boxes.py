@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from beardyn_core.base.edge import Vector
+from beardyn_core.base.packed import packed
 from beardyn_core.config.structure import modes_of_effects
-from beardyn_core.edge import Vector
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.packed import packed
 from beardyn_core.scene.axleboxes import Box
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.packed import packed
 from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.packed import packed
 from beardyn_core.rail.transfer_path import content_of, read_transfer_path
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer, MeasuredPath

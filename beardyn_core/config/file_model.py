@@ -17,9 +17,9 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from beardyn_core.base.edge import NounError, Place, Problem, alternatives, rules_of
+from beardyn_core.base.units import Unit, stem_of, unit_of
 from beardyn_core.config.folders import closest
-from beardyn_core.edge import NounError, Place, Problem, alternatives, rules_of
-from beardyn_core.units import Unit, stem_of, unit_of
 
 
 class FileModel(BaseModel):

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 KINDS = (
     "bearings",

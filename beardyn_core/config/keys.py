@@ -11,8 +11,7 @@ from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
 from pydantic import Discriminator, Field, StrictBool, Tag, TypeAdapter, ValidationError, create_model
 
-from beardyn_core.config.file_model import FileModel, SourcedModel, SourcedPart
-from beardyn_core.edge import (
+from beardyn_core.base.edge import (
     At,
     Place,
     alternatives,
@@ -24,7 +23,8 @@ from beardyn_core.edge import (
     places,
     plain_hint,
 )
-from beardyn_core.units import Unit
+from beardyn_core.base.units import Unit
+from beardyn_core.config.file_model import FileModel, SourcedModel, SourcedPart
 
 Text = Annotated[str, Field(strict=True)]
 Name = Annotated[str, Field(strict=True, min_length=1, max_length=80)]
@@ -52,7 +52,7 @@ def keys_of(noun: Any, usual_kind: str | None = None, part_of_sourced: bool = Fa
     Parameters
     ----------
     noun : type
-        A dataclass or named tuple whose fields have `beardyn_core.edge.At`.
+        A dataclass or named tuple whose fields have `beardyn_core.base.edge.At`.
     usual_kind : str, optional
         Kind of a mapping that does not say its kind.
     part_of_sourced : bool

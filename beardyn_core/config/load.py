@@ -12,6 +12,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from beardyn_core.base.edge import places
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import UNITS, stem_of
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
@@ -23,9 +26,7 @@ from beardyn_core.config.missing import entries_of, missing_problems
 from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
 from beardyn_core.config.scene_file import overlay, with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import places
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.spectra import DENSITY_LAYOUT
@@ -38,7 +39,6 @@ from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Free, Numerics, Scene
 from beardyn_core.scene.tier import TIER_NAMES, contradictions, integrator_problems
 from beardyn_core.scene.waviness import Waviness
-from beardyn_core.units import UNITS, stem_of
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ from pydantic import ValidationError
 
 import beardyn_core.config.part_files
 import beardyn_core.config.scene_file  # noqa: F401  both say what the files of nouns may have besides
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import note_read
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
@@ -19,8 +21,6 @@ from beardyn_core.config.keys import keys_of
 from beardyn_core.config.problems import Origin, sentences
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import note_read
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.operation import Vehicle
 from beardyn_core.scene.sensor import SensorType

@@ -9,10 +9,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag, WithJsonSchema
 
+from beardyn_core.base.edge import WorkedOut
 from beardyn_core.bearing.lubricant import Lubricant, gold_pressure_viscosity, walther_viscosity
 from beardyn_core.config.file_model import FileModel, SourcedModel
 from beardyn_core.config.keys import Text, keys_of, reads
-from beardyn_core.edge import WorkedOut
 from beardyn_core.rail.measured import speed_points
 from beardyn_core.scene.defect import Growth, Patch
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation

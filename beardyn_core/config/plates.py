@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.nouns import bearing_from_mapping, load_bearing, read_noun
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 
 
 def load_plate(name: str | Path) -> NamePlate:

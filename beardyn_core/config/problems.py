@@ -10,9 +10,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from beardyn_core.base.edge import LIMIT_WORDS
+from beardyn_core.base.units import unit_of
 from beardyn_core.config.folders import closest
-from beardyn_core.edge import LIMIT_WORDS
-from beardyn_core.units import unit_of
 
 Place = tuple[str | int, ...]
 

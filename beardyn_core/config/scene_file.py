@@ -9,21 +9,21 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, Tag, WithJsonSchema, field_validator
 from pydantic_core import PydanticKnownError
 
+from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, places
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import tagged
 from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
-from beardyn_core.edge import NounError, Problem, alternatives, kinds_of, places
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, rates_do_not_fit, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
-from beardyn_core.units import UNITS
 
 _AUTO = {"const": "auto"}
 

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
+from beardyn_core.base.edge import Problem, places, written_value
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import note_read
+from beardyn_core.base.packed import unpacked
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.config.folders import closest, config_folder
-from beardyn_core.edge import Problem, places, written_value
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import note_read
-from beardyn_core.packed import unpacked
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.modes import Modes

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from beardyn_core.edge import written
-from beardyn_core.errors import InputError
-from beardyn_core.inputs import text_of_file
-from beardyn_core.outputs import note_read
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import text_of_file
+from beardyn_core.base.outputs import note_read
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene

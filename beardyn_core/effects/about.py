@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.edge import At
+from beardyn_core.base.edge import At
 
 # where friction is regularised by u / sqrt(u^2 + u_r^2)
 SlipSpeed = A[float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"]

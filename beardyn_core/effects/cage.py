@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import ClassVar, Literal
 
-from beardyn_core.edge import SHARE, At
+from beardyn_core.base.edge import SHARE, At
 from beardyn_core.effects.about import About, SlipSpeed
 
 PocketFriction = A[float, SHARE, "coefficient of friction between roller and pocket"]

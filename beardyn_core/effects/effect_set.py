@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Annotated as A
 
-from beardyn_core.edge import At
+from beardyn_core.base.edge import At
 from beardyn_core.effects.audit import Audit
 from beardyn_core.effects.cage import Cage, CageModel
 from beardyn_core.effects.contact_damping import ContactDamping

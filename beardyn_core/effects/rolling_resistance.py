@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import ClassVar, Literal
 
-from beardyn_core.edge import SHARE, At
+from beardyn_core.base.edge import SHARE, At
 from beardyn_core.effects.about import About
 
 RollingKind = Literal["aihara", "zhou_hoeprich", "biboulet_houpert", "hysteresis"]

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.optional import missing
+from beardyn_core.base.optional import missing
 
 MOST_WORKERS = 1024
 _SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")

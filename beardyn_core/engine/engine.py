@@ -17,8 +17,8 @@ from types import TracebackType
 from typing import Annotated as A
 from typing import Any, Generic, TypeVar
 
+from beardyn_core.base.optional import library
 from beardyn_core.engine.cluster import Cluster, LocalCluster, wait_until
-from beardyn_core.optional import library
 
 Task = TypeVar("Task")
 # tasks that wait at the scheduler for each worker: enough that none is idle, few enough to be forgotten soon

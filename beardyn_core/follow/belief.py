@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 _LEAST = 1e-12  # of the largest variance, that is added before a root is taken
 

@@ -8,7 +8,7 @@ from math import log
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.part import PartEstimate
 

@@ -7,7 +7,7 @@ from math import isfinite, log10, nan
 import numpy as np
 from scipy.fft import rfft
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow import event_order, passage_profile, passages

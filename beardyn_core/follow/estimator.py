@@ -14,10 +14,12 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import size_of_file
+from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.familiarity import Familiarity
 from beardyn_core.follow.forest import EventForest, Forest
@@ -26,9 +28,7 @@ from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
-from beardyn_core.inputs import size_of_file
 from beardyn_core.observe.labels import HEALTHY
-from beardyn_core.outputs import as_a_whole
 
 VERSION = 4
 # of each way to a number: its arrays, and its numbers

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.fft import irfft, rfft
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.passage_profile import BANDS
 from beardyn_core.observe.chain import Stretch

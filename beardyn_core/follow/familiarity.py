@@ -8,8 +8,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
-from beardyn_core.optional import library
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.optional import library
 
 HELD = 0.95  # share of runs of the kind learnt from that count as familiar
 _DIRECTIONS = 20  # along which runs differ most, where not all can be told

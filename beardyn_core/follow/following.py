@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.belief import Belief, carried, corrected

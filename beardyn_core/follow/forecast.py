@@ -8,9 +8,9 @@ from typing import Annotated as A
 
 import numpy as np
 
+from beardyn_core.base.edge import At, refuse
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.edge import At, refuse
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
 from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_life

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.regression import LEAST_DOUBT
 from beardyn_core.follow.wide_spall import LEAST_FOLDED, LEAST_OF_TWO, agree
 

@@ -8,8 +8,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.edge import At, refuse
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import At, refuse
 
 NORMAL_90 = 1.645  # standard deviations on either side of the middle that hold 90 %
 

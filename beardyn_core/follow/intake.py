@@ -7,8 +7,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.listening import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described, taken
 from beardyn_core.follow.learning import calibrated, known, widened

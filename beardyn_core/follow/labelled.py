@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.quantities import QUANTITIES
 from beardyn_core.observe.chain import Stretch

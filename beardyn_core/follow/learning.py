@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import names_of, places_of
 from beardyn_core.follow.estimator import Estimator
@@ -33,7 +34,6 @@ from beardyn_core.follow.wide_spall import (
     spacings_of,
 )
 from beardyn_core.observe.labels import HEALTHY
-from beardyn_core.optional import library
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 FEWEST = 40  # runs to learn a number from

@@ -10,10 +10,10 @@ from typing import Protocol
 import numpy as np
 from scipy.signal import resample_poly
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.observe.chain import Stretch

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.observe.chain import Stretch
 from beardyn_core.observe.passage_order import band_envelope

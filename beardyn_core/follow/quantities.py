@@ -7,7 +7,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 
 @dataclass(frozen=True)

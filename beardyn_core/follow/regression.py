@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 LEAST_DOUBT = 0.2  # of the usual one: no run is told more surely
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.judging import judged_by, judged_crosswise

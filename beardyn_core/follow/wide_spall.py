@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.observe.severity import spacing_of
 

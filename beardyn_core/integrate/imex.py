@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.kernels.axle import add_bending, axle_energy, kick_journal
 from beardyn_core.kernels.bodies import (
     add_seals,

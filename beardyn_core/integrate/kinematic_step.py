@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.axle import bend_axle
 from beardyn_core.kernels.bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.kernels.box import kick_box

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.jit import entry
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
     Drive,
@@ -19,7 +20,6 @@ from beardyn_core.integrate.kinematic_step import (
     copy_table,
     finish_step,
 )
-from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import clear_largest
 from beardyn_core.kernels.kinematic_bending import show_openings, turn_reaction
 from beardyn_core.kernels.kinematic_rings import add_sliding, hold_sliding, hold_stiffness

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.integrate.kinematic_step import (
     TRENDS_PER_BLOCK,
     Drive,
@@ -11,7 +12,6 @@ from beardyn_core.integrate.kinematic_step import (
     copy_table,
     finish_step,
 )
-from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import balance, cone_view, free_flight, less_turned, turned_axis
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import clear_largest, load_vector, store_vector

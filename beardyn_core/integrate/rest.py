@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.static import StaticSolution

@@ -15,7 +15,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.bearing.geometry import Bearing

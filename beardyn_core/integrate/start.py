@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model import layout

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
 from beardyn_core.integrate.roller_equilibrium import RollerState, solve_rollers
 from beardyn_core.model.structure import ModalBody

@@ -8,9 +8,9 @@ from enum import IntFlag
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.integrate.friction_steps import LARGEST_CHATTER_INDEX
 from beardyn_core.integrate.state import State
-from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.vectors import cross, dot
 from beardyn_core.model.layout import (
     AXIAL,

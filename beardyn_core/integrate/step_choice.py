@@ -29,7 +29,7 @@ from itertools import count
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RotatingCage

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.lumped import SpringTrend, advance_lumped, trend_shape

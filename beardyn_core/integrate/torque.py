@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
@@ -23,7 +24,6 @@ from beardyn_core.bearing.rolling_resistance import (
     thermal_reduction,
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.static import StaticSolution
 from beardyn_core.model.faults import surface_radius
 from beardyn_core.model.laminae import equivalent_radius

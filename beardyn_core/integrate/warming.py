@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
 from beardyn_core.effects import Thermal
 from beardyn_core.model.heat import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network

@@ -13,7 +13,7 @@ Neglects the turning of the wheelset, which couples both planes, and bending by 
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.bodies import X, Z, kick_cone
 from beardyn_core.model import layout
 

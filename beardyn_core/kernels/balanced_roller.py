@@ -15,7 +15,7 @@ Newton step is their linearly implicit method, IV.7.
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.exchange import damper_time
 from beardyn_core.kernels.lamina_springs import cup_springs, lamina_springs, most_bend
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.vectors import add, add_scaled, subtract
 from beardyn_core.model import layout
 

@@ -6,7 +6,7 @@ for the same stretch, which `structure` and `kinematic_bending` write into the w
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.bodies import LOAD_BOGIE, fall, kick_cup
 from beardyn_core.model import layout
 

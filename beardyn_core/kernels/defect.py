@@ -8,7 +8,7 @@ what it leans with that over the arc.
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.model import layout

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import at_least
 from beardyn_core.kernels.vectors import Vector, add, cross, scale, turn_out
 from beardyn_core.model import layout

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from beardyn_core.base.jit import inline
 from beardyn_core.bearing.oil_layer import TRANSITION
-from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, log2_one_plus_exp2, magnitude
 from beardyn_core.model.layout import LAMINA_FILM
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import sqrt
 from beardyn_core.kernels.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.model.layout import HELD_COEFFICIENT, HELD_COUPLE, HELD_FROM

@@ -9,7 +9,7 @@ acceleration without it is ``(1 + B D)^-1 B``.
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 
 
 @inline

@@ -15,7 +15,7 @@ up roller by roller: another spring k at the waves b adds ``k u u^T / (1 + k b^T
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.bodies import row_of
 from beardyn_core.kernels.box import SEAT_PLACE, SEAT_SPEED, SUSPENSION
 from beardyn_core.kernels.joint_bending import add_joint_spring, clear_springs, hold_joint, kick_joint

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.axle import hold_axle
 from beardyn_core.kernels.bodies import body_vector
 from beardyn_core.kernels.exchange import store_vector

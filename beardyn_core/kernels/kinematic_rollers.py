@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.bodies import X, Y, Z
 from beardyn_core.kernels.drag import churning_rate
 from beardyn_core.kernels.exchange import ContactOutput, output_contact, store_vector, watch_largest

@@ -6,7 +6,7 @@ number of passes from a fixed start, so that a force depends on the present stat
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, ninth_root, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.model import layout

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.defect import find_damage, springs_of
 from beardyn_core.kernels.laminae import SMALLEST_APPROACH, add_moments, contact_spring
 from beardyn_core.kernels.lane_math import at_least, magnitude, quick_ninth_root, where_greater

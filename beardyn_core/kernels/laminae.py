@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.defect import soften, spring_damage, spring_slopes, springs_of
 from beardyn_core.kernels.film import log2_film_thickness, log2_load
 from beardyn_core.kernels.held import forget, held_friction, keep_friction, remember

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.bodies import body_vector, full_rotation, ring_direction
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale, subtract
 from beardyn_core.model.layout import CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE

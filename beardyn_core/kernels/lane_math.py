@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lanes import integer_type, library_call, primitive, splat
 
 Value = Any  # a float, an LLVM vector, or (without the compiler) a NumPy array

@@ -36,7 +36,7 @@ from numba.extending import (
     unbox,
 )
 
-from beardyn_core.jit import FASTMATH
+from beardyn_core.base.jit import FASTMATH
 
 _DOUBLE = ir.DoubleType()
 _INT32 = ir.IntType(32)

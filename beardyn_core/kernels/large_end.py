@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import Vector, add, add_scaled, choose_vector, cross, dot, scale, subtract

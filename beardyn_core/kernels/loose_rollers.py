@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.defect import pocket_wear
 from beardyn_core.kernels.kinematic_rollers import drag_push, row_totals
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, where_greater

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.exchange import load_vector
 from beardyn_core.kernels.lane_math import cos_sin, sqrt
 from beardyn_core.kernels.vectors import Vector, add, add_scaled, cross, dot, scale, subtract, turn_in

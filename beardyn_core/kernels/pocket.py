@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.defect import pocket_length, pocket_wear
 from beardyn_core.kernels.exchange import (
     ContactOutput,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lane_math import at_least, at_most, magnitude, sqrt
 from beardyn_core.kernels.lanes import any_positive
 from beardyn_core.kernels.vectors import cross, dot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.exchange import account, account_loss, implicit_time, react
 from beardyn_core.kernels.lane_math import at_least, sqrt, where_greater
 from beardyn_core.kernels.lanes import any_positive

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels import exchange
 from beardyn_core.kernels.defect import find_damage
 from beardyn_core.kernels.film import film_output, log2_entrainment

@@ -11,7 +11,7 @@ the beginning instead (`velocity_change`).
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels import raceway
 from beardyn_core.kernels.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.kernels.exchange import Here, account_gravity, load_vector, store_vector

@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from beardyn_core.base.jit import inline
 from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT
-from beardyn_core.jit import inline
 from beardyn_core.kernels.exchange import account_loss, react
 from beardyn_core.kernels.held import held_couple, keep_couple
 from beardyn_core.kernels.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt

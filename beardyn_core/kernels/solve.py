@@ -6,7 +6,7 @@ are three velocities and three angular velocities.
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.vectors import Twist, add_scaled, cross, scale
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.defect import find_damage, gap_moments
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.kinematic_bending import (

@@ -24,7 +24,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.lanes import VectorType
 from beardyn_core.model.stages import CYCLES, EMPTY, LAST, MARKS, OWN, ROW, TIMED_STEPS, TIMER_SLOTS
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from beardyn_core.jit import FASTMATH, entry, inline
+from beardyn_core.base.jit import FASTMATH, entry, inline
 from beardyn_core.kernels.box import DAMPERS, SEAT_PLACE, SEAT_SPEED, SUSPENSION
 from beardyn_core.kernels.exchange import accumulate
 from beardyn_core.kernels.orbit import View

@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from beardyn_core.base.jit import inline
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
-from beardyn_core.jit import inline
 from beardyn_core.kernels.lane_math import (
     LOG2_E,
     arctangent_over,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.jit import inline
+from beardyn_core.base.jit import inline
 from beardyn_core.kernels.generator_line import Line
 from beardyn_core.kernels.lane_math import floor, magnitude
 from beardyn_core.kernels.lane_tables import gather_pair

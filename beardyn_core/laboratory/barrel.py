@@ -17,7 +17,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.optimize import brentq, root
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import ExactPointContact
 from beardyn_core.bearing.geometry import Material
 from beardyn_core.laboratory.compiled import batch

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.jit import entry, inline
 from beardyn_core.kernels.generator_line import generator_line
 from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.kernels.vectors import add_scaled, dot, subtract

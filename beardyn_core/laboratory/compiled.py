@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.laboratory import shapes
 from beardyn_core.laboratory.search import DIFFERENCE, MOST_ITERATIONS, ROWS, TOLERANCE, Pair
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Annotated as A
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.barrel import BARREL_22317, BarrelBearing, BarrelLoads, solve_barrel

@@ -16,7 +16,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit

@@ -10,7 +10,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.integrate.static import solve
 from beardyn_core.laboratory import closed_forms

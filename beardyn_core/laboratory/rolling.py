@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.laboratory.compiled import WORK_NUMBERS, solve_pair
 from beardyn_core.laboratory.search import SURFACE_LINE
 from beardyn_core.laboratory.shapes import Cone, Placement

@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 # layout of a shape as numbers, for the compiled search
 KIND, FIRST, SECOND, SIDE, ORIGIN, EAST, NORTH, POLE = 0, 1, 2, 3, 4, 7, 10, 13

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.jit import entry
 from beardyn_core.kernels.large_end import rib_gap
 from beardyn_core.laboratory.closed_forms import rib_face_params
 from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_sphere, large_rib, nominal_pose

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated as A
 from typing import Any
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.errors import InputError
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
 from beardyn_core.observe.chain import MonitorSettings

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.measured.claimed_rate import claims_by_path, claims_on
 from beardyn_core.measured.claimed_start import Start, start_in
 from beardyn_core.measured.source import Channel

@@ -13,7 +13,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.claimed_rate import is_plausible
 from beardyn_core.measured.formats import Format, opened
 from beardyn_core.measured.options import Reading

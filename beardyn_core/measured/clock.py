@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 _ALIKE = 0.01  # by which steps may differ and still be even; of a rate, by which two are one
 _LEAST_SAMPLES = 1000  # of which the mean step is compared

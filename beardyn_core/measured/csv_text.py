@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.claimed_start import start_in
 from beardyn_core.measured.moments import moments_in_ns

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from beardyn_core.errors import InputError
-from beardyn_core.inputs import size_of_file
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import size_of_file
+from beardyn_core.base.outputs import note_read
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Source
-from beardyn_core.outputs import note_read
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.measured import source
 from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in, stretches
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Held, broken, in_text
-from beardyn_core.optional import library
 
 _UNITS = ("unit", "units", "Unit", "Units", "UNIT")
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.about import Mounted
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_start import Start
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
-from beardyn_core.optional import library
 
 _TIME = "time"
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from beardyn_core.arrays import Int
+from beardyn_core.base.arrays import Int
 
 _CLOCK = r"(?P<clock>\d\d?:\d\d(?::\d\d(?:[.,]\d+)?)?)"
 _ZONE = r"\s?(?P<zone>Z|UTC|[+-]\d\d(?::?\d\d)?)?"

@@ -11,8 +11,8 @@ from typing import IO, Any
 import numpy as np
 from numpy.lib import format as npy
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Held, broken, in_text

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.edge import At, Place, places, plain_hint, refuse
-from beardyn_core.errors import InputError
+from beardyn_core.base.edge import At, Place, places, plain_hint, refuse
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.units import ACCELERATION, ROTATION, TIME, TRAVEL
 
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": None}

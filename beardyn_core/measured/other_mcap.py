@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
 from beardyn_core.record.other_messages import TIME, Topics, is_recording

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_by_path, claims_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken
 from beardyn_core.measured.units import split_unit, usual
-from beardyn_core.optional import library
 
 _READ_BYTES = 1 << 20
 

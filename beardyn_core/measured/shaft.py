@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.observe.speed import SpeedTrack
 
 _POINTS_PER_TURN = 4.0

@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.claimed_rate import Claim
 from beardyn_core.measured.claimed_start import Start
 

@@ -10,8 +10,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.alignment import Begun, align_files, align_tables, used_delays
 from beardyn_core.measured.choice import Chosen, choose, speeds_in, time_unit_in
 from beardyn_core.measured.claimed_rate import SAME, Stamps, decide_rate

@@ -12,7 +12,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.measured.shaft import Pulses
 
 _SHARES = (0.0, 1e-4, 1e-3, 1e-2, 0.05)  # of a block, beyond which its values may be spikes

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in, claims_on
 from beardyn_core.measured.claimed_start import start_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held, broken, in_text
 from beardyn_core.measured.units import usual
-from beardyn_core.optional import library
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.moments import is_moment
 from beardyn_core.measured.options import DECIMALS, SEPARATORS, Reading

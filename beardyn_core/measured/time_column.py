@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.measured.units import TIME, split_unit, unit_in
 
 _NAME = re.compile(

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.claimed_start import seconds_as_start
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held, broken
 from beardyn_core.measured.units import usual
-from beardyn_core.optional import library
 
 _TIME_RESPONSE = 1
 _DIRECTIONS = {1: "x", 2: "y", 3: "z"}

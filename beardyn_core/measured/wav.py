@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import BLOCK, Channel, Held, broken
 from beardyn_core.measured.units import split_unit, usual
-from beardyn_core.optional import library
 
 _USUAL_STEP = 25.0  # [Hz], of which rates that were not rounded are multiples: 11025, 25600, 44100
 _ROUNDED = 0.5  # [Hz], by which the head may be off

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import sealed
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import sealed
+from beardyn_core.base.outputs import recording_problems
 from beardyn_core.measured.about import Mounted, about
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
-from beardyn_core.outputs import recording_problems
 from beardyn_core.record.clouds import CloudTemplate, fill, points_of
 from beardyn_core.record.encoding import ACCELERATION_AXES, SHAFT_JOINT, VIBRATION, joint_template
 from beardyn_core.record.mcap_writing import McapWriter

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.model.journal import JournalParams
 from beardyn_core.scene.mounting import Mounting

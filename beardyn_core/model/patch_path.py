@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.scene.defect import Patch

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.defect import WornPocket
 from beardyn_core.scene.scene import Scene
 

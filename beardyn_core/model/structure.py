@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.config.structure import modes_of_effects, require_cup, seat_of
 from beardyn_core.effects import RingStructure, Structure
-from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement, aligned_zeros
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene

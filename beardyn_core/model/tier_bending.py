@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config.structure import seat_of
 from beardyn_core.model.arrangement import aligned_zeros
 from beardyn_core.model.layout import MASK, POCKET_ANGLE

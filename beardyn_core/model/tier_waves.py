@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.model.arrangement import aligned_zeros
 from beardyn_core.model.faults import FaultParams, WaveParams
 from beardyn_core.model.layout import POCKET_ANGLE

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.model.layout import ANGLE, ANGULAR, CAGE_BODY, CONTACT_OUTPUT, LINEAR, POSITION, TILT
 

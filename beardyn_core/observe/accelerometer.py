@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 

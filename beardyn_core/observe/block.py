@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.model import layout
 from beardyn_core.scene.sensor import RATES
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import (

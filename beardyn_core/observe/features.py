@@ -11,7 +11,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.fft import ifft, irfft, rfft
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 _EDGE = 0.1  # share of the band in each of its cosine edges
 

@@ -7,8 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.kernels.vectors import add, add_scaled, cross, dot, scale
 from beardyn_core.model import layout
 from beardyn_core.model.parameters import RollerParams

@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 
 # share of the fastest, below which strikes are too faint and too far apart to count
 _SLOW = 0.2

@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.model.heat import BOX_NODE
 from beardyn_core.observe import chain

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.fft import fft, ifft, next_fast_len
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 REACH = 0.008  # relative: slip, tolerances and the contact angle under load shift an order by less
 HARMONICS = 4

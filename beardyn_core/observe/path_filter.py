@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.transfer_path import TransferPath
 
 PATH_LOOKAHEAD = 64  # samples; a measured path has a little of its response before its cause

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.background import Pickup
 
 _STREAM = 0x7069636B

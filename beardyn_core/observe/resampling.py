@@ -6,9 +6,9 @@ from functools import cache, partial
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
-from beardyn_core.rail.low_pass import low_pass
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
+from beardyn_core.base.low_pass import low_pass
 
 DELAY = 12  # output samples: the shortest that gives 70 dB with a passband to 0.4
 _KAISER_BETA = 7.2

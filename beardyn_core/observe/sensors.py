@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Response, force_at, reading

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.signal import savgol_filter
 from scipy.special import logsumexp
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.speed_lines import (
     OVERSAMPLING,

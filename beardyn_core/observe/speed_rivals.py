@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.speed_lines import (
     Comb,

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.stage_clock import StageTime

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 
 LEARNING, STEADY, ALARM = "learning", "steady", "alarm"
 _SIGMA_OF_MAD = 1.4826  # of a normal distribution

@@ -7,10 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 from beardyn_core.population.plan import Plan, mistakes_of, plan_of
 
 _EVEN = (

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.observe.block import Block
 from beardyn_core.population.draw import Row
 from beardyn_core.population.features import NAMES, features_of

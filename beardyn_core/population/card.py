@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from beardyn_core.base.edge import written
 from beardyn_core.config.yaml_text import write_mapping
-from beardyn_core.edge import written
 from beardyn_core.population.plan import Plan
 from beardyn_core.population.table import unit_in
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.sweep import BEARING, Drawn, Scaled, Sweep, per_of, rounded
 
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
-from beardyn_core.optional import library
-from beardyn_core.outputs import as_a_whole, file_problems
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
+from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.store import RUN
 

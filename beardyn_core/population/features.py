@@ -11,7 +11,7 @@ from math import isfinite, nan
 import numpy as np
 from scipy.fft import rfft
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorResult, MonitorSettings, Stretch
 from beardyn_core.observe.chain.fault_lines import comb_score

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
-from beardyn_core.optional import library
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
 from beardyn_core.population.closing import verify
 from beardyn_core.population.folder import read_about
 from beardyn_core.population.store import RUN, SIGNALS, zarr_library

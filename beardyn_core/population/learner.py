@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
-from beardyn_core.optional import library
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TEST, TRAIN, LabelledSet
 

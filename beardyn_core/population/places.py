@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config.automatic import AUTO
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 
 Place = tuple[str | int, ...]
 

@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice.load import choice_for, closed
 from beardyn_core.choice.trial import together
 from beardyn_core.config.folders import find
 from beardyn_core.config.load import OpenScene, read_scene_mapping
 from beardyn_core.config.problems import Origin
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import written
-from beardyn_core.errors import InputError
 from beardyn_core.population.draw import Row, rows_of, scaled_value
 from beardyn_core.population.places import AbsentError, Place, is_place, place_of, with_value
 from beardyn_core.record.tables import SIGNALS, VIBRATION

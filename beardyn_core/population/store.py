@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.optional import library
+from beardyn_core.base.optional import library
 from beardyn_core.population.batch import Array, Batch
 
 SIGNALS = "signals.zarr"

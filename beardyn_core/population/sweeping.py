@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.engine import Cluster, Ended, Engine
-from beardyn_core.errors import InputError
-from beardyn_core.interrupts import held_back, whole
 from beardyn_core.population.batch import FAILED, Batch, Made, checked_batch, run_batch
 from beardyn_core.population.closing import close_set
 from beardyn_core.population.draw import Row, rows_of

@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.optional import library
-from beardyn_core.outputs import as_a_whole
+from beardyn_core.base.optional import library
+from beardyn_core.base.outputs import as_a_whole
+from beardyn_core.base.units import UNITS
 from beardyn_core.scene.sweep import Split
-from beardyn_core.units import UNITS
 
 RUNS, FEATURES = "runs.parquet", "features.parquet"
 # units of labels that no key of a file has

@@ -1,11 +1,10 @@
 """From a railway operation to the load on the journal.
 
-============= ===============================================================================
+============= ================================================================================
 module        responsibility
-============= ===============================================================================
+============= ================================================================================
 table         a CSV file of numbers, with all its mistakes at once
 spectra       power spectral densities of the rail, and what the contact patch leaves of them
-low_pass      symmetric low-pass filters
 irregularity  random-phase or measured profile over the distance
 excitation    defects of wheel and rail over the distance
 roughness     short waves of wheel and rail, drawn from published levels
@@ -22,7 +21,7 @@ transfer_path ratio of a sensor to the rigid box, measured, from a CSV or Univer
 build         any `scene.operation.Operation` to a `scene.load.LoadHistory`
 events        what a run meets on its way, as truth
 train         the loads of several axleboxes, each wheel over the same track later
-============= ===============================================================================
+============= ================================================================================
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile
 before the vehicle runs over it.

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.scene.background import Background, Knocks, OtherBearing

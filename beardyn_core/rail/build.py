@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.low_pass import decimated, thinning_kernel
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.errors import InputError
 from beardyn_core.rail.background import background_force
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
-from beardyn_core.rail.low_pass import decimated, thinning_kernel
 from beardyn_core.rail.measured import replayed
 from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment

@@ -7,7 +7,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, GRAVITY, WHEEL
 from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.mounting import Mounting

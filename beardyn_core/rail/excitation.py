@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.rail.spectra import wave_gain
 from beardyn_core.scene import excitation
 

@@ -8,8 +8,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.chord_polynomials import refined

@@ -8,8 +8,8 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.rail.course import Course
 from beardyn_core.rail.vehicle import GRAVITY, linked
 from beardyn_core.rail.wheelset import HALF_GAUGE

@@ -27,9 +27,9 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import note_read
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import note_read
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.load import LoadHistory, sampled_load
 from beardyn_core.scene.operation import MeasuredOperation
@@ -200,7 +200,7 @@ def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHisto
 
 def _resampled(measured: Measurement, count: int, rate: float) -> Float:
     # compiled: not for who reads files
-    from beardyn_core.rail.low_pass import decimated, thinning_kernel
+    from beardyn_core.base.low_pass import decimated, thinning_kernel
     from beardyn_core.scene.band_limited import interpolated
 
     signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])

@@ -7,7 +7,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.rail.course import Course, course, load_transfer
 from beardyn_core.rail.flexible import flexible_motion, flexible_vehicle
 from beardyn_core.rail.irregularity import rail_profile

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.excitation import DIRECTIONS, SPECTRA, VERTICAL_ONLY, Irregularity
 

@@ -11,10 +11,10 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError, separator_problem
-from beardyn_core.inputs import size_of_file
-from beardyn_core.outputs import note_read
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError, separator_problem
+from beardyn_core.base.inputs import size_of_file
+from beardyn_core.base.outputs import note_read
 
 Rows = list[list[str]]
 

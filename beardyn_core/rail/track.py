@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.operation import Track
 
 # waves per metre of rail: the shortest is 0.38 m long, about 5 kHz

@@ -12,8 +12,8 @@ from typing import Annotated as A
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.build import load_history, load_of_scene
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory

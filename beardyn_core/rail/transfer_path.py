@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import note_read
-from beardyn_core.packed import packed, unpacked
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import note_read
+from beardyn_core.base.packed import packed, unpacked
 from beardyn_core.rail.table import Column, Layout, read_table
 
 _PAIRS = (("real", "imaginary"), ("magnitude_dB", "phase_deg"))

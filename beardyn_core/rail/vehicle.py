@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry, inline
+from beardyn_core.base.low_pass import first_order
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.jit import entry, inline
-from beardyn_core.rail.low_pass import first_order
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.rail.wheelset import Modes, bending_modes
 from beardyn_core.scene.mounting import Mounting, ProgressiveSuspension

@@ -13,8 +13,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float, Int
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.errors import InputError
 from beardyn_core.observe.block import CONTACT_KINDS, LARGEST, WATCHED
 from beardyn_core.scene.load import WRENCH_AXES
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import yaml
 
-from beardyn_core.errors import InputError
-from beardyn_core.inputs import text_of_file
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import text_of_file
 from beardyn_core.record.mcap_scanning import END_RECORD, McapScan, RecordedMessage
 
 INDEX = "metadata.yaml"

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import write_whole
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import write_whole
 from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, yaml_text
 from beardyn_core.record.bag_scanning import CONTINUED, INDEX, files_of, part_name
 from beardyn_core.record.description import RunDescription

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import LONGEST_TEXT, read_object
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
-from beardyn_core.plain_json import LONGEST_TEXT, read_object
 from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_at
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES

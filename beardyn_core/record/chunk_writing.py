@@ -13,7 +13,7 @@ from mcap.records import Chunk, ChunkIndex
 from mcap.writer import CompressionType, Writer
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Int
+from beardyn_core.base.arrays import Int
 
 # as small as that of the library's level, 3, in a third of the time: samples of noise do not pack
 LEVEL = 1

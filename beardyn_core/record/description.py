@@ -11,10 +11,10 @@ from types import UnionType
 from typing import TYPE_CHECKING, Any, Union, get_args, get_origin, get_type_hints
 from typing import Annotated as A
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import read_object
 from beardyn_core.bearing.kinematics import frequencies
-from beardyn_core.errors import InputError
 from beardyn_core.observe.labels import load_labels
-from beardyn_core.plain_json import read_object
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.sensor import RATES

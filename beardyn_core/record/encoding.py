@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Int
+from beardyn_core.base.arrays import Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import CONTACT_FIELDS, LARGEST, Block, EnergyAudit

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.measured import GAP, Measurement
 from beardyn_core.record.bag_scanning import scan_recording
 from beardyn_core.record.load_stream import decode_load, joined_load

@@ -22,9 +22,9 @@ from mcap.records import Attachment, Channel, Chunk, McapRecord, Message, Metada
 from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
-from beardyn_core.errors import InputError
-from beardyn_core.inputs import size_of_file
-from beardyn_core.outputs import is_being_written, open_to_write
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import size_of_file
+from beardyn_core.base.outputs import is_being_written, open_to_write
 from beardyn_core.record.chunk_reading import ChunkReader
 
 END_RECORD = "beardyn_end"

@@ -13,9 +13,10 @@ import numpy as np
 from mcap.well_known import MessageEncoding, SchemaEncoding
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Int
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import open_to_write
+from beardyn_core.base.arrays import Int
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import open_to_write
+from beardyn_core.base.versions import versions
 from beardyn_core.record.background_file import BackgroundFile
 from beardyn_core.record.bag_metadata import FileFacts, bag_metadata, qos_text, type_hash, yaml_text
 from beardyn_core.record.chunk_writing import LEVEL, MESSAGE_BYTES, ChunkWriter
@@ -23,7 +24,6 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_scanning import END_RECORD, trim
 from beardyn_core.record.messages import typestore
 from beardyn_core.record.topics import NAMESPACE, Topic, topic
-from beardyn_core.versions import versions
 
 CHUNK_BYTES = 1024 * 1024
 FLUSH_SECONDS = 0.5

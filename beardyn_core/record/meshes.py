@@ -15,7 +15,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record.description import BearingShape
 from beardyn_core.scene.defect import Patch
 

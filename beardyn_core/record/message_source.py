@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.record import arrays

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
-from beardyn_core.errors import InputError
-from beardyn_core.plain_json import read_object, strict_text
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import read_object, strict_text
 
 TIME = "builtin_interfaces/msg/Time"
 HEADER = "std_msgs/msg/Header"

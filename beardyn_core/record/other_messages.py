@@ -15,7 +15,7 @@ import numpy as np
 from mcap.records import Channel, Schema
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record.bag_scanning import is_folder_of_files
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD

@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record import arrays
 from beardyn_core.record.bag_scanning import BagScan, scan_recording
 from beardyn_core.record.checking import MessageChecker, take_out_malformed

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.meshes import Mesh

@@ -10,7 +10,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record.rerun_bearing import TIMELINE, load_colours, send
 from beardyn_core.record.rerun_view import BACKGROUND, rerun_file
 from beardyn_core.structure.build import Built

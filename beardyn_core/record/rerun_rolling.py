@@ -9,7 +9,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.laboratory.rolling import ATTITUDE, FIRST_CONTACT, PLACE, Rolling
 from beardyn_core.laboratory.search import SURFACE_LINE
 from beardyn_core.record.rerun_view import rerun_file

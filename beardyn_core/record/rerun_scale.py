@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record.rerun_bearing import ARROW_COLOURS, RESULTANT_COLOUR, load_colours
 
 ENTITY = "scale"

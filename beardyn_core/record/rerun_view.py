@@ -13,8 +13,8 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import as_a_whole
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts, roller_loads

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.observe.labels import flat_labels, load_labels
 from beardyn_core.observe.monitoring import MonitorInput, measured_axes
 from beardyn_core.record import arrays

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.integrate.rating_life import RatingLife, scene_life
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.summary import (

@@ -10,8 +10,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import InputError
-from beardyn_core.optional import library
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import library
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.scene.load import WRENCH_AXES

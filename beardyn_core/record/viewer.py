@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 SOFTWARE_DRIVERS = ("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", "/usr/share/vulkan/icd.d/lvp_icd.json")
 PICTURE_SECONDS = 120.0

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.edge import At, Problem
+from beardyn_core.base.edge import At, Problem
 
 SIDES = ("left", "right")
 AXLES_OF_A_CAR = 4

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.edge import At
+from beardyn_core.base.edge import At
 
 RAILS = ("iso_3095", "average_network", "none")
 WHEELS = ("disc_brake", "composite", "cast_iron", "none")

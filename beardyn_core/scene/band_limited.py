@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
-from beardyn_core.jit import entry
+from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.jit import entry
 from beardyn_core.scene.chord_polynomials import POLYNOMIALS
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, UNEVENNESS
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.scene.load import LOOK_AHEAD
 
 PASSED = 0.45

@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import Annotated as A
 from typing import Any, ClassVar
 
+from beardyn_core.base.edge import INTERNAL, ROW, At
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import INTERNAL, ROW, At
 
 LEAST_DEPTH = 1e-7  # of a patch: about the roughness of a raceway [m]
 SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import ClassVar
 
-from beardyn_core.edge import SEED, At, refuse
+from beardyn_core.base.edge import SEED, At, refuse
 
 # one-sided spectra that have a name; those without an alignment are vertical only
 SPECTRA = (

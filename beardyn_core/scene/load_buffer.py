@@ -7,7 +7,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.scene.band_limited import at_steps, seam
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
 from beardyn_core.scene.load_check import problem_with

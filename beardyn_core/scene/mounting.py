@@ -9,8 +9,8 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.edge import SHARE, At, Vector, refuse
-from beardyn_core.units import UNITS
+from beardyn_core.base.edge import SHARE, At, Vector, refuse
+from beardyn_core.base.units import UNITS
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any, ClassVar
 
-from beardyn_core.edge import At, Problem, Vector, refuse, written
+from beardyn_core.base.edge import At, Problem, Vector, refuse, written
+from beardyn_core.base.units import UNITS
 from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
 from beardyn_core.scene.load_check import LARGEST_SPEED_JUMP
 from beardyn_core.scene.mounting import Guidance, ProgressiveSuspension
 from beardyn_core.scene.running import POINTS, Braking, Curve, Profile, Starting, not_ascending
 from beardyn_core.scene.wheelset import Wheelset
-from beardyn_core.units import UNITS
 
 WHEEL_PROFILES = ("worn", "cone")
 WHEELSETS = ("coupled", "elastic", "rigid")

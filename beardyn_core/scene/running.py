@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.edge import At, refuse
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import At, refuse
 
 
 class SpeedPoint(NamedTuple):

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import SEED, At, written
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import SEED, At, written
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 
 _ROWS = 2

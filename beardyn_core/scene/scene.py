@@ -6,10 +6,11 @@ from dataclasses import dataclass, field, fields
 from typing import Annotated as A
 from typing import Any, Literal
 
+from beardyn_core.base.edge import INTERNAL, SEED, At
+from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
-from beardyn_core.edge import INTERNAL, SEED, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.axleboxes import Axleboxes
 from beardyn_core.scene.background import Background
@@ -20,7 +21,6 @@ from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.sensor import Accelerometer, sensor_doubts, waveform_rate
 from beardyn_core.scene.tier import LARGEST_STEPS, TIER_NAMES, missing_effects
 from beardyn_core.scene.waviness import Waviness
-from beardyn_core.units import UNITS
 
 # what a user can ask of a run; see `choice`
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")

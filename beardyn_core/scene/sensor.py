@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
+from beardyn_core.base.edge import At, Vector
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import At, Vector
 
 RATES = (25_600.0, 51_200.0)  # the usual one, and the one that needs a fine step [Hz]
 # of a run of which nothing higher is asked for, the force waveform included [Hz]

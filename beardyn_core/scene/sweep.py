@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any, ClassVar
 
-from beardyn_core.edge import INTERNAL, SEED, At, Problem
+from beardyn_core.base.edge import INTERNAL, SEED, At, Problem
 
 SAMPLINGS = ("sobol", "latin_hypercube", "random", "grid")
 RUN, BEARING = "run", "bearing"

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.edge import INTERNAL, At
+from beardyn_core.base.edge import INTERNAL, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.excitation import WheelDefect
 from beardyn_core.scene.scatter import GRADES

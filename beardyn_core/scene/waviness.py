@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.edge import ROW, SEED, At, WorkedOut, written
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.edge import ROW, SEED, At, WorkedOut, written
 from beardyn_core.scene.defect import no_such, not_on_a_roller
 
 _SURFACES = ("cup", "cone", "roller")

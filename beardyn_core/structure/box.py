@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.edge import At, Vector, refuse
+from beardyn_core.base.edge import At, Vector, refuse
 
 _NAME = At(longest=80, pattern=r"^[A-Za-z][A-Za-z0-9_]*$")
 

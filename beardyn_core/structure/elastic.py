@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix, spmatrix
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
-from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Box, Seat
 from beardyn_core.structure.mesh import CUP, EXTRA, Mesh, row_places
 from beardyn_core.structure.modes import WAVES

@@ -9,11 +9,11 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import At, Vector, refuse
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
-from beardyn_core.edge import At, Vector, refuse
-from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.mesh import row_places

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
-from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Box
 
 EXTRA = "pip install beardyn[structure]"

@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.errors import InputError
-from beardyn_core.inputs import text_of_file
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.inputs import text_of_file
 from beardyn_core.structure.shapes import Shapes
 
 _EIGENVALUE = re.compile(r"\$EIGENVALUE =\s*(\S+)\s+MODE =\s*(\d+)")

@@ -13,7 +13,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.linalg import eigh
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.structure.elastic import Elastic, stacked
 
 _DEPENDENT = 1e-10  # of the largest: directions that the loads before have given already

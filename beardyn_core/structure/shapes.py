@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 
 @dataclass(frozen=True)

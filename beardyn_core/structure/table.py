@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 import yaml
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError, separator_problem
-from beardyn_core.inputs import text_of_file
-from beardyn_core.outputs import note_read
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError, separator_problem
+from beardyn_core.base.inputs import text_of_file
+from beardyn_core.base.outputs import note_read
 from beardyn_core.structure.cup import DIMENSIONS, Cup
 from beardyn_core.structure.modes import FIELDS, WAVES, Modes
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.structure.mesh import EXTRA
 from beardyn_core.structure.shapes import Shapes
 

@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.findings import Findings
 from beardyn_core.laboratory.rolling import PLACE, Rolling
-from beardyn_core.outputs import as_a_whole
 
 DPI = 100
 _ROLLER, _CUP, _CONE, _CAGE = "#DD8452", "#4C72B0", "#55A868", "#8172B3"

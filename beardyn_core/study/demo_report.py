@@ -12,10 +12,10 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.optional import missing
+from beardyn_core.base.outputs import folder_problems
 from beardyn_core.observe.summary import SETTLING_S
-from beardyn_core.optional import missing
-from beardyn_core.outputs import folder_problems
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run

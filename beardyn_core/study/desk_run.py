@@ -12,11 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import describe
-from beardyn_core.interrupts import held_back, whole
 from beardyn_core.model.heat import NODES
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import REST, SINKS

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history, load_of_run
 from beardyn_core.scene.load import LoadHistory

@@ -21,7 +21,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.stats import t as student
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.study.ladder_levels import Level
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS, FaultLine, Measure, Outcome
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.observe.block import CONTACT_KINDS, Block

@@ -8,10 +8,10 @@ from dataclasses import dataclass, fields
 from math import isfinite, nan
 from typing import Annotated as A
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.errors import InputError
 from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings

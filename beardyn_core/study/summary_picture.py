@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 
 WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
 _AXIS_COLOURS = ("#4C72B0", "#55A868", "#C44E52")

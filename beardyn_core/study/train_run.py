@@ -15,9 +15,9 @@ from dataclasses import dataclass, field
 from typing import Annotated as A
 
 from beardyn_core import run
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.config.boxes import scene_of_box
-from beardyn_core.errors import InputError, ValidityError
-from beardyn_core.interrupts import held_back, whole
 from beardyn_core.model.build import BLOCK_NS
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.summary import COMPLETE, RunSummary

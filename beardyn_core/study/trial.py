@@ -13,15 +13,15 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any, BinaryIO
 
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.outputs import is_being_written, open_to_append, write_whole
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import trial_scene, with_choices
 from beardyn_core.config import scene_text
 from beardyn_core.config.content import files_of
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
-from beardyn_core.outputs import is_being_written, open_to_append, write_whole
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import Cell, Trial

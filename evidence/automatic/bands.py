@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.choice import load_scene
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene

@@ -10,10 +10,10 @@ from typing import Any
 
 import beardyn_core as bd
 from beardyn_core.api.calibrating import calibrate
+from beardyn_core.base.edge import written
+from beardyn_core.base.plain_json import plain
 from beardyn_core.calibration.unknowns import UNKNOWNS
 from beardyn_core.cli.calibrate import json_object
-from beardyn_core.edge import written
-from beardyn_core.plain_json import plain
 
 BASE = "service_high_speed"
 SECONDS = 5.0

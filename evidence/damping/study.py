@@ -9,12 +9,12 @@ from typing import Annotated as A
 import numpy as np
 from scipy import stats
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import Patch

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config.folders import config_folder
 from beardyn_core.follow.estimator import read_estimator
 from beardyn_core.follow.labelled import Described, described

@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 
 import beardyn_core as bd
 from beardyn_core.api.following import Following
-from beardyn_core.edge import written
+from beardyn_core.base.edge import written
+from beardyn_core.base.outputs import file_problems
 from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.outputs import file_problems
 
 TRAIN = "service_high_speed_cup"  # a spalled cup, full tier, a box that rings, drive, track and knocks
 BESIDE = "service_high_speed"  # what the follower knows of the axlebox: a sound bearing in it

@@ -18,10 +18,10 @@ import numpy as np
 
 import beardyn_core as bd
 from beardyn_core.api.following import follower_of
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import written
 from beardyn_core.config import load_bearing
 from beardyn_core.config.yaml_text import scene_text
-from beardyn_core.edge import written
 from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import SOUND, WAITING, Followed

@@ -26,7 +26,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.judging import Guessed, crosswise_parts, score_of
 from beardyn_core.follow.labelled import Described, described, joined, taken
 from beardyn_core.follow.learning import known

@@ -19,10 +19,10 @@ import numba
 import numpy as np
 
 import beardyn_core
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.study.compiling import warm_once

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.start import initial_state
 from beardyn_core.integrate.state import Output, work_space
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.status import Status, assess, chatter_index
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters, spring_time

@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.plain_json import strict_text
+from beardyn_core.base.plain_json import strict_text
 from evidence.hard.case import RUN_AS, HardCase
 from evidence.hard.refinement import Change
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED, Outcome

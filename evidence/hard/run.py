@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

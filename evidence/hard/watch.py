@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.status import chatter_index
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import (
     ANGLE,

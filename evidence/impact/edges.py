@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import butter, sosfiltfilt
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed

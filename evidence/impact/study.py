@@ -12,7 +12,7 @@ import numpy as np
 from scipy import stats
 from scipy.signal import butter, sosfiltfilt
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.integrate.status import describe
 from beardyn_core.model.layout import SIGNAL_CHANNELS, SIGNAL_FORCE

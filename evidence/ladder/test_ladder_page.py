@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import load_scene
-from beardyn_core.errors import ValidityError
 from beardyn_core.study.ladder import plan_of
 from beardyn_core.twin import Twin
 from evidence.ladder import front

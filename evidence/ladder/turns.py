@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.errors import ValidityError
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.ladder_levels import Level

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import eigh, solve
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.features import order_spectrum, resample_by_angle
 

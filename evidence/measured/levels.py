@@ -19,7 +19,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy import stats
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing
 from evidence.impact.cases import BEARING, DEEP, LOADS, WHEEL_RADIUS, WHOLE, Case
 from evidence.impact.elastic import cup_radius

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import spearmanr
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.observe.trend import ALARM, Trend, TrendSettings, record_levels
 from evidence.pages import DOCS
 

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain import MonitorResult, MonitorSettings, Stretch
 from beardyn_core.observe.chain.fault_lines import FAULTS, Pattern, fault_patterns

@@ -9,7 +9,7 @@ import pytest
 from scipy.io import savemat
 from scipy.signal import lfilter
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_plate
 from beardyn_core.observe.chain import REFERENCE
 from beardyn_core.study.monitored_recording import Finding, conclude

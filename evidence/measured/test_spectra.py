@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_plate
 from beardyn_core.observe.chain import MonitorSettings, Stretch
 from evidence.measured.cycbd import deconvolved, on_harmonics, strongest_near

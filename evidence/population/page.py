@@ -15,8 +15,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from beardyn_core.base.outputs import write_whole
 from beardyn_core.config.automatic import AUTO
-from beardyn_core.outputs import write_whole
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TRAIN, LabelledSet
 from beardyn_core.population.learner import TRANSFERABLE, Learner

@@ -15,7 +15,7 @@ from typing import Any, get_args, get_origin
 
 import numpy as np
 
-from beardyn_core.edge import (
+from beardyn_core.base.edge import (
     At,
     Place,
     alternatives,

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.choice import scene_from_text
@@ -17,7 +18,6 @@ from beardyn_core.config.nouns import load_bearing, load_effects
 from beardyn_core.config.scene_file import with_length
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.effects import Thermal
-from beardyn_core.errors import InputError
 from beardyn_core.scene.defect import Patch, WornPocket
 from beardyn_core.scene.excitation import IRREGULARITY_KINDS, MEASURED
 from beardyn_core.scene.operation import (

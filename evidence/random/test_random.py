@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.edge import At
+from beardyn_core.base.edge import At
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.engine import Ended
-from beardyn_core.errors import ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene

@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.integrate.status import SENTENCES, Status, describe
 from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.observe.block import Block

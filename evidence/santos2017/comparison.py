@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import solve
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

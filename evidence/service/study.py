@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.errors import ValidityError
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.integrate.status import chatter_index, describe
 from beardyn_core.model.build import SAMPLES_PER_BLOCK, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_TORQUE

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from beardyn_core.errors import ValidityError
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.integrate.status import chatter_index
 from beardyn_core.model.layout import SIGNAL_TORQUE
 from beardyn_core.rail.build import load_history

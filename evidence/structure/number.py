@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config.structure import modes_of_effects, mounting_of, table_path
 from beardyn_core.effects import ModalStructure
 from beardyn_core.engine import all_of, core_count

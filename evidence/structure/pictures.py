@@ -13,7 +13,7 @@ from matplotlib import pyplot as plt
 from matplotlib.ticker import ScalarFormatter
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.record.rerun_modes import exaggerated, title
 from beardyn_core.structure.build import Built
 from beardyn_core.study.measures import BAND_CENTRES

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import eigsh
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing, load_box
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import Built, load_zone, modes_of

@@ -14,7 +14,7 @@ from typing import Annotated as A
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene

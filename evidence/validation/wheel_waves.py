@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.circumstances import circumstances
 from beardyn_core.choice.statics import Statics

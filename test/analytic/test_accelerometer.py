@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from beardyn_core.jit import entry
+from beardyn_core.base.jit import entry
 from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, force_at, reading
 from beardyn_core.scene.sensor import Accelerometer
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.arrays import Float, Int
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.load_stream import encode_load

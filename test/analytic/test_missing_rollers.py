@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.errors import ValidityError
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.integrate.static import solve
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.layout import (

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.cli import main as command
 from beardyn_core.config import load_bearing
 from beardyn_core.config.nouns import load_box
-from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.imported import ModeFile, modes_of_file
 from beardyn_core.structure.mesh import row_places

@@ -10,8 +10,8 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binomtest
 
-from beardyn_core.arrays import Float
-from beardyn_core.errors import InputError
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
 from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_bearing
 from beardyn_core.config.nouns import load_box
-from beardyn_core.errors import InputError
 from beardyn_core.structure.imported import ModeFile, modes_of_file
 from beardyn_core.structure.nastran import grid_entries
 from test.analytic import test_mode_file as universal

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import (

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.excitation import rail_height, waves_of, wheel_height
 from beardyn_core.rail.spectra import wave_gain

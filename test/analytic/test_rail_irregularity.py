@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.signal import welch
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.irregularity import rail_profile
 from beardyn_core.rail.spectra import spectral_density
 from beardyn_core.scene.operation import Irregularity

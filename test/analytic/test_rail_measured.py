@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement, speed_points
 from beardyn_core.scene.mounting import Mounting

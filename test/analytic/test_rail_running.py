@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_vehicle
-from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.vehicle import GRAVITY, quarter_vehicle
 from beardyn_core.rail.wheelset import HALF_GAUGE

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.signal import welch
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT, irregular_height, rail_profile
 from beardyn_core.rail.spectra import (
     THIRD_OCTAVE,

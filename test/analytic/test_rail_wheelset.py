@@ -9,8 +9,8 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_vehicle
-from beardyn_core.errors import InputError
 from beardyn_core.rail import wheelset as subject
 from beardyn_core.rail.build import RIDE_RATE, load_history
 from beardyn_core.rail.vehicle import BODY, BOGIE, BOX, WHEEL, QuarterVehicle, quarter_vehicle, ride

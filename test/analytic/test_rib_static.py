@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.special import ellipe, ellipk
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.consistency import check, require_sound
 from beardyn_core.bearing.contact_law import (
     ExactPointContact,
@@ -28,7 +29,6 @@ from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.roller_contacts import ConePose, contact_model, rib_contacts
 from beardyn_core.integrate.static import _rotation, solve
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
-from beardyn_core.errors import InputError
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.observe.accelerometer import (
     GRAVITY,

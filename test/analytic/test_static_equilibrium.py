@@ -10,6 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.contact_law import line_contact_factor, rib_contact_factor
 from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.kinematics import cage_speed
@@ -17,7 +18,6 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import InputError
 from beardyn_core.integrate import equilibria
 from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.roller_contacts import (

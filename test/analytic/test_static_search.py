@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.static import solve
 
 HS = load_bearing("HS130x230")

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import InputError
 from beardyn_core.structure.box import Block, Box, Disc, Seat
 from beardyn_core.structure.build import Built, load_zone, modes_of
 from beardyn_core.structure.elastic import Elastic, elastic_body, stacked

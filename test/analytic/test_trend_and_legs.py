@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
-from beardyn_core.errors import InputError
 from beardyn_core.measured.trending import remember, remembered
 from beardyn_core.observe.legs import turning_legs
 from beardyn_core.observe.monitoring import Monitor

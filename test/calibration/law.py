@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.calibration.fitting import Fitter
 from beardyn_core.calibration.spectra import Hearing, Ride
 from beardyn_core.calibration.twin import Beside, Values
 from beardyn_core.calibration.unknowns import BY_NAME
-from beardyn_core.errors import ValidityError
 
 HEARING = Hearing(("y", "z"), 25_600.0, 1.0)
 MODES_HZ, DAMPING = (640.0, 1100.0, 2300.0), 0.03

@@ -14,7 +14,8 @@ import yaml
 
 import beardyn_core as bd
 from beardyn_core.api import calibrating
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.calibration.fitting import Fit
 from beardyn_core.calibration.twin import Beside, Values, operation_at
 from beardyn_core.calibration.unknowns import BY_NAME, UNKNOWNS
@@ -22,7 +23,6 @@ from beardyn_core.calibration.writing import scene_keys, scene_text
 from beardyn_core.choice import load_scene
 from beardyn_core.cli import main as command
 from beardyn_core.config.folders import find
-from beardyn_core.errors import InputError
 from test.calibration.law import BASES, law
 from test.cli.json_page import check
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.calibration.fitting import FEWEST_RUNS, Fitted
 from beardyn_core.calibration.identify import PRIOR, common_slope, identified
 from beardyn_core.calibration.spectra import Heard, Hearing, levels_of, rides_of

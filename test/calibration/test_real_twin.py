@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import beardyn_core as bd
-from beardyn_core.edge import written
+from beardyn_core.base.edge import written
 
 SCENE = "service_high_speed"
 FREQUENCY, NOISE = 1.07, 0.04

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.bending import rates_told, structure
 from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.ringing import levels
 from beardyn_core.effects import ModalStructure
-from beardyn_core.errors import InputError
 from beardyn_core.model.structure import body_of
 from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene

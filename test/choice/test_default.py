@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load, load_scene, load_trial, scene_from_mapping, trial_scene, with_choices
 from beardyn_core.choice.trial import together
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_effects, read_scene, shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import Free
 from beardyn_core.scene.trial import Trial
 from test.choice.scenes import BASE

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import shipped_names
-from beardyn_core.errors import InputError
 from beardyn_core.scene.scene import QUANTITIES
 from beardyn_core.scene.tier import TIER_NAMES
 from test.choice.scenes import SPALL, constant, variant

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.edge import written
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import explain_scene, load_scene, load_trial, scene_from_mapping, trial_scene
 from beardyn_core.choice.sampling import rate_for
 from beardyn_core.cli.explain import text
 from beardyn_core.config import read_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import written
-from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.run import start
 from beardyn_core.scene.scene import NOTHING, Free, Scene

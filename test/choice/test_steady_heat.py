@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.circumstances import circumstances
 from beardyn_core.choice.steady_heat import HOTTEST, SteadyHeat, steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
-from beardyn_core.errors import ValidityError
 from beardyn_core.model.heat import NODES, thermal_network
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.rail.build import load_history

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from beardyn_core import twin
+from beardyn_core.base.jit import when_compiling
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.main import main
 from beardyn_core.cli.warmup import _of_one_box
 from beardyn_core.config import read_scene
-from beardyn_core.jit import when_compiling
 
 
 def test_only_a_kernel_that_is_not_compiled_yet_is_announced_and_once() -> None:
@@ -57,7 +57,7 @@ def test_warmup_takes_a_sound_and_a_faulty_box_of_a_scene_with_axleboxes() -> No
 
 FIRST_BLOCK = """
 from beardyn_core.choice import load_scene
-from beardyn_core.jit import when_compiling
+from beardyn_core.base.jit import when_compiling
 from beardyn_core.rail.build import load_history
 from beardyn_core.twin import Twin
 scene = load_scene("static_80kN", tier="lumped")

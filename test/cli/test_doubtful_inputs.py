@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.life import load_doubts, static_rating
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import main as command
 from beardyn_core.cli import simulate
 from beardyn_core.config import config_folder, load_bearing
-from beardyn_core.errors import InputError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.chain import MonitorResult
 from beardyn_core.observe.chain.patience import WAITED_FOR, NoAnswerError, within

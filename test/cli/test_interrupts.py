@@ -19,9 +19,9 @@ from pathlib import Path
 import psutil
 import pytest
 
+from beardyn_core.base.interrupts import GRACE_S
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
-from beardyn_core.interrupts import GRACE_S
 from beardyn_core.record.reading import read_run
 from test.finite_elements import need_finite_elements
 from test.population.sweeps import tiny

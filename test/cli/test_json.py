@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.plain_json import plain
 from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate, simulate_train
@@ -22,7 +23,6 @@ from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSSES
 from beardyn_core.observe.stage_clock import StageTime
 from beardyn_core.observe.summary import torque_budget
-from beardyn_core.plain_json import plain
 from beardyn_core.record.published import MissingMessages
 from beardyn_core.record.reporting import Gap, report
 from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket

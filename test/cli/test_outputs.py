@@ -14,10 +14,10 @@ from pathlib import Path
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import as_a_whole, file_problems, files_read, open_to_write, write_whole
 from beardyn_core.cli import main as command
 from beardyn_core.config import config_folder
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import as_a_whole, file_problems, files_read, open_to_write, write_whole
 from beardyn_core.rail.transfer_path import read_transfer_path
 from beardyn_core.record.mcap_scanning import recover, recovered_name
 from beardyn_core.record.reading import read_run
@@ -216,7 +216,7 @@ def test_a_text_file_is_written_as_a_whole_or_not_at_all(tmp_path: Path) -> None
     write_whole(path, "one")
     script = (
         "import resource, signal, sys; from pathlib import Path\n"
-        "from beardyn_core.outputs import write_whole\n"
+        "from beardyn_core.base.outputs import write_whole\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
         "write_whole(Path(sys.argv[1]), 'two' * 1000)\n"

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 import yaml
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import explain_scene, load_scene, scene_from_text
 from beardyn_core.choice.usual_step import with_modes
 from beardyn_core.config import scene_text
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.friction_steps import StepChoice
 from beardyn_core.scene.scene import Scene
 

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 import yaml
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.packed import packed, unpacked
 from beardyn_core.config.content import self_contained
 from beardyn_core.config.load import read_scene, read_scene_text
 from beardyn_core.config.nouns import load_effects
 from beardyn_core.config.structure import modes_of_effects, table_path
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.errors import InputError
-from beardyn_core.packed import packed, unpacked
 from beardyn_core.rail.transfer_path import path_read, read_transfer_path
 from beardyn_core.scene.scene import Scene
 

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import write_mapping
-from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.defect import PATCH_KINDS, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene

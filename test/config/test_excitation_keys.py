@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
-from beardyn_core.errors import InputError
 from beardyn_core.scene.excitation import (
     IRREGULARITY_KINDS,
     Corrugation,

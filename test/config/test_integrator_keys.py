@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import yaml
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
-from beardyn_core.errors import InputError
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.parameters import Parameters

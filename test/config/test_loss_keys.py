@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_effects
 from beardyn_core.effects import Drag, RollingResistance, Seal
-from beardyn_core.errors import InputError
 
 
 def test_options_are_read_in_their_units(tmp_path: Path) -> None:

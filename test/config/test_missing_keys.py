@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.config import scene_text
 from beardyn_core.config.schema import json_schema
-from beardyn_core.errors import InputError
 from beardyn_core.scene.defect import MissingRoller, defect_from, truth_of
 
 SCENE = """

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import load_bearing, load_effects, scene_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
-from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.scene.defect import Patch

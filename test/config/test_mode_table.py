@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_bearing
-from beardyn_core.errors import InputError
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.modes import Modes
 from beardyn_core.structure.table import SERIES, modes_of_text, read_table, table_text

@@ -16,21 +16,21 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as some
 
+from beardyn_core.base.edge import Place, outside, places, rules_of, written
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import SCHEMA_KINDS, json_schema, scene_text, shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.load import read_scene
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import Place, outside, places, rules_of, written
-from beardyn_core.errors import InputError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Curve, Stop, Timetable
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Band, Waviness
-from beardyn_core.units import UNITS
 
 SCENES = ("curve", "waviness", "growing_spall", "freight_100", "static_80kN")
 

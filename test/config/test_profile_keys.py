@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.profile import PROFILE_KINDS, Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
-from beardyn_core.errors import InputError
 
 
 def bearing_file(folder: Path, profile: dict[str, Any]) -> Path:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_vehicle
-from beardyn_core.errors import InputError
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Braking, Curve, Starting
 

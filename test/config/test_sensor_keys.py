@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.config import load_background, load_sensor, scene_text, shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.errors import InputError
 from beardyn_core.run import blocks
 from beardyn_core.scene.background import Background, Knocks
 from beardyn_core.scene.scene import Scene

@@ -10,6 +10,8 @@ import pytest
 import yaml
 
 from beardyn_core import effects
+from beardyn_core.base.edge import is_kind
+from beardyn_core.base.units import stem_of
 from beardyn_core.bearing.geometry import Material
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene, scene_from_text
@@ -27,7 +29,6 @@ from beardyn_core.config import (
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of
 from beardyn_core.config.yaml_text import read_file, read_mapping
-from beardyn_core.edge import is_kind
 from beardyn_core.effects import Drag, EffectSet, Rib, RibMixedFilm
 from beardyn_core.effects.catalogue import catalogue
 from beardyn_core.scene.defect import Patch
@@ -35,7 +36,6 @@ from beardyn_core.scene.mounting import Guidance, Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, Track
 from beardyn_core.scene.scene import Numerics
 from beardyn_core.scene.sensor import Accelerometer
-from beardyn_core.units import stem_of
 
 LOADERS: dict[str, Callable[[str], Any]] = {
     "bearings": load_bearing,

@@ -60,7 +60,7 @@ def test_a_bearing_is_answered_and_a_recording_refused_elsewhere(tmp_path: Path)
 def test_files_are_whole_or_absent_elsewhere(tmp_path: Path) -> None:
     text = """
 from pathlib import Path
-from beardyn_core.outputs import as_a_whole
+from beardyn_core.base.outputs import as_a_whole
 try:
     with as_a_whole(Path("kept.txt")) as fresh:
         fresh.write_text("half")

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from mcap.records import Channel, Schema
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record import viewer
 from beardyn_core.record.other_messages import _decoder
 
@@ -66,7 +66,7 @@ def test_modules_by_a_name_that_a_user_gives_are_monitors_alone() -> None:
     assert computed == {
         ("beardyn_core/observe/chain/named.py", "module_name"),  # --monitor, algorithm
         ("beardyn_core/study/code_digest.py", "name"),  # the same module again, for its digest
-        ("beardyn_core/optional.py", "name"),  # libraries of an extra
+        ("beardyn_core/base/optional.py", "name"),  # libraries of an extra
         ("beardyn_core/cli/main.py", "module_of(name)"),  # the commands
     }
 

@@ -14,9 +14,9 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import ContactDamping, EffectSet
 from beardyn_core.integrate.imex import advance
-from beardyn_core.jit import OPTIONS
 from beardyn_core.model.layout import (
     AXIAL,
     CAGE_BODY,

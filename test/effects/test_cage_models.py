@@ -11,13 +11,13 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import ValidityError
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.imex import advance
 from beardyn_core.integrate.status import Status
-from beardyn_core.jit import OPTIONS
 from beardyn_core.model.build import build_parameters
 from beardyn_core.model.cage import cage_params
 from beardyn_core.model.layout import (

@@ -9,9 +9,9 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import CoulombTraction, EffectSet, LineFilm, LoadSharingTraction, MixedTraction
 from beardyn_core.integrate.status import chatter_index
-from beardyn_core.jit import OPTIONS
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.film import RigidFilmParams, ThermalFilmParams
 from beardyn_core.model.parameters import Parameters

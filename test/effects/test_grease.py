@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.effects import Drag, LineFilm
@@ -20,7 +21,6 @@ from beardyn_core.effects.grease import (
     aged_fill,
     aged_layer,
 )
-from beardyn_core.errors import InputError
 from beardyn_core.model.losses import drag_params
 from test.kernels.rig import standard_scene
 

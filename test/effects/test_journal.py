@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.jit import entry
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
 from beardyn_core.choice.ringing import bounce, levels
 from beardyn_core.config.nouns import load_vehicle
 from beardyn_core.effects import EffectSet
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.step_choice import choose_steps
-from beardyn_core.jit import entry
 from beardyn_core.kernels.axle import ALONG, PLACE, SPEED, UPRIGHT, kick_journal
 from beardyn_core.model.journal import JournalParams, bending_give, journal_params, modes_of
 from beardyn_core.model.layout import (

@@ -12,10 +12,10 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.integrate.imex import advance
-from beardyn_core.jit import OPTIONS
 from test.effects.test_absent_effects import instruction_count
 from test.kernels.rig import Float, Rig, scene_with, standard_scene
 from test.kernels.runs import Record, record

@@ -9,9 +9,9 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
 from beardyn_core.integrate.imex import advance
-from beardyn_core.jit import OPTIONS
 from beardyn_core.model.layout import (
     ENERGY_LOST,
     LOSS_DRAG,

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.choice.statics import Statics
 from beardyn_core.cli.structure import zone_yield
@@ -16,7 +17,6 @@ from beardyn_core.config.nouns import load_bearing, load_box
 from beardyn_core.config.structure import modes_of_effects, mounting_of, seat_of, table_path
 from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.errors import InputError
 from beardyn_core.integrate import rest
 from beardyn_core.integrate.equilibria import equilibrium
 from beardyn_core.integrate.rest import rest_under, springs_under

@@ -10,8 +10,8 @@ import numba
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
-from beardyn_core.jit import OPTIONS
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters

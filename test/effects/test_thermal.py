@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.thermal import (
     PartTemperatures,
     Temperatures,
@@ -19,7 +20,6 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
 from beardyn_core.config import load_bearing, scene_text, shipped_names
 from beardyn_core.effects import EffectSet, LineFilm, Thermal
-from beardyn_core.errors import InputError
 from beardyn_core.model.heat import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
 from beardyn_core.model.layout import LOSS_NAMES
 from beardyn_core.observe.block import Block

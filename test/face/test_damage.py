@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import run_of_messages

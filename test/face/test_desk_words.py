@@ -12,11 +12,11 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core import twin
-from beardyn_core.announcements import announced_on_stderr
+from beardyn_core.base.announcements import announced_on_stderr
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice.load import choice_for
 from beardyn_core.cli.main import main
 from beardyn_core.config import read_scene
-from beardyn_core.errors import InputError
 from beardyn_core.record.rerun_view import about, title
 from beardyn_core.study.demo_report import FILES, demo_folder
 

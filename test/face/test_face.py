@@ -14,12 +14,12 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core import run as run_module
+from beardyn_core.base.edge import written
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping
 from beardyn_core.config.structure import modes_of_effects
-from beardyn_core.edge import written
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.operation import QuarterVehicleOperation

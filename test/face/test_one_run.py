@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Thermal
-from beardyn_core.errors import InputError
 from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.reading import read_run

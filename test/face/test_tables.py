@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
-from beardyn_core.errors import InputError
 from beardyn_core.record.exporting import KINDS, export
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run

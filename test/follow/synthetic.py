@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, names_of

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import judged_by
 from beardyn_core.follow.learning import known, widened

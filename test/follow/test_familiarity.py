@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.descriptors import AXES, places_of
 from beardyn_core.follow.estimator import Estimator, within_learnt
 from beardyn_core.follow.familiarity import familiarity_of

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.belief import Belief, carried, corrected
 from beardyn_core.follow.condition import ConditionBelief

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.follow.forest import Forest, forest_of
 
 COLUMNS = np.array([2, 5, 7, 11])

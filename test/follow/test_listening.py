@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.intake import StretchIntake

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.passage_profile import LAGS, profile_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.passages import NAMES, WAYS, of_passages
 from beardyn_core.observe.chain import Stretch

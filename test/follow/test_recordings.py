@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.residual import Residual, residual_of
 from test.cli.json_page import check

@@ -11,11 +11,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import train as command
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_plate
-from beardyn_core.errors import InputError
 from beardyn_core.follow import judging, labelled, training
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught

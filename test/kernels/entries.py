@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.kernels.generator_line import generator_line, line_slip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.jit import entry, inline
+from beardyn_core.base.jit import entry, inline
 from beardyn_core.kernels.balanced_roller import cone_waves
 from beardyn_core.kernels.defect import (
     find_damage,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.jit import entry
+from beardyn_core.base.jit import entry
 from beardyn_core.kernels.drag import prepare_drag, push_drag
 from beardyn_core.kernels.exchange import load_vector, store_vector
 from beardyn_core.kernels.orbit import Body, View

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import entry
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.status import chatter_index
-from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import Here, watch_chatter
 from beardyn_core.model.layout import BODY_STATES, ENERGY_TERMS, ROLLER_FIELDS
 

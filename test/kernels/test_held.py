@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.jit import entry
 from beardyn_core.effects import CoulombTraction, LoadSharingTraction
-from beardyn_core.jit import entry
 from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.film import log2_entrainment
 from beardyn_core.kernels.generator_line import generator_line, line_slip

@@ -18,7 +18,7 @@ CORE = Path(__file__).resolve().parents[2] / "beardyn_core"
 DIGEST = """
 import json, sys
 from beardyn_core.integrate.imex import advance
-from beardyn_core.machine_code import code_digest
+from beardyn_core.base.machine_code import code_digest
 print(json.dumps(code_digest(advance.py_func)))
 """
 SMALL = {
@@ -28,14 +28,14 @@ SMALL = {
     "deep/tuples/__init__.py": "",
     "deep/tuples/ribs.py": "from typing import NamedTuple\n\n\nclass Rib(NamedTuple):\n    stiffness: float\n"
     "    play: float\n\n\ndef build(scene):\n    return Rib(1e8 * scene, 1e-5)\n",
-    "deep/force.py": "from beardyn_core.jit import inline\n\n_SMALLEST = 1e-15\n\n\n@inline\n"
+    "deep/force.py": "from beardyn_core.base.jit import inline\n\n_SMALLEST = 1e-15\n\n\n@inline\n"
     'def force(rib, gap):\n    """Give the force."""\n'
     "    # against the way\n    return rib.stiffness * max(gap - rib.play, _SMALLEST)\n",
-    "step.py": "from beardyn_core.jit import entry\nfrom small import layout\n"
+    "step.py": "from beardyn_core.base.jit import entry\nfrom small import layout\n"
     'from small.deep.force import force\n\n\n@entry\ndef step(state, rib):\n    """Advance."""\n'
     "    state[layout.THIRD] += force(rib, state[layout.FIRST])\n    return state[layout.THIRD]\n",
     "run.py": "import json\n\nimport numpy as np\n\nfrom small.deep.tuples.ribs import build\n"
-    "from small.step import step\nfrom beardyn_core.jit import when_compiling\n\n"
+    "from small.step import step\nfrom beardyn_core.base.jit import when_compiling\n\n"
     "with when_compiling(lambda: None) as compiled:\n"
     "    found = step(np.array([1e-3, 0.0, 1.0, 0.0]), build(1.0))\n"
     "print(json.dumps([bool(compiled), float(found)]))\n",
@@ -207,7 +207,7 @@ def digest_after(folder: Path, name: str, old: str, new: str) -> str:
     core = folder / "beardyn_core"
     if not core.exists():
         shutil.copytree(CORE, core, ignore=shutil.ignore_patterns("__pycache__"))
-    path = core / (name or "jit.py")
+    path = core / (name or "base/jit.py")
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new, 1))
@@ -233,7 +233,7 @@ def digest_after(folder: Path, name: str, old: str, new: str) -> str:
         ("kernels/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
         ("model/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
         ("kernels/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
-        ("jit.py", '"forceinline": True', '"forceinline": False', True),
+        ("base/jit.py", '"forceinline": True', '"forceinline": False', True),
         ("model/layout.py", "# --- where energy is lost", "# --- where energy goes", False),
         ("kernels/pocket.py", '"""', '"""Anew: ', False),
         ("model/ribs.py", "return ", "return 1.0 * ", False),

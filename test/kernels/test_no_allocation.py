@@ -12,7 +12,7 @@ from numba.core.errors import NumbaError
 from numba.core.runtime import _nrt_python as runtime  # type: ignore[attr-defined]
 from numba.core.runtime import rtsys
 
-from beardyn_core.jit import entry
+from beardyn_core.base.jit import entry
 from test.kernels.rig import Rig, standard_scene
 
 pytestmark = pytest.mark.skipif(

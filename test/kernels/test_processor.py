@@ -6,7 +6,7 @@ import llvmlite.binding
 import numba
 import pytest
 
-from beardyn_core.jit import lane_width
+from beardyn_core.base.jit import lane_width
 
 
 class Features(dict[str, bool]):

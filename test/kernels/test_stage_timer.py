@@ -13,7 +13,7 @@ import numba
 import numpy as np
 import pytest
 
-from beardyn_core.jit import OPTIONS, entry, inline
+from beardyn_core.base.jit import OPTIONS, entry, inline
 from beardyn_core.kernels.stage_timer import PERIOD, mark, time_step
 from beardyn_core.model.build import HELD_STEPS
 from beardyn_core.model.stages import (
@@ -147,7 +147,7 @@ def body(dispatcher: Any, *arguments: Any) -> list[str]:
 
 _MARKED = """
 import numpy as np
-from beardyn_core.jit import entry
+from beardyn_core.base.jit import entry
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.kernels.stage_timer import mark_result
 from beardyn_core.model.stages import FILM, new_timers

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from beardyn_core.jit import entry
+from beardyn_core.base.jit import entry
 from beardyn_core.kernels.exchange import store_vector
 from beardyn_core.kernels.lanes import Lanes
 from beardyn_core.kernels.spring_roller import (

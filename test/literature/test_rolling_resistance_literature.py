@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
     aihara_line,
@@ -17,7 +18,6 @@ from beardyn_core.bearing.rolling_resistance import (
     zhou_hoeprich_line,
 )
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.errors import InputError
 from beardyn_core.integrate.static import solve
 from beardyn_core.integrate.torque import running_torque
 from evidence.validation.losses import RPM, bearing_32216

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.config import load_plate
 

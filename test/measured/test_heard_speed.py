@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.measured.heard_speed import PIECE_S
 from beardyn_core.observe.speed import speed_from_vibration
 

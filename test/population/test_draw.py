@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import json_schema, read_sweep, shipped_names
-from beardyn_core.errors import InputError
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.places import AbsentError, place_of, with_value
 from beardyn_core.population.table import splits_of, unit_in

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.population.batch import Array, Batch, Made
 from beardyn_core.population.closing import verify
 from beardyn_core.population.draw import rows_of

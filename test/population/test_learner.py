@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.population.features import NAMES, UNITS, features_of
 from beardyn_core.population.folder import ABOUT
 from beardyn_core.population.labelled_set import LabelledSet

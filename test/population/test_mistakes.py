@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep, scene_text
-from beardyn_core.errors import InputError
 from beardyn_core.population.asked import asked
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.plan import plan_of

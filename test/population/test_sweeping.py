@@ -12,9 +12,9 @@ import psutil
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.engine import Cluster
 from beardyn_core.engine.cluster import LocalCluster
-from beardyn_core.errors import InputError
 from beardyn_core.population import sweeping
 from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rosbags.highlevel import AnyReader
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.bag_scanning import INDEX, BagScan, files_of, scan_recording
 from beardyn_core.record.bag_writing import BagWriter, Splitting
 from beardyn_core.record.encoding import BlockEncoder

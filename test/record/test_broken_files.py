@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mcap.writer import CompressionType, Writer
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from test.examples import examples

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import rerun as rr
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.config import load_plate
-from beardyn_core.errors import InputError
 from beardyn_core.follow.descriptors import AXES, THIRDS
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.residual import residual_of

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import scene_from_text
-from beardyn_core.errors import InputError
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.cloud_layout import MalformedError

@@ -18,10 +18,10 @@ from mcap.data_stream import RecordBuilder
 from mcap.exceptions import McapError
 from mcap.records import Chunk, Footer, Header
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import DEEPEST, LONGEST_TEXT, read_object
 from beardyn_core.config.yaml_text import read_mapping
-from beardyn_core.errors import InputError
 from beardyn_core.follow.estimator import read_estimator
-from beardyn_core.plain_json import DEEPEST, LONGEST_TEXT, read_object
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.rail.transfer_path import read_transfer_path
 from beardyn_core.record.chunk_reading import (

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
-from beardyn_core.errors import InputError
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement, speed_points
 from beardyn_core.record.load_stream import encode_load

@@ -21,8 +21,8 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import ConnectionExtRosbag2
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_scanning import McapScan, recover
@@ -385,7 +385,7 @@ def test_what_came_before_the_disk_was_full_is_readable(tmp_path: Path) -> None:
     path = tmp_path / "full.mcap"
     script = (
         "import resource, sys\n"
-        "from beardyn_core.errors import InputError\n"
+        "from beardyn_core.base.errors import InputError\n"
         "from beardyn_core.record import mcap_writing\n"
         "from beardyn_core.record.sinks import McapSink\n"
         "from test.record.synthetic_run import SyntheticRun, description\n"

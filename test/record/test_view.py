@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 import rerun as rr
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.errors import InputError
 from beardyn_core.record import meshes
 from beardyn_core.record.description import BearingShape
 from beardyn_core.record.encoding import BlockEncoder

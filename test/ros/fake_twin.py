@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.errors import InputError, ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from test.record.synthetic_run import BLOCK_NS, SyntheticRun, description

@@ -14,7 +14,7 @@ import numpy as np
 import psutil
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.reading import read_run
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.messages import decode
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.defect import MissingRoller

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load
 from beardyn_core.config import load_effects
-from beardyn_core.errors import InputError
 from beardyn_ros.run_state import scene_rig
 
 pytestmark = pytest.mark.usefixtures("shipped_configuration")

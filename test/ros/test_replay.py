@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.replay import Replay
 from beardyn_ros.replay_clock import ReplayClock

@@ -13,8 +13,8 @@ import psutil
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_scene
-from beardyn_core.errors import InputError
 from beardyn_core.rail.train import TrainLoads
 from beardyn_core.record.bag_scanning import scan_recording
 from beardyn_core.record.mcap_scanning import END_RECORD

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.clouds import encode_points
 from beardyn_core.record.description import RunDescription

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import SENTENCES, Status, describe
 from beardyn_core.model.layout import LOSS_DAMPING
 from beardyn_core.observe.block import SMALLEST_LOSS

@@ -8,9 +8,9 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet, Rib
-from beardyn_core.errors import ValidityError
 from beardyn_core.integrate.status import Status, describe
 from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_effects
 from beardyn_core.effects import ContactDamping
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.integrate.status import Status, assess
 from beardyn_core.model.build import spring_time
 from beardyn_core.model.layout import CONE_BODY, LINEAR, PENETRATION, SIGNAL_FORCE

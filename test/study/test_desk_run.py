@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from beardyn_core import run
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.cli import simulate
-from beardyn_core.errors import InputError, ValidityError
 from beardyn_core.observe.block import Block
 from beardyn_core.observe.stage_clock import StageClock
 from beardyn_core.observe.summary import SETTLING_S, averaging_start, time_mean

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.config import load_effects
 from beardyn_core.effects import KinematicCage
-from beardyn_core.errors import ValidityError
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
 from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import open_to_append
 from beardyn_core.choice import load_trial, trial_scene
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.config import config_folder
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.errors import InputError
-from beardyn_core.outputs import open_to_append
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
 from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs, run_digest

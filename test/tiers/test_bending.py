@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
@@ -17,7 +18,6 @@ from beardyn_core.integrate.roller_contacts import ConePose, contact_model
 from beardyn_core.integrate.roller_equilibrium import load_of_approach, solve_rollers
 from beardyn_core.integrate.state import Output, State
 from beardyn_core.integrate.static import solve
-from beardyn_core.jit import LANE_WIDTH
 from beardyn_core.kernels.box import FORCE
 from beardyn_core.model.layout import (
     CAGE_BODY,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, hilbert, sosfiltfilt
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.run import start

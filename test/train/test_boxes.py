@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from beardyn_core.base.edge import NounError
+from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_mapping
 from beardyn_core.config import read_scene
 from beardyn_core.config.boxes import mirrored, mirrored_modes, scene_of_box
 from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.edge import NounError
-from beardyn_core.errors import InputError
 from beardyn_core.rail.train import MIRRORED
 from beardyn_core.run import start
 from beardyn_core.scene.axleboxes import Axleboxes

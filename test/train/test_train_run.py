@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
 from beardyn_core.config.boxes import scene_of_box
-from beardyn_core.errors import InputError
 from beardyn_core.rail.build import length_of_load
 from beardyn_core.rail.train import TrainLoads
 from beardyn_core.record.reading import namespaces_in

@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, comb_score

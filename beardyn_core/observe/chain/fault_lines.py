@@ -17,7 +17,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Bool, Float
+from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.inputs import MonitorSettings
 from beardyn_core.observe.chain.rivals import LOWEST_COMB, Rival, explained, reach, shaft_of, strongest_rival

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.observe.chain.levels import Levels
 from beardyn_core.observe.features import analytic_part, real_part, squared_magnitude

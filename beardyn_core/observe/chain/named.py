@@ -8,8 +8,8 @@ import traceback
 from pathlib import Path
 from typing import cast
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.errors import InputError
 from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
 from beardyn_core.observe.chain.fault_lines import FAULTS
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch

@@ -8,7 +8,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.arrays import Bool, Float
+from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.observe.chain.surprise import PLACES_PER_RESOLUTION, evidence
 from beardyn_core.observe.features import OrderSpectrum
 

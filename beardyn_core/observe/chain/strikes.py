@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.kurtogram import Band

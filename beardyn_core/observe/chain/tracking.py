@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Float
+from beardyn_core.base.arrays import Float
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
 from beardyn_core.observe.features import resample_by_angle

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.arrays import Bool, Float
+from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
 
 SECTORS = 64

@@ -20,8 +20,8 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-from beardyn_core.errors import InputError
-from beardyn_core.units import UNITS, Unit
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import UNITS, Unit
 
 _PLAIN = Unit("")
 _PERCENT = Unit("", times=0.01)

@@ -14,8 +14,8 @@ from numba.core.codegen import JITCodeLibrary, get_host_cpu_features
 from numba.core.compiler import Compiler, Flags
 from numba.core.registry import CPUDispatcher
 
-from beardyn_core.interrupts import held_back, seal, unseal
-from beardyn_core.kernel_cache import KernelCache
+from beardyn_core.base.interrupts import held_back, seal, unseal
+from beardyn_core.base.kernel_cache import KernelCache
 
 # No nnan and no ninf: a NaN must stay visible. No reassoc: lanes and scalars then differ by the rounding of
 # fused multiplications only, and one machine always gives the same bits.

@@ -21,8 +21,8 @@ from numba.core import environment
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from beardyn_core.cache_root import cache_root
-from beardyn_core.machine_code import code_digest, spelled_type
+from beardyn_core.base.cache_root import cache_root
+from beardyn_core.base.machine_code import code_digest, spelled_type
 
 _CHECK_BYTES = 32
 

@@ -7,7 +7,7 @@ import binascii
 import zlib
 from pathlib import Path
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 _LARGEST = 1 << 26  # bytes, unpacked
 _OF = "of "  # before the path, which is absolute

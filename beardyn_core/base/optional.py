@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 
 def missing(name: str, purpose: str, extra: str) -> list[str]:

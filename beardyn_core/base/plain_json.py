@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 LONGEST_TEXT = 4_000_000  # characters; the description of a scene with every part takes 60 000
 DEEPEST = 32  # levels of objects and lists; ours have at most 8

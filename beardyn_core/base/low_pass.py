@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from beardyn_core.arrays import Float
-from beardyn_core.jit import entry
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import entry
 
 
 def low_pass(length: int, cutoff: float, beta: float) -> Float:

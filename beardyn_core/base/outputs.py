@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from beardyn_core.errors import InputError
+from beardyn_core.base.errors import InputError
 
 try:
     import fcntl
