@@ -20,7 +20,8 @@ config      YAML files to bearings and scenes, all mistakes at once
 model       bearing and scene to kernel parameters, and where each number stands
 kernels     contacts, rollers and rings as compiled lane code
 integrate   static equilibrium, state, time steps, status
-observe     raw signals to channels, sensors, features, monitoring
+sensors     from the motion of bodies to the readings of sensors
+monitor     from vibration and speed to a verdict
 choice      tier, effects, laminae and step for an accuracy, with reasons
 laboratory  general contact search against closed forms: `beardyn contacts`
 twin        a scene that advances block by block
@@ -73,16 +74,16 @@ if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.follow.forecast import Forecast, Service
     from beardyn_core.follow.growth import GrowthLaw
-    from beardyn_core.observe.block import Block
-    from beardyn_core.observe.chain import Chain, MonitorSettings
-    from beardyn_core.observe.summary import RunSummary
+    from beardyn_core.monitor.chain import Chain, MonitorSettings
     from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.record.run import Run
     from beardyn_core.run import blocks
     from beardyn_core.scene.scene import Scene
+    from beardyn_core.sensors.block import Block
+    from beardyn_core.sensors.summary import RunSummary
     from beardyn_core.twin import Twin
 else:
-    from beardyn_core import bearing, follow, scene
+    from beardyn_core import bearing, follow, monitor, scene
 
 __all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Following"]
 __all__ += ["Forecast", "GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
@@ -110,7 +111,7 @@ _MODULES = {
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
-    "api.reading": ("monitor", "read", "severity"),
+    "api.reading": ("read", "severity"),
     "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
@@ -124,16 +125,16 @@ _MODULES = {
     "follow.growth": ("GrowthLaw",),
     "follow.estimator": ("Estimates", "Estimator"),
     "base.errors": ("InputError", "ValidityError"),
-    "observe.block": ("Block",),
-    "observe.chain": ("Chain", "MonitorSettings"),
-    "observe.summary": ("RunSummary",),
+    "sensors.block": ("Block",),
+    "monitor.chain": ("Chain", "MonitorSettings"),
+    "sensors.summary": ("RunSummary",),
     "population.labelled_set": ("LabelledSet",),
     "record.run": ("Run",),
     "run": ("blocks",),
     "scene.scene": ("Scene",),
     "twin": ("Twin",),
 }
-_ROOMS = {"bearing": "api.making", "follow": "api.following", "scene": "api.making"}
+_ROOMS = {"bearing": "api.making", "follow": "api.following", "monitor": "api.reading", "scene": "api.making"}
 """Rooms whose name is also that of a function, and where that is."""
 _PLACE = {name: module for module, names in _MODULES.items() for name in names}
 
@@ -166,7 +167,7 @@ class _CallableRoom(ModuleType):
 
 
 if not TYPE_CHECKING:
-    bearing.__class__ = follow.__class__ = scene.__class__ = _CallableRoom
+    bearing.__class__ = follow.__class__ = monitor.__class__ = scene.__class__ = _CallableRoom
 
     def __getattr__(name: str) -> Any:
         """Import a name of `__all__` when it is first asked for."""

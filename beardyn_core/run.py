@@ -9,10 +9,10 @@ from typing import Annotated as A
 
 from beardyn_core.base.announcements import announced_on_stderr
 from beardyn_core.base.interrupts import sealed
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_of_run
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 
 

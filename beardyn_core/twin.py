@@ -30,17 +30,17 @@ from beardyn_core.model.faults import grow
 from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.model.stages import stage_cycles
 from beardyn_core.model.structure import body_of
-from beardyn_core.observe.absence import absence_of
-from beardyn_core.observe.block import Block, EnergyAudit, body_names
-from beardyn_core.observe.channels import TRENDS_PER_BLOCK, Observer
-from beardyn_core.observe.labels import scene_labels
-from beardyn_core.observe.stage_clock import LOAD, OBSERVE, REST, StageClock
 from beardyn_core.rail.events import events_of
+from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.scene.defect import Patch, truth_of
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
+from beardyn_core.sensors.absence import absence_of
+from beardyn_core.sensors.block import Block, EnergyAudit, body_names
+from beardyn_core.sensors.channels import TRENDS_PER_BLOCK, Observer
+from beardyn_core.sensors.labels import scene_labels
+from beardyn_core.sensors.stage_clock import LOAD, OBSERVE, REST, StageClock
 
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs
 

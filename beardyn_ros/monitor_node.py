@@ -2,7 +2,7 @@
 
 Inputs are ``vibration``, ``shaft``, the load (``load/blocks`` or ``load/wrench``) and ``temperature`` of
 the axlebox. It never reads ``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come
-from the parameter ``bearing``. The algorithm is the chain of `beardyn_core.observe.chain`, or yours by the
+from the parameter ``bearing``. The algorithm is the chain of `beardyn_core.monitor.chain`, or yours by the
 parameter ``algorithm``.
 """
 
@@ -18,8 +18,8 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
-from beardyn_core.observe.chain import algorithm_named
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.monitor.chain import algorithm_named
+from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import (
@@ -46,7 +46,7 @@ PARAMETERS = (
     NodeParameter(
         "algorithm",
         "",
-        "module:function in place of the reference chain, a beardyn_core.observe.chain.Chain for one",
+        "module:function in place of the reference chain, a beardyn_core.monitor.chain.Chain for one",
     ),
     EXIT_WHEN_DONE,
 )

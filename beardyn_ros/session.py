@@ -16,9 +16,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.observe.block import Block
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
+from beardyn_core.sensors.block import Block
 from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
 from beardyn_ros.pacer import Pacer
 from beardyn_ros.run_state import (

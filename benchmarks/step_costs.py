@@ -7,9 +7,9 @@ from statistics import median
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_effects
-from beardyn_core.observe.stage_clock import STAGES, StageClock
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.stage_clock import STAGES, StageClock
 from benchmarks.runs import SETTLING_BLOCKS, Cell, Table, started, straight_line, take_turns
 
 LAMINAE = (4, 8, 12, 20)

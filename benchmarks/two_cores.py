@@ -19,7 +19,7 @@ from numba import types
 from numpy.typing import NDArray
 
 from beardyn_core.kernels.lanes import typed_intrinsic
-from beardyn_core.observe.stage_clock import StageClock
+from beardyn_core.sensors.stage_clock import StageClock
 from benchmarks.right_answers import full_scenes
 from benchmarks.runs import SETTLING_BLOCKS, Table, started
 

@@ -29,11 +29,11 @@ from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.listening import doubt_of, stretches_of
 from beardyn_core.follow.residual import Residual, residual_of
 from beardyn_core.follow.shipped import shipped_for
-from beardyn_core.observe.labels import HEALTHY
 from beardyn_core.population.batch import simulated
 from beardyn_core.record.run import Run
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.labels import HEALTHY
 
 _GRAVITY = 9.81
 _TWIN_STRETCHES = 4  # that are compared with the twin, the last ones

@@ -16,7 +16,7 @@ from beardyn_core.measured.options import Reading
 from beardyn_core.measured.survey import Survey, survey
 from beardyn_core.measured.trending import trend_of
 from beardyn_core.measured.writing import write_measured
-from beardyn_core.observe.trend import TrendPoint
+from beardyn_core.monitor.trend import TrendPoint
 from beardyn_core.record.run import Run
 
 Files = Path | str | Sequence[Path | str]

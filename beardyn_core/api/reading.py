@@ -10,8 +10,8 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config import load_plate
 from beardyn_core.measured.about import mounted_in
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorSettings
-from beardyn_core.observe.severity import Severity
+from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorSettings
+from beardyn_core.monitor.severity import Severity
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.study.measured_severity import severity_in

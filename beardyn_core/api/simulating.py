@@ -16,13 +16,13 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import files_read, recording_problems
 from beardyn_core.config.content import files_of
 from beardyn_core.effects import EffectSet
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import McapSink, MemorySink, Sink, TrainSink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.summary import RunSummary
 from beardyn_core.study import desk_run, train_run
 
 

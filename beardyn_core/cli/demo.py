@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from beardyn_core.observe.block import Block
+    from beardyn_core.sensors.block import Block
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3

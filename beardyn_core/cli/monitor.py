@@ -28,7 +28,7 @@ from beardyn_core.cli.trend import add_trend, run_trend
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.observe.chain import Algorithm, MonitorResult, MonitorSettings
+    from beardyn_core.monitor.chain import Algorithm, MonitorResult, MonitorSettings
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
 
@@ -108,7 +108,7 @@ def add_certainty(parser: argparse.ArgumentParser) -> None:
 def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
     """Make the settings of the monitor; raises `InputError` with every mistake."""
     from beardyn_core.config import load_plate
-    from beardyn_core.observe.chain import MonitorSettings
+    from beardyn_core.monitor.chain import MonitorSettings
 
     problems: list[str] = []
     if args.speed_uncertainty is not None:
@@ -135,7 +135,7 @@ def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
-    from beardyn_core.observe.chain import algorithm_named
+    from beardyn_core.monitor.chain import algorithm_named
 
     if args.trend:
         return run_trend(args)

@@ -15,7 +15,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_choice, add_force, add_json, chosen
 
 if TYPE_CHECKING:
-    from beardyn_core.observe.block import Block
+    from beardyn_core.sensors.block import Block
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
@@ -187,7 +187,7 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
 def text(summary: RunSummary, recording: Path | None) -> str:
     """Write the summary for the terminal."""
     from beardyn_core.integrate.rating_life import life_sentence
-    from beardyn_core.observe.stage_clock import stage_lines
+    from beardyn_core.sensors.stage_clock import stage_lines
 
     residual = "not kept" if summary.energy_residual is None else f"{100.0 * summary.energy_residual:.3f} %"
     lines = [

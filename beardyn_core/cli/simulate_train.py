@@ -13,8 +13,8 @@ from beardyn_core.cli.files import tell_doubts
 from beardyn_core.cli.json_output import json_text
 
 if TYPE_CHECKING:
-    from beardyn_core.observe.block import Block
     from beardyn_core.scene.scene import Scene
+    from beardyn_core.sensors.block import Block
     from beardyn_core.study.train_run import TrainRun
 
 DONE, INVALID = 0, 3

@@ -13,7 +13,7 @@ from beardyn_core.cli.json_output import json_text, renamed
 from beardyn_core.cli.measured_options import plate_options, reading_of
 
 if TYPE_CHECKING:
-    from beardyn_core.observe.trend import TrendPoint
+    from beardyn_core.monitor.trend import TrendPoint
 
 _KEYS = {"time": "time_s", "rise": "rise_dB", "since": "since_s"}
 
@@ -40,7 +40,7 @@ def run_trend(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.trending import remember, remembered, trend_of
-    from beardyn_core.observe.trend import Trend
+    from beardyn_core.monitor.trend import Trend
 
     if problems := option_problems(args):
         raise InputError(problems)

@@ -11,9 +11,9 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow import event_order, passage_profile, passages
-from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
-from beardyn_core.observe.passage_order import find_passage_order
-from beardyn_core.observe.severity import narrow_width
+from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
+from beardyn_core.monitor.passage_order import find_passage_order
+from beardyn_core.monitor.severity import narrow_width
 
 AXES = ("x", "y", "z")
 RACEWAYS = ("cup", "cone")

@@ -28,7 +28,7 @@ from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
-from beardyn_core.observe.labels import HEALTHY
+from beardyn_core.sensors.labels import HEALTHY
 
 VERSION = 4
 # of each way to a number: its arrays, and its numbers

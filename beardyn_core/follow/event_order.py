@@ -8,9 +8,9 @@ from scipy.fft import irfft, rfft
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.passage_profile import BANDS
-from beardyn_core.observe.chain import Stretch
-from beardyn_core.observe.passage_order import band_envelope
-from beardyn_core.observe.severity import spacing_of
+from beardyn_core.monitor.chain import Stretch
+from beardyn_core.monitor.passage_order import band_envelope
+from beardyn_core.monitor.severity import spacing_of
 
 MOTIONS = (300.0, 600.0, 1200.0)  # up to which the motion of the box is taken, [Hz]
 MOMENTS = {"before": (-2e-3, -0.3e-3), "at": (-0.3e-3, 0.6e-3), "after": (0.6e-3, 2e-3)}  # of an event, [m]

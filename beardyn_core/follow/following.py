@@ -25,7 +25,7 @@ from beardyn_core.follow.estimator import (
 from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
 from beardyn_core.follow.quantities import BY_NAME, Quantity
-from beardyn_core.observe.labels import HEALTHY
+from beardyn_core.sensors.labels import HEALTHY
 
 SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"
 HEALTHS = (WAITING, SOUND, SPALLED, TAKE_OUT, UNEXPLAINED)

@@ -14,7 +14,7 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
 from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_life
-from beardyn_core.observe.labels import HEALTHY
+from beardyn_core.sensors.labels import HEALTHY
 
 _DRAWS, _SEED = 4000, 1
 _QUANTILES = (0.05, 0.5, 0.95)

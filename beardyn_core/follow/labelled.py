@@ -15,7 +15,7 @@ from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.quantities import QUANTITIES
-from beardyn_core.observe.chain import Stretch
+from beardyn_core.monitor.chain import Stretch
 from beardyn_core.population.labelled_set import LabelledSet
 
 _ALIKE = 0.01  # sizes of bearings of one drawing, whose runs may differ by their tolerances

@@ -33,7 +33,7 @@ from beardyn_core.follow.wide_spall import (
     folded,
     spacings_of,
 )
-from beardyn_core.observe.labels import HEALTHY
+from beardyn_core.sensors.labels import HEALTHY
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 FEWEST = 40  # runs to learn a number from

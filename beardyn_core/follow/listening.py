@@ -16,7 +16,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimates, Estimator
-from beardyn_core.observe.chain import Stretch
+from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.run import Run
 
 FEWEST_TURNS = 10.0  # of the shaft in a stretch

@@ -7,9 +7,9 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.observe.chain import Stretch
-from beardyn_core.observe.passage_order import band_envelope
-from beardyn_core.observe.severity import spacing_of
+from beardyn_core.monitor.chain import Stretch
+from beardyn_core.monitor.passage_order import band_envelope
+from beardyn_core.monitor.severity import spacing_of
 
 BANDS = {"low": (500.0, 2500.0), "high": (2500.0, 11000.0), "top": (6000.0, 11500.0)}  # [Hz]
 LAGS = tuple(float(lag) for lag in np.arange(0.5e-3, 20e-3, 0.5e-3))  # from entry to exit, [m]

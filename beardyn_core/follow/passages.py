@@ -7,9 +7,9 @@ from math import log10, nan
 import numpy as np
 
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.observe.chain import Stretch
-from beardyn_core.observe.passage_order import band_envelope
-from beardyn_core.observe.severity import events_of, spacing_of
+from beardyn_core.monitor.chain import Stretch
+from beardyn_core.monitor.passage_order import band_envelope
+from beardyn_core.monitor.severity import events_of, spacing_of
 
 BANDS = {"low": (500.0, 2500.0), "high": (2500.0, 11000.0)}  # of the envelope, [Hz]
 HARMONICS = tuple(range(1, 25))  # of the passages

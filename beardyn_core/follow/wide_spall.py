@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.observe.severity import spacing_of
+from beardyn_core.monitor.severity import spacing_of
 
 RACEWAYS = ("cup", "cone")
 LEAST_SHARE = 0.82  # of the half distance: the least width of a spall that counts as wide

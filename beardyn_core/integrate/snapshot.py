@@ -12,7 +12,7 @@ from beardyn_core.integrate.cage_watch import CageWatch
 from beardyn_core.integrate.state import State
 from beardyn_core.integrate.warming import Warmth
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.scene.load_buffer import LoadBuffer
+from beardyn_core.rail.load_buffer import LoadBuffer
 
 
 @dataclass(frozen=True)

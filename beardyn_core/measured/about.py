@@ -11,7 +11,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
-from beardyn_core.observe.chain import MonitorSettings
+from beardyn_core.monitor.chain import MonitorSettings
 
 
 @dataclass(frozen=True)

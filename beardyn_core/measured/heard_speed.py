@@ -12,8 +12,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.measured.about import Mounted
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
-from beardyn_core.observe.monitoring import measured_axes
-from beardyn_core.observe.speed import SpeedTrack, speed_from_vibration
+from beardyn_core.monitor.speed import SpeedTrack, speed_from_vibration
+from beardyn_core.monitor.streaming import measured_axes
 
 PIECE_S = 10.0  # of vibration that is searched at a time
 _RPM = 60.0  # of a hertz

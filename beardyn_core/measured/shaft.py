@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
-from beardyn_core.observe.speed import SpeedTrack
+from beardyn_core.monitor.speed import SpeedTrack
 
 _POINTS_PER_TURN = 4.0
 _SLOWEST_GRID = 50.0  # [Hz]

@@ -23,7 +23,7 @@ from beardyn_core.measured.tacho import PulseLevels, Tacho, judge_pulses
 from beardyn_core.measured.telling import gathered, told
 from beardyn_core.measured.time_column import is_ramp
 from beardyn_core.measured.units import ROTATION
-from beardyn_core.observe.speed import SpeedTrack
+from beardyn_core.monitor.speed import SpeedTrack
 
 LEAST_SAMPLES = 16
 FASTEST_RPM = 1e6

@@ -13,7 +13,7 @@ from beardyn_core.base.outputs import write_whole
 from beardyn_core.measured.choice import AXES
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
-from beardyn_core.observe.trend import Trend, TrendPoint, record_levels
+from beardyn_core.monitor.trend import Trend, TrendPoint, record_levels
 
 LONGEST_RECORD_S = 10.0  # a longer measurement is cut into records of this
 SHORTEST_RECORD_S = 0.05  # what is shorter has too few lines in the lowest band

@@ -10,8 +10,8 @@ from beardyn_core.measured.about import Mounted, beside_others
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
-from beardyn_core.observe.monitoring import Monitor, MonitorInput, measured_axes
+from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, measured_axes
 
 _NONE, _NEVER = np.empty(0), np.empty(0, np.int64)
 

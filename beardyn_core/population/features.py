@@ -13,11 +13,11 @@ from scipy.fft import rfft
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorResult, MonitorSettings, Stretch
-from beardyn_core.observe.chain.fault_lines import comb_score
-from beardyn_core.observe.chain.kurtogram import by_kurtogram
-from beardyn_core.observe.chain.tracking import by_angle
-from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorResult, MonitorSettings, Stretch
+from beardyn_core.monitor.chain.fault_lines import comb_score
+from beardyn_core.monitor.chain.kurtogram import by_kurtogram
+from beardyn_core.monitor.chain.tracking import by_angle
+from beardyn_core.monitor.streaming import Monitor, MonitorInput
 from beardyn_core.record.run import Run
 
 PARTS = FAULTS

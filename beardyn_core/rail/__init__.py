@@ -21,6 +21,7 @@ transfer_path ratio of a sensor to the rigid box, measured, from a CSV or Univer
 build         any `scene.operation.Operation` to a `scene.load.LoadHistory`
 events        what a run meets on its way, as truth
 train         the loads of several axleboxes, each wheel over the same track later
+load_buffer   the load as a stream: accepted, refused, interpolated
 ============= ================================================================================
 
 A further excitation is one more function of position in `excitation`, which `build` adds to the profile

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
-from beardyn_core.observe.block import CONTACT_KINDS, LARGEST, WATCHED
 from beardyn_core.scene.load import WRENCH_AXES
+from beardyn_core.sensors.block import CONTACT_KINDS, LARGEST, WATCHED
 
 if TYPE_CHECKING:
     from beardyn_core.record.messages import Diagnostic

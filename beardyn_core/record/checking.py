@@ -17,13 +17,13 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.plain_json import LONGEST_TEXT, read_object
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_at
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME, decode, decode_string
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, TWIST, WRENCH, Topic, topic
 from beardyn_core.scene.load import WRENCH_AXES
+from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 
 _NUMBERS = {WRENCH: 6, TWIST: 6, IMU: 37, TEMPERATURE: 2}  # float64 behind the header
 _COLUMNS = {

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import Block, Vibration, body_names
 from beardyn_core.record import arrays
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
@@ -22,6 +21,7 @@ from beardyn_core.record.encoding import (
     block_diagnostic,
 )
 from beardyn_core.scene.load import WRENCH_AXES
+from beardyn_core.sensors.block import Block, Vibration, body_names
 
 _NOTHING = np.zeros(0, np.int64)
 

@@ -14,10 +14,10 @@ from typing import Annotated as A
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.plain_json import read_object
 from beardyn_core.bearing.kinematics import frequencies
-from beardyn_core.observe.labels import load_labels
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.sensor import RATES
+from beardyn_core.sensors.labels import load_labels
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing

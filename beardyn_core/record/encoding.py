@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Int
 from beardyn_core.model.heat import NODES
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.block import CONTACT_FIELDS, LARGEST, Block, EnergyAudit
-from beardyn_core.observe.summary import NUMERICAL
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make
 from beardyn_core.record.topics import FRAME, IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
+from beardyn_core.sensors.block import CONTACT_FIELDS, LARGEST, Block, EnergyAudit
+from beardyn_core.sensors.summary import NUMERICAL
 
 ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks

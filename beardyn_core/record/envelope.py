@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.observe.chain import MonitorSettings
-from beardyn_core.observe.features import OrderSpectrum, envelope, order_spectrum, resample_by_angle
+from beardyn_core.monitor.chain import MonitorSettings
+from beardyn_core.monitor.features import OrderSpectrum, envelope, order_spectrum, resample_by_angle
 from beardyn_core.record.arrays import Signal, Turning
 
 LEAST_REVOLUTIONS = 4.0

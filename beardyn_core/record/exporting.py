@@ -14,7 +14,7 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
 from beardyn_core.base.outputs import as_a_whole, file_problems, write_whole
-from beardyn_core.observe.monitoring import measured_axes
+from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.record import tables
 
 if TYPE_CHECKING:

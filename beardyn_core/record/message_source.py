@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 from beardyn_core.record import arrays
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription
@@ -32,6 +31,7 @@ from beardyn_core.record.load_stream import decode_load, joined_load
 from beardyn_core.record.messages import Template, decode, decode_diagnostics, decode_told, header_stamp
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
+from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 
 ROWS = 2
 

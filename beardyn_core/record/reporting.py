@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.observe.labels import HEALTHY
-from beardyn_core.observe.summary import TorqueBudget
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
@@ -29,6 +27,8 @@ from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import chosen_for, diagnosed, recorded_budget
 from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
+from beardyn_core.sensors.labels import HEALTHY
+from beardyn_core.sensors.summary import TorqueBudget
 
 SAMPLE_RANGE = 1 << 32
 # Topics written by others, or once: their times are not those of the twin's signals.

@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.observe.labels import flat_labels, load_labels
-from beardyn_core.observe.monitoring import MonitorInput, measured_axes
+from beardyn_core.monitor.streaming import MonitorInput, measured_axes
 from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
 from beardyn_core.record.topics import NAMESPACE, vibration_topic
+from beardyn_core.sensors.labels import flat_labels, load_labels
 
 if TYPE_CHECKING:
-    from beardyn_core.observe.block import Block
-    from beardyn_core.observe.summary import RunSummary
     from beardyn_core.record.collecting import BlockSource
     from beardyn_core.record.description import RunDescription
     from beardyn_core.record.message_source import MessageSource
+    from beardyn_core.sensors.block import Block
+    from beardyn_core.sensors.summary import RunSummary
 
 Part = TypeVar("Part")
 

@@ -11,7 +11,11 @@ import numpy as np
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.integrate.rating_life import RatingLife, scene_life
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.summary import (
+from beardyn_core.record.encoding import loss_key
+from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.waviness import Waviness
+from beardyn_core.sensors.summary import (
     COMPLETE,
     NUMERICAL,
     SETTLING_S,
@@ -21,10 +25,6 @@ from beardyn_core.observe.summary import (
     torque_budget,
     trend_means,
 )
-from beardyn_core.record.encoding import loss_key
-from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.waviness import Waviness
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run

@@ -9,8 +9,6 @@ from typing import Protocol
 import numpy as np
 
 from beardyn_core.model.build import BLOCK_NS
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.chunk_writing import QUICK_LEVEL
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (
@@ -26,6 +24,8 @@ from beardyn_core.record.mcap_writing import COMPLETE, McapWriter
 from beardyn_core.record.messages import encode_diagnostics, encode_string
 from beardyn_core.record.run import Run
 from beardyn_core.record.topics import FRAME, NAMESPACE
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.summary import RunSummary
 
 LOAD_MESSAGE_SAMPLES = 400
 

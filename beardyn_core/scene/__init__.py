@@ -1,8 +1,8 @@
 """The scene: one bearing under one operation, with all that is asked of the run.
 
-================= ================================================================================
-module            responsibility, in the order of the data
-================= ================================================================================
+================= =======================================================================================
+module            responsibility
+================= =======================================================================================
 excitation        irregularity of the rail; flats and waves of the wheel; joints, crossings, corrugation
 running           speed profiles, curves; brake and drive of an axle
 wheelset          an axle that bends and twists, with wheels and brake discs
@@ -11,7 +11,6 @@ load              load on the journal as samples
 load_check        what samples of load must be to be used
 chord_polynomials from one even sample to the next without images of their rate
 band_limited      interpolation between samples, by these polynomials where they are even
-load_buffer       the load as a stream: accepted, refused, interpolated
 mounting          axlebox, journal, suspension and guidance of a vehicle
 defect            patches, roller diameter, worn pocket
 waviness          harmonics of raceways and rollers
@@ -23,5 +22,5 @@ tier              which bodies move by their own equations of motion, how the fu
 scene             all of it, and what of it may be chosen
 trial             the matrix of scenes that a monitor is put to
 sweep             distributions that the scenes of a set of runs are drawn from
-================= ================================================================================
+================= =======================================================================================
 """

@@ -15,11 +15,11 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import folder_problems
-from beardyn_core.observe.summary import SETTLING_S
 from beardyn_core.record.envelope import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect
+from beardyn_core.sensors.summary import SETTLING_S
 from beardyn_core.study.monitored_recording import HEALTHY, Conclusion, Finding, conclude
 
 if TYPE_CHECKING:

@@ -18,9 +18,15 @@ from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.integrate.status import describe
 from beardyn_core.model.heat import NODES
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.stage_clock import REST, SINKS
-from beardyn_core.observe.summary import (
+from beardyn_core.record.description import RunDescription
+from beardyn_core.record.run_summary import life_of
+from beardyn_core.record.sinks import MemorySink, Sink
+from beardyn_core.run import Simulation, start
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.stage_clock import REST, SINKS
+from beardyn_core.sensors.summary import (
     COMPLETE,
     RunSummary,
     TorqueBudget,
@@ -28,12 +34,6 @@ from beardyn_core.observe.summary import (
     torque_budget,
     trend_means,
 )
-from beardyn_core.record.description import RunDescription
-from beardyn_core.record.run_summary import life_of
-from beardyn_core.record.sinks import MemorySink, Sink
-from beardyn_core.run import Simulation, start
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import Accelerometer
 
 
 def run(

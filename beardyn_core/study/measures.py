@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.observe.block import CONTACT_KINDS, Block
-from beardyn_core.observe.chain import MonitorSettings
-from beardyn_core.observe.features import envelope, order_spectrum, resample_by_angle
+from beardyn_core.monitor.chain import MonitorSettings
+from beardyn_core.monitor.features import envelope, order_spectrum, resample_by_angle
 from beardyn_core.scene.excitation import WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND
+from beardyn_core.sensors.block import CONTACT_KINDS, Block
 
 _CUP_BODY, _CONE_BODY, _FIRST_ROLLER = 0, 1, 4  # order of `Twin.body_names`
 _CUP_CONTACT = CONTACT_KINDS.index("cup")

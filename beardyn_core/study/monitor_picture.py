@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import MonitorResult
+from beardyn_core.monitor.chain import MonitorResult
 
 WIDTH_PX, HEIGHT_PX, DPI = 1200, 420, 100
 _PARTS = (("cup", "BPFO", "#4C72B0"), ("cone", "BPFI", "#DD8452"), ("roller", "2 BSF", "#55A868"))

@@ -13,14 +13,14 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import recorded_uncertainty
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
-from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME
+from beardyn_core.sensors.block import Block
 
 WAITING, HEALTHY, NOT_DIAGNOSABLE = "waiting", "healthy", "not_diagnosable"
 UNEXPLAINED, HOT_BOX = "unexplained", "hot_box"
@@ -36,7 +36,7 @@ EXIT_CODES = {HEALTHY: 0, WAITING: 10, NOT_DIAGNOSABLE: 10, UNEXPLAINED: 11} | d
 class Finding:
     """One result of the monitor, without its spectrum."""
 
-    verdict: A[str, "one of `beardyn_core.observe.chain.VERDICTS`"]
+    verdict: A[str, "one of `beardyn_core.monitor.chain.VERDICTS`"]
     reason: A[str, "the verdict in a sentence"]
     time: A[float, "simulated time of the last sample analysed, [s]"]
     found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan

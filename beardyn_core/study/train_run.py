@@ -19,8 +19,6 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.config.boxes import scene_of_box
 from beardyn_core.model.build import BLOCK_NS
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.summary import COMPLETE, RunSummary
 from beardyn_core.rail.build import length_of_load
 from beardyn_core.rail.train import TrainLoads
 from beardyn_core.record.description import RunDescription
@@ -29,6 +27,8 @@ from beardyn_core.record.sinks import TrainSink
 from beardyn_core.run import Simulation
 from beardyn_core.scene.axleboxes import Box
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.summary import COMPLETE, RunSummary
 from beardyn_core.study.desk_run import Trend, undisturbed
 
 MOST_THREADS = 8

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from beardyn_core.observe.chain import FAULTS as PARTS
+from beardyn_core.monitor.chain import FAULTS as PARTS
 from beardyn_core.scene.trial import HEALTHY
 from beardyn_core.study.trial_report import rate_text
 from beardyn_core.study.trial_result import FOUND_AT, TrialResult, own_score

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
-from beardyn_core.observe.chain import MonitorSettings
+from beardyn_core.monitor.chain import MonitorSettings
 from beardyn_core.scene.trial import HEALTHY
 from beardyn_core.study.trial_result import (
     CONFIDENCE,

@@ -11,7 +11,7 @@ from typing import Annotated as A
 
 from scipy.stats import binomtest
 
-from beardyn_core.observe.chain import FAULTS as PARTS
+from beardyn_core.monitor.chain import FAULTS as PARTS
 from beardyn_core.scene.trial import HEALTHY, Cell, Trial
 from beardyn_core.study.trial import TrialRun
 

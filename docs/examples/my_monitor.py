@@ -1,7 +1,7 @@
 # my_monitor.py: the reference chain with a band selection of one's own
 import numpy as np
 
-from beardyn_core.observe.chain import Band, Chain
+from beardyn_core.monitor.chain import Band, Chain
 
 
 def loudest_band(stretch, settings):

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from evidence.hard.case import WITHOUT_STARTS, HardCase
 from evidence.hard.case_scene import history, load_of, scene_of

@@ -11,7 +11,7 @@ import pytest
 
 from beardyn_core.config import load_bearing
 from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status
-from beardyn_core.observe.block import Block
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from evidence.hard import battery, run
 from evidence.hard.battery import run_battery

@@ -27,8 +27,8 @@ from beardyn_core.model.layout import (
     SIGNAL_TORQUE,
     VELOCITY,
 )
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Snapshot, Twin
 
 Float = NDArray[np.float64]

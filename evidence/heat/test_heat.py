@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from beardyn_core.config import load_lubricant
-from beardyn_core.observe.chain import MonitorSettings
+from beardyn_core.monitor.chain import MonitorSettings
 from evidence.heat.cases import (
     HEALTHY,
     NTN_LIGHT,

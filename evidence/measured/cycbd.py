@@ -12,8 +12,8 @@ import numpy as np
 from scipy.linalg import eigh, solve
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.features import order_spectrum, resample_by_angle
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.features import order_spectrum, resample_by_angle
 
 TAPS = 48
 ROUNDS = 5

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from beardyn_core.observe.chain import MonitorSettings
+from beardyn_core.monitor.chain import MonitorSettings
 from evidence.measured.cases import CWRU_12_DRIVE, SETS, Record, listenings, records
 from evidence.measured.grades import MEANINGS
 from evidence.measured.run import METHODS, Heard, outcomes, verdicts_of

@@ -9,7 +9,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.observe.chain import (
+from beardyn_core.monitor.chain import (
     REFERENCE,
     Algorithm,
     Chain,
@@ -18,9 +18,9 @@ from beardyn_core.observe.chain import (
     Stretch,
     Verdict,
 )
-from beardyn_core.observe.chain.tracking import by_angle
-from beardyn_core.observe.chain.whitening import not_whitened
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.monitor.chain.tracking import by_angle
+from beardyn_core.monitor.chain.whitening import not_whitened
+from beardyn_core.monitor.streaming import Monitor
 from evidence.measured.cases import Listening, Record, listenings
 
 SECONDS = 0.5  # of a block that a monitor gets at once

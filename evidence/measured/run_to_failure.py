@@ -18,7 +18,7 @@ import numpy as np
 from scipy.stats import spearmanr
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.observe.trend import ALARM, Trend, TrendSettings, record_levels
+from beardyn_core.monitor.trend import ALARM, Trend, TrendSettings, record_levels
 from evidence.pages import DOCS
 
 PAGE = DOCS / "run_to_failure.md"
@@ -239,7 +239,7 @@ def _growth(found: dict[str, dict[str, Found]]) -> list[str]:
         "## Does it grow with the damage?",
         "",
         "Nobody measured the spalls of these bearings, and beardyn does not either: entry and exit of a "
-        "roller (`beardyn_core.observe.severity`) are told apart for rollers from 15 mm on and in 40 "
+        "roller (`beardyn_core.monitor.severity`) are told apart for rollers from 15 mm on and in 40 "
         "passages; these balls have 3.5 mm and pass some 17 times in a record. What stands for the size here "
         "is the **added energy**: power of all bands over that of the first "
         f"{settings.baseline} records, in sum, over the power of those, median of {settings.smooth} records. "

@@ -28,11 +28,11 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import MonitorResult, MonitorSettings, Stretch
-from beardyn_core.observe.chain.fault_lines import FAULTS, Pattern, fault_patterns
-from beardyn_core.observe.chain.tracking import by_angle, logarithm_by_angle
-from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
-from beardyn_core.observe.features import local_background, order_spectrum
+from beardyn_core.monitor.chain import MonitorResult, MonitorSettings, Stretch
+from beardyn_core.monitor.chain.fault_lines import FAULTS, Pattern, fault_patterns
+from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
+from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
+from beardyn_core.monitor.features import local_background, order_spectrum
 from evidence.measured.cases import CWRU_12_DRIVE, Listening, listenings, records
 from evidence.measured.cycbd import deconvolved
 from evidence.measured.run import verdicts_of

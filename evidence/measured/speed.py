@@ -14,7 +14,7 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.observe.speed import speed_from_vibration
+from beardyn_core.monitor.speed import speed_from_vibration
 from evidence.measured.cases import Listening, listenings, records
 
 RANGE = (0.75, 4.0 / 3.0)  # of the stated speed

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_plate
-from beardyn_core.observe.chain import REFERENCE
+from beardyn_core.monitor.chain import REFERENCE
 from beardyn_core.study.monitored_recording import Finding, conclude
 from evidence.measured.cases import (
     CWRU_12_DRIVE,

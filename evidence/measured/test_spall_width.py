@@ -2,7 +2,7 @@
 
 from math import nan
 
-from beardyn_core.observe.severity import NOT_MEASURABLE, Severity
+from beardyn_core.monitor.severity import NOT_MEASURABLE, Severity
 from evidence.measured import spall_width
 
 

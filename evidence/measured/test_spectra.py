@@ -6,7 +6,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_plate
-from beardyn_core.observe.chain import MonitorSettings, Stretch
+from beardyn_core.monitor.chain import MonitorSettings, Stretch
 from evidence.measured.cycbd import deconvolved, on_harmonics, strongest_near
 from evidence.measured.spectra import standings
 

@@ -20,7 +20,7 @@ import numpy as np
 from beardyn_core.bearing.kinematics import FaultFrequencies, frequencies
 from beardyn_core.config import load_plate
 from beardyn_core.measured.stated_speed import UNCERTAINTY
-from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
+from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from evidence.measured.cases import DRIVE, FAN, HIT, MFPT, PLATES, Listening, listenings, records
 from evidence.pages import DOCS
 

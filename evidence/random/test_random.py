@@ -16,9 +16,9 @@ import pytest
 from beardyn_core.base.edge import At
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.engine import Ended
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from evidence.random import book, trial
 from evidence.random.__main__ import main
 from evidence.random.drawing import draw, undrawable

@@ -21,9 +21,9 @@ from beardyn_core.integrate.status import SENTENCES, Status, describe
 from beardyn_core.integrate.tiers import TIERS
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.observe.block import Block
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.study.compiling import warm_once
 from evidence.random.scenes import case
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, Block
 from beardyn_core.scene.operation import ConstantOperation, Step, SteppedOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, Block
 from evidence.santos2017.runs import SETTLED, StepRecord
 
 Float = NDArray[np.float64]

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.model.layout import SIGNAL_FORCE
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]

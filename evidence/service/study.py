@@ -12,7 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.config import shipped_names
-from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.monitor.streaming import Monitor, MonitorInput
 from beardyn_core.run import blocks
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.scene import Scene

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.observe.chain import MonitorSettings
+from beardyn_core.monitor.chain import MonitorSettings
 from evidence.pages import DOCS, PICTURES, save_small
 from evidence.trial.rivals import EVERY, Judged, orders, table
 
@@ -31,7 +31,7 @@ EXAMPLE = DOCS / "examples" / "my_monitor.py"
 ABOUT = """
 ## The monitor
 
-Six plain functions, put together by `beardyn_core.observe.chain.Chain`:
+Six plain functions, put together by `beardyn_core.monitor.chain.Chain`:
 
 | step | ours | what it does |
 |---|---|---|

@@ -17,8 +17,8 @@ from typing import Annotated as A
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial, trial_scene, with_choices
-from beardyn_core.observe.chain import FAULTS, MonitorSettings
-from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.monitor.chain import FAULTS, MonitorSettings
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import HEALTHY, Cell

@@ -9,7 +9,7 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
-from beardyn_core.observe.chain import MonitorSettings, Stretch
+from beardyn_core.monitor.chain import MonitorSettings, Stretch
 from evidence.trial.worn_pockets import cage_lines, way_behind
 
 BEARING = load_bearing("HS130x230")

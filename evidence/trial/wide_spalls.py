@@ -17,10 +17,10 @@ import numpy as np
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene, with_choices
-from beardyn_core.observe.chain import REFERENCE, MonitorSettings, Stretch
-from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors
-from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
-from beardyn_core.observe.features import line_at, order_spectrum, resample_by_angle
+from beardyn_core.monitor.chain import REFERENCE, MonitorSettings, Stretch
+from beardyn_core.monitor.chain.wheel import SECTORS, struck_sectors
+from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
+from beardyn_core.monitor.features import line_at, order_spectrum, resample_by_angle
 from beardyn_core.run import blocks
 from beardyn_core.scene.defect import Patch, raceway_diameter
 from beardyn_core.scene.scene import Scene

@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from beardyn_core.base.jit import entry
-from beardyn_core.observe.accelerometer import GRAVITY, NoiseStream, force_at, reading
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.sensors.accelerometer import GRAVITY, NoiseStream, force_at, reading
 
 NOTHING = np.zeros((1, 3))
 

@@ -6,7 +6,7 @@ from copy import deepcopy
 import numpy as np
 import pytest
 
-from beardyn_core.observe.resampling import Decimator, TwoStageDecimator
+from beardyn_core.sensors.resampling import Decimator, TwoStageDecimator
 
 
 def _gain(factor, frequency, kind=Decimator):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from beardyn_core.observe.features import (
+from beardyn_core.monitor.features import (
     analytic_band,
     envelope,
     kurtosis,

@@ -7,8 +7,8 @@ import pytest
 from scipy.signal import lfilter
 
 from beardyn_core.bearing.kinematics import frequencies
-from beardyn_core.observe.chain import REFERENCE, MonitorResult, MonitorSettings, Stretch
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.monitor.chain import REFERENCE, MonitorResult, MonitorSettings, Stretch
+from beardyn_core.monitor.streaming import Monitor
 
 RATE = 25_600.0
 ROLLERS = 17

@@ -7,7 +7,7 @@ from copy import deepcopy
 import numpy as np
 import pytest
 
-from beardyn_core.observe.resampling import FACTORS, Interpolator, delay
+from beardyn_core.sensors.resampling import FACTORS, Interpolator, delay
 
 LENGTH = 4000
 

@@ -13,13 +13,13 @@ import pytest
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
+from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.topics import NAMESPACE
 from beardyn_core.scene.band_limited import interpolated
 from beardyn_core.scene.chord_polynomials import PASSED
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory
-from beardyn_core.scene.load_buffer import LoadBuffer
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_ros.held_load import HeldLoad

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.load_buffer import LoadBuffer
 
 
 def random_history(first_ns: int, count: int, seed: int) -> LoadHistory:

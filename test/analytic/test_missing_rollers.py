@@ -24,9 +24,9 @@ from beardyn_core.model.layout import (
     RATE,
     VELOCITY,
 )
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.defect import MissingRoller
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import SPEED, Rig, constant_load, scene_with, standard_scene, started

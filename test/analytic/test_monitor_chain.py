@@ -12,15 +12,15 @@ from scipy.stats import binomtest
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.observe.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
-from beardyn_core.observe.chain.fault_lines import FaultLines, comb_score
-from beardyn_core.observe.chain.kurtogram import by_kurtogram, fast_kurtogram
-from beardyn_core.observe.chain.levels import levels_of, rise
-from beardyn_core.observe.chain.surprise import evidence, trimmed_tail
-from beardyn_core.observe.chain.verdict import Verdict, strongest_pattern, temperature_state
-from beardyn_core.observe.chain.wheel import SECTORS, struck_sectors, without_wheel
-from beardyn_core.observe.chain.whitening import by_cepstrum, not_whitened
-from beardyn_core.observe.features import analytic_band, order_spectrum
+from beardyn_core.monitor.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
+from beardyn_core.monitor.chain.fault_lines import FaultLines, comb_score
+from beardyn_core.monitor.chain.kurtogram import by_kurtogram, fast_kurtogram
+from beardyn_core.monitor.chain.levels import levels_of, rise
+from beardyn_core.monitor.chain.surprise import evidence, trimmed_tail
+from beardyn_core.monitor.chain.verdict import Verdict, strongest_pattern, temperature_state
+from beardyn_core.monitor.chain.wheel import SECTORS, struck_sectors, without_wheel
+from beardyn_core.monitor.chain.whitening import by_cepstrum, not_whitened
+from beardyn_core.monitor.features import analytic_band, order_spectrum
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
 
@@ -401,7 +401,7 @@ def test_a_step_of_ones_own_takes_its_place_in_the_chain() -> None:
         ("no_such_module:chain", "there is no module no_such_module"),
         ("json:nothing", "has no nothing"),
         ("json:decoder", "is a module"),
-        ("beardyn_core.observe.chain:Chain", "is a type"),
+        ("beardyn_core.monitor.chain:Chain", "is a type"),
     ],
 )
 def test_a_name_that_is_no_algorithm_is_refused(name: str, told: str) -> None:

@@ -9,20 +9,20 @@ import pytest
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
-from beardyn_core.observe.accelerometer import (
+from beardyn_core.rail.transfer_path import TransferPath, read_transfer_path
+from beardyn_core.scene.background import Background, Pickup, PickupLine
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import Accelerometer, MeasuredPath
+from beardyn_core.sensors.accelerometer import (
     GRAVITY,
     LOOKAHEAD,
     filter_coefficients,
     low_pass_gain,
     resonance_gain,
 )
-from beardyn_core.observe.path_filter import response_of
-from beardyn_core.observe.resampling import DELAY, Decimator
-from beardyn_core.observe.sensors import Sensors, box_force
-from beardyn_core.rail.transfer_path import TransferPath, read_transfer_path
-from beardyn_core.scene.background import Background, Pickup, PickupLine
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import Accelerometer, MeasuredPath
+from beardyn_core.sensors.path_filter import response_of
+from beardyn_core.sensors.resampling import DELAY, Decimator
+from beardyn_core.sensors.sensor_set import Sensors, box_force
 
 SAMPLES = 512  # of 25.6 kHz in a block
 BLOCKS = 30

@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.observe.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_of
+from beardyn_core.monitor.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_of
 
 RATE = 25_600.0
 PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitch_diameter=185e-3)

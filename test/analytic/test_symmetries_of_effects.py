@@ -41,12 +41,12 @@ from beardyn_core.effects import (
 from beardyn_core.model import build
 from beardyn_core.model.arrangement import Arrangement
 from beardyn_core.model.build import build_parameters
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import Defect, Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 
 Float = NDArray[np.float64]

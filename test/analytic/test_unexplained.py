@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.config import load_plate
-from beardyn_core.observe.chain import FAULTS, REFERENCE, MonitorResult, Stretch
-from beardyn_core.observe.chain.chain import squared_envelope
-from beardyn_core.observe.chain.explanations import explanations
-from beardyn_core.observe.chain.fault_lines import comb_score, fault_patterns
-from beardyn_core.observe.chain.strikes import with_strikes
-from beardyn_core.observe.chain.tracking import logarithm_by_angle
-from beardyn_core.observe.chain.whitening import by_cepstrum, whole_band
+from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorResult, Stretch
+from beardyn_core.monitor.chain.chain import squared_envelope
+from beardyn_core.monitor.chain.explanations import explanations
+from beardyn_core.monitor.chain.fault_lines import comb_score, fault_patterns
+from beardyn_core.monitor.chain.strikes import with_strikes
+from beardyn_core.monitor.chain.tracking import logarithm_by_angle
+from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.study.monitored_recording import EXIT_CODES, Finding, conclude, worst
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 

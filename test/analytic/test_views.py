@@ -20,7 +20,7 @@ from beardyn_core.model.layout import (
     TURN,
 )
 from beardyn_core.model.parameters import RollerParams
-from beardyn_core.observe.kinematics import INSTANT_ROLLERS, Snapshots, write_instants
+from beardyn_core.sensors.kinematics import INSTANT_ROLLERS, Snapshots, write_instants
 from test.analytic import naive_views
 
 COUNT, CAGE_PLACE, TIMES = 17, 0.031, 3

@@ -18,10 +18,10 @@ from beardyn_core.cli.explain import text
 from beardyn_core.config import read_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.observe.block import Block
 from beardyn_core.run import start
 from beardyn_core.scene.scene import NOTHING, Free, Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES, SLOW_RATES
+from beardyn_core.sensors.block import Block
 
 pytestmark = pytest.mark.usefixtures("shipped_configuration")
 DURATION, SETTLED = 1.6, 0.3

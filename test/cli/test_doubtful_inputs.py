@@ -20,14 +20,14 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import main as command
 from beardyn_core.cli import simulate
 from beardyn_core.config import config_folder, load_bearing
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain import MonitorResult
-from beardyn_core.observe.chain.patience import WAITED_FOR, NoAnswerError, within
-from beardyn_core.observe.monitoring import Monitor
+from beardyn_core.monitor.chain import MonitorResult
+from beardyn_core.monitor.chain.patience import WAITED_FOR, NoAnswerError, within
+from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.scene.defect import doubts_about, width_problem
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run
 from test.record.conftest import write_recording
 from test.record.synthetic_run import SyntheticRun
@@ -235,7 +235,7 @@ def test_a_monitor_of_one_s_own_that_goes_wrong_is_a_sentence(
 ) -> None:
     from beardyn_core.bearing.kinematics import fault_frequencies
 
-    monkeypatch.setattr("beardyn_core.observe.chain.named.PATIENCE_S", 0.5)
+    monkeypatch.setattr("beardyn_core.monitor.chain.named.PATIENCE_S", 0.5)
 
     monitor = Monitor(fault_frequencies(BEARING), BEARING.roller_count, algorithm=algorithm)
     time_ns = np.arange(0, 4 * 25_600, dtype=np.int64) * 1_000_000_000 // 25_600

@@ -19,7 +19,7 @@ from beardyn_core.model.layout import (
     VELOCITY,
 )
 from beardyn_core.model.parameters import ExplicitParams
-from beardyn_core.observe.block import EnergyAudit
+from beardyn_core.sensors.block import EnergyAudit
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import SPEED, Float, Rig, scene_with
 from test.kernels.test_step import assert_step_is_that_of_dense_algebra, shaken

@@ -12,11 +12,11 @@ from beardyn_core.choice import load_scene
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps, fastest_mode
 from beardyn_core.effects import ContactDamping, Gravity, RingStructure
 from beardyn_core.integrate.static import solve
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.run import blocks
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.kernels.rig import constant_load, started
 from test.tiers.momentum import momentum_of_rolling_parts

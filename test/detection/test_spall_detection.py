@@ -12,8 +12,8 @@ from scipy.signal import butter, hilbert, sosfiltfilt
 
 from beardyn_core.bearing.kinematics import FaultFrequencies, fault_frequencies
 from beardyn_core.choice import load_scene, load_trial
-from beardyn_core.observe.chain import MonitorResult
-from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.monitor.chain import MonitorResult
+from beardyn_core.monitor.streaming import Monitor, MonitorInput
 from beardyn_core.run import blocks
 from beardyn_core.study.trial import conduct_run
 

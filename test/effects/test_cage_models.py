@@ -30,8 +30,8 @@ from beardyn_core.model.layout import (
     POCKET,
     POSITION,
 )
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.analytic.test_momentum_pairs import momenta
 from test.effects.test_absent_effects import instruction_count

@@ -15,8 +15,8 @@ import pytest
 from beardyn_core.effects import Cage, EffectSet
 from beardyn_core.integrate.status import is_fatal
 from beardyn_core.model.layout import CAGE_BODY, ENERGY_LOST, LOSS_NAMES, LOSSES, POSITION
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from test.analytic.test_momentum_pairs import momenta
 from test.effects.combination_scenes import FACTORS, OUTSIDE, ROWS, label, scene_of
 from test.effects.covering import pairs_of

@@ -22,12 +22,12 @@ from beardyn_core.config import load_bearing, scene_text, shipped_names
 from beardyn_core.effects import EffectSet, LineFilm, Thermal
 from beardyn_core.model.heat import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import decode
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run
 from test.analytic.test_symmetries_of_effects import scene_of
 from test.kernels.rig import LOAD_80_KN, Float, constant_load, scene_with, standard_scene, started

@@ -12,8 +12,8 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.cli.main import main
-from beardyn_core.observe.chain import MonitorSettings
-from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.monitor.chain import MonitorSettings
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.run import blocks

@@ -11,13 +11,13 @@ import pytest
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Thermal
-from beardyn_core.observe.summary import RunSummary
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink, MemorySink
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.summary import RunSummary
 from beardyn_core.study import desk_run
 from test.effects.test_thermal import warming_scene
 

@@ -8,8 +8,8 @@ import pytest
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.event_order import CONTRASTS, WAY, order_of_events
-from beardyn_core.observe.chain import Stretch
-from beardyn_core.observe.severity import spacing_of
+from beardyn_core.monitor.chain import Stretch
+from beardyn_core.monitor.severity import spacing_of
 
 PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitch_diameter=185e-3)
 RATE, SPEED = 25_600.0, 18.0  # [Hz]

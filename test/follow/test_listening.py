@@ -18,7 +18,7 @@ from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.intake import StretchIntake
 from beardyn_core.follow.listening import estimates_of, stretches_of
-from beardyn_core.observe.chain import Stretch
+from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught

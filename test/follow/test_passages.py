@@ -8,8 +8,8 @@ import pytest
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.passages import NAMES, WAYS, of_passages
-from beardyn_core.observe.chain import Stretch
-from beardyn_core.observe.severity import spacing_of
+from beardyn_core.monitor.chain import Stretch
+from beardyn_core.monitor.severity import spacing_of
 
 RATE, SHAFT_HZ, SECONDS = 25_600.0, 19.0, 1.5
 PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitch_diameter=185e-3)

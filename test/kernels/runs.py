@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage
-from beardyn_core.observe.block import Block
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 
 Float = NDArray[np.float64]
 SETTLED_S = 0.2

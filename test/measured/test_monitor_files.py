@@ -16,8 +16,8 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
 from beardyn_core.config import load_bearing, load_plate, shipped_names
-from beardyn_core.observe.chain import REFERENCE, MonitorSettings, Stretch
-from beardyn_core.observe.monitoring import Monitor, measured_axes
+from beardyn_core.monitor.chain import REFERENCE, MonitorSettings, Stretch
+from beardyn_core.monitor.streaming import Monitor, measured_axes
 from beardyn_core.study.monitored_recording import EXIT_CODES
 from test.measured.files import RATE, G, frequencies, struck, table
 

@@ -8,9 +8,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import beardyn_core as bd
-from beardyn_core.observe.speed import speed_from_vibration
-from beardyn_core.observe.speed_lines import SpeedSettings, searched_signals
-from beardyn_core.observe.speed_rivals import Shaft, find_alternatives
+from beardyn_core.monitor.speed import speed_from_vibration
+from beardyn_core.monitor.speed_lines import SpeedSettings, searched_signals
+from beardyn_core.monitor.speed_rivals import Shaft, find_alternatives
 from test.examples import examples
 
 PLATE = bd.name_plate("6205")

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from beardyn_core.observe.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit, Vibration
 from beardyn_core.record.description import BearingShape, RunDescription
 from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit, Vibration
 
 SHAPE = BearingShape(
     name="HS130x230",

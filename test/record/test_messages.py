@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.observe.block import CONTACT_KINDS
 from beardyn_core.record.clouds import CloudTemplate, cloud_times, cloud_to_arrays, encode_points, points_of
 from beardyn_core.record.encoding import (
     BODIES,
@@ -40,6 +39,7 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.record.topics import TOPICS, namespace_of, relative_name, topic
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.sensors.block import CONTACT_KINDS
 from test.record.synthetic_run import SyntheticRun
 
 STAMPS = np.array([0, 1, 999_999_999, 1_000_000_000, 12_345_678_901_234], np.int64)

@@ -1,7 +1,7 @@
 """An algorithm of somebody else's, for the monitor node."""
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain import MonitorResult, MonitorSettings, Stretch
+from beardyn_core.monitor.chain import MonitorResult, MonitorSettings, Stretch
 
 
 def always(

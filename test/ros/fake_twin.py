@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.sensors.block import Block
 from test.record.synthetic_run import BLOCK_NS, SyntheticRun, description
 
 SCENES = ("fake", "fake_slow", "fake_invalid", "fake_background")

@@ -308,7 +308,7 @@ def test_twins_of_several_boxes_run_in_one_process(graph: Graph) -> None:
 @pytest.mark.slow
 def test_eight_boxes_of_a_car_run_to_the_end_and_one_of_them_is_spalled(graph: Graph) -> None:
     from beardyn_core.choice import load_scene
-    from beardyn_core.observe.sensors import lookahead
+    from beardyn_core.sensors.sensor_set import lookahead
     from beardyn_core.twin import Twin
 
     scenes = [load_scene(name, tier="lumped", outside_load=True) for name in ("smooth_run", "cup_spall")]

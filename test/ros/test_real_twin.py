@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.observe.block import Block
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.topics import topic
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.ros.conftest import ROS_IS_MISSING
 from test.ros.graph import Graph

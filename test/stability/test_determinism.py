@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.kernels.rig import SPEED, Rig, scene_with, standard_scene, started
 

@@ -15,8 +15,8 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
 from beardyn_core.integrate.status import SENTENCES, Status, describe
 from beardyn_core.model.layout import LOSS_DAMPING
-from beardyn_core.observe.block import SMALLEST_LOSS
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import SMALLEST_LOSS
 from beardyn_core.twin import Twin
 from evidence.hard.case import Point, through
 from evidence.hard.case_scene import history, merged

@@ -9,7 +9,7 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
-from beardyn_core.observe.monitoring import Monitor, MonitorInput
+from beardyn_core.monitor.streaming import Monitor, MonitorInput
 from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
 

@@ -15,13 +15,13 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.cli import simulate
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.stage_clock import StageClock
-from beardyn_core.observe.summary import SETTLING_S, averaging_start, time_mean
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.operation import MeasuredOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.stage_clock import StageClock
+from beardyn_core.sensors.summary import SETTLING_S, averaging_start, time_mean
 from beardyn_core.study import desk_run
 from test.record.synthetic_run import BLOCK_NS, SyntheticRun, body_names
 

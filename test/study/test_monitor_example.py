@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.observe.chain import Chain, Stretch
+from beardyn_core.monitor.chain import Chain, Stretch
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
 
 ROOT = Path(__file__).parents[2]

@@ -11,8 +11,11 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.simulate import json_object, text
 from beardyn_core.model.stages import KERNEL_STAGES
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.stage_clock import (
+from beardyn_core.rail.build import load_history
+from beardyn_core.record.sinks import MemorySink
+from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
+from beardyn_core.sensors.stage_clock import (
     KERNEL,
     LOAD,
     OBSERVE,
@@ -22,9 +25,6 @@ from beardyn_core.observe.stage_clock import (
     StageClock,
     stage_lines,
 )
-from beardyn_core.rail.build import load_history
-from beardyn_core.record.sinks import MemorySink
-from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
 from beardyn_core.twin import Twin
 

@@ -8,11 +8,11 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.integrate.kinematic_step import TRENDS_PER_BLOCK
-from beardyn_core.observe import channels
-from beardyn_core.observe.block import Block, Vibration
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
+from beardyn_core.sensors import channels
+from beardyn_core.sensors.block import Block, Vibration
 from beardyn_core.study.desk_run import run
 from beardyn_core.twin import Twin
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.observe.block import CONTACT_KINDS, LARGEST, Block
 from beardyn_core.run import blocks
 from beardyn_core.scene.tier import TIERS
+from beardyn_core.sensors.block import CONTACT_KINDS, LARGEST, Block
 
 CUP, POCKET = CONTACT_KINDS.index("cup"), CONTACT_KINDS.index("pocket")
 

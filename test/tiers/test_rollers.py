@@ -17,8 +17,8 @@ from beardyn_core.integrate.roller_equilibrium import (
 )
 from beardyn_core.integrate.static import _rotation
 from beardyn_core.model.layout import CAGE_BODY, CONE_BODY, CUP_BODY, POSITION, TILT, TURN
-from beardyn_core.observe.block import Block
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from test.kernels.rig import constant_load
 from test.tiers.runs import Float, heavy, scene_of

@@ -12,8 +12,8 @@ import pytest
 from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
-from beardyn_core.observe.chain import MonitorResult
-from beardyn_core.observe.monitoring import Monitor, MonitorInput, listen
+from beardyn_core.monitor.chain import MonitorResult
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.observe.block import Block
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
+from beardyn_core.sensors.block import Block
 from beardyn_core.study.desk_run import run
 from beardyn_core.twin import Twin
 

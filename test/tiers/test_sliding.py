@@ -13,10 +13,10 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.kernels.kinematic_rings import SLIDING
 from beardyn_core.model.tier_parameters import slide_params
-from beardyn_core.observe.block import CONTACT_KINDS, Block
 from beardyn_core.run import start
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.block import CONTACT_KINDS, Block
 from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
 
 Float = NDArray[np.float64]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.wheel import struck_sectors, without_wheel
-from beardyn_core.observe.features import resample_by_angle
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.wheel import struck_sectors, without_wheel
+from beardyn_core.monitor.features import resample_by_angle
 
 _FLOOR = 0.1  # of the mean power, below which silence is as quiet as any other
 

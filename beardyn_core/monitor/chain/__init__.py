@@ -23,14 +23,14 @@ named        finds an algorithm by its name ``module:function``, and checks its 
 ============ ========================================================================
 """
 
-from beardyn_core.observe.chain.chain import REFERENCE, Algorithm, Chain
-from beardyn_core.observe.chain.explanations import Explanation
-from beardyn_core.observe.chain.fault_lines import FAULTS, FaultLines, Line
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.kurtogram import Band
-from beardyn_core.observe.chain.named import algorithm_named, answer_of
-from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
-from beardyn_core.observe.chain.verdict import Verdict
+from beardyn_core.monitor.chain.chain import REFERENCE, Algorithm, Chain
+from beardyn_core.monitor.chain.explanations import Explanation
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, Line
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.kurtogram import Band
+from beardyn_core.monitor.chain.named import algorithm_named, answer_of
+from beardyn_core.monitor.chain.result import VERDICTS, MonitorResult
+from beardyn_core.monitor.chain.verdict import Verdict
 
 __all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "Explanation"]
 __all__ += [

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.observe.chain.fault_lines import Candidate, FaultLines
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.kurtogram import Band
-from beardyn_core.observe.chain.tracking import by_angle
-from beardyn_core.observe.chain.wheel import quiet_samples
-from beardyn_core.observe.features import OrderSpectrum, local_background, order_spectrum
+from beardyn_core.monitor.chain.fault_lines import Candidate, FaultLines
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.kurtogram import Band
+from beardyn_core.monitor.chain.tracking import by_angle
+from beardyn_core.monitor.chain.wheel import quiet_samples
+from beardyn_core.monitor.features import OrderSpectrum, local_background, order_spectrum
 
 _NOISE = 1.5  # what the highest place within a resolution is over the median of noise
 

@@ -10,14 +10,14 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry
 from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION, SIGNAL_CHANNELS
-from beardyn_core.observe.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Response, force_at, reading
-from beardyn_core.observe.block import Vibration
-from beardyn_core.observe.path_filter import PATH_LOOKAHEAD, PathFilter
-from beardyn_core.observe.pickup import PickupStream
-from beardyn_core.observe.resampling import DELAY, Decimator
 from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import AXES, PASSBAND, RATES, Accelerometer, rates_do_not_fit, steps_do_not_fit
+from beardyn_core.sensors.accelerometer import GRAVITY, LOOKAHEAD, NoiseStream, Response, force_at, reading
+from beardyn_core.sensors.block import Vibration
+from beardyn_core.sensors.path_filter import PATH_LOOKAHEAD, PathFilter
+from beardyn_core.sensors.pickup import PickupStream
+from beardyn_core.sensors.resampling import DELAY, Decimator
 
 REST = np.array([0.0, 0.0, GRAVITY])
 BLOCKS_PER_SECOND = 1_000_000_000 // BLOCK_NS

@@ -11,6 +11,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.model import layout
+from beardyn_core.model.heat import BOX_NODE
 from beardyn_core.scene.sensor import RATES
 
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")
@@ -149,6 +150,11 @@ class Block:
         """
         vibration = [each.acceleration for each in self.vibration if each.rate <= RATES[0]]
         return np.stack(vibration) if vibration else np.empty((0, len(self.waveform_time_ns), 3))
+
+    @property
+    def box_temperature(self) -> float | None:
+        """Temperature of the axlebox at the end of the block, without the thermal effect none, [K]."""
+        return None if self.temperature is None else float(self.temperature[BOX_NODE])
 
     # two threads may both come to what follows: they work out the same
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.base.arrays import Bool, Float
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 
 NOT_DIAGNOSABLE = "not_diagnosable"
 _RATE_TOLERANCE = 1e-3  # of a rate that is known from time stamps

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Annotated as A
 from typing import NamedTuple
 
-from beardyn_core.observe.chain.fault_lines import Pattern, fault_patterns
+from beardyn_core.monitor.chain.fault_lines import Pattern, fault_patterns
 
 PART_NAMES = {"cup": "outer ring (cup)", "cone": "inner ring (cone)", "roller": "rolling elements"}
 _SLIP = 0.01  # within which an order is that of a part, [-]

@@ -13,7 +13,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.speed_lines import (
+from beardyn_core.monitor.speed_lines import (
     Comb,
     LineSpectrum,
     Signal,

@@ -10,16 +10,16 @@ from typing import cast
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain.chain import REFERENCE, Algorithm
-from beardyn_core.observe.chain.fault_lines import FAULTS
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.patience import NoAnswerError, within
-from beardyn_core.observe.chain.result import VERDICTS, MonitorResult
+from beardyn_core.monitor.chain.chain import REFERENCE, Algorithm
+from beardyn_core.monitor.chain.fault_lines import FAULTS
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.patience import NoAnswerError, within
+from beardyn_core.monitor.chain.result import VERDICTS, MonitorResult
 
 _CORE = Path(__file__).resolve().parents[2]
 _STANDARD_LIBRARY = Path(traceback.__file__).parent
 PATIENCE_S = 300.0  # with one analysis of a monitor of one's own: it may search, but a trial goes on
-OURS = "beardyn_core.observe.chain:REFERENCE"
+OURS = "beardyn_core.monitor.chain:REFERENCE"
 
 
 def algorithm_named(name: str) -> Algorithm:

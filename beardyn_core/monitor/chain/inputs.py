@@ -12,8 +12,8 @@ from scipy.fft import rfft
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.chain.levels import Levels
-from beardyn_core.observe.features import analytic_part, real_part, squared_magnitude
+from beardyn_core.monitor.chain.levels import Levels
+from beardyn_core.monitor.features import analytic_part, real_part, squared_magnitude
 
 
 @dataclass(frozen=True)

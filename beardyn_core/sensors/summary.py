@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.integrate.rating_life import RatingLife
 from beardyn_core.model.layout import LOSS_NAMES
-from beardyn_core.observe.stage_clock import StageTime
+from beardyn_core.sensors.stage_clock import StageTime
 
 NUMERICAL = "time_step"
 

@@ -7,9 +7,9 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.observe.chain.explanations import Explanation
-from beardyn_core.observe.chain.fault_lines import Line
-from beardyn_core.observe.features import OrderSpectrum
+from beardyn_core.monitor.chain.explanations import Explanation
+from beardyn_core.monitor.chain.fault_lines import Line
+from beardyn_core.monitor.features import OrderSpectrum
 
 VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "unexplained", "hot_box", "not_diagnosable")
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.fft import irfft, rfft
 
-from beardyn_core.observe.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.observe.chain.kurtogram import Band
+from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.kurtogram import Band
 
 
 def by_cepstrum(stretch: Stretch, settings: MonitorSettings) -> Stretch:

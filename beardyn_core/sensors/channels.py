@@ -17,8 +17,10 @@ from beardyn_core.model.layout import (
     TRENDS_PER_SNAPSHOT,
 )
 from beardyn_core.model.parameters import Parameters
-from beardyn_core.observe.block import Block, EnergyAudit
-from beardyn_core.observe.kinematics import (
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import RATES
+from beardyn_core.sensors.block import Block, EnergyAudit
+from beardyn_core.sensors.kinematics import (
     INSTANT_CAGES,
     INSTANT_ROLLERS,
     INSTANT_SHAFT,
@@ -26,10 +28,8 @@ from beardyn_core.observe.kinematics import (
     Snapshots,
     write_instants,
 )
-from beardyn_core.observe.resampling import DELAY, AnyDecimator, Decimator, Interpolator, decimator, delay
-from beardyn_core.observe.sensors import BLOCKS_PER_SECOND, REST, TREND_RATE, Sensors, lookahead
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import RATES
+from beardyn_core.sensors.resampling import DELAY, AnyDecimator, Decimator, Interpolator, decimator, delay
+from beardyn_core.sensors.sensor_set import BLOCKS_PER_SECOND, REST, TREND_RATE, Sensors, lookahead
 
 TRENDS_PER_BLOCK = BLOCK_NS * TREND_RATE // 1_000_000_000
 _TREND_NS = 1_000_000_000 // TREND_RATE

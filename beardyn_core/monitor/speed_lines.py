@@ -13,7 +13,7 @@ from scipy.ndimage import maximum_filter1d
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.features import analytic_band, local_background, squared_magnitude
+from beardyn_core.monitor.features import analytic_band, local_background, squared_magnitude
 
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 # of a line that may be anywhere: share of the bins that have one of no order, at least and at most

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.observe.passage_order import band_envelope
+from beardyn_core.monitor.passage_order import band_envelope
 
 NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
 # a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]

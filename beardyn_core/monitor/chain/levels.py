@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.observe.features import kurtosis
+from beardyn_core.monitor.features import kurtosis
 
 
 @dataclass(frozen=True)

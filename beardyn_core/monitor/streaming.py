@@ -10,11 +10,10 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.model.heat import BOX_NODE
-from beardyn_core.observe import chain
-from beardyn_core.observe.block import Block
-from beardyn_core.observe.chain.levels import Levels
-from beardyn_core.observe.legs import turning_legs
+from beardyn_core.monitor import chain
+from beardyn_core.monitor.chain.levels import Levels
+from beardyn_core.monitor.legs import turning_legs
+from beardyn_core.sensors.block import Block
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
@@ -39,12 +38,12 @@ class MonitorInput:
     @classmethod
     def of_block(cls, block: Block) -> MonitorInput:
         """Take from a block the signals that a train would measure."""
-        first, known = block.vibration[0], block.temperature is not None
+        first, box = block.vibration[0], block.box_temperature
         return cls(
             first.time_ns, first.acceleration, block.trend_time_ns, block.shaft_angle,
             block.trend_time_ns, block.load[:, 2],
-            np.array([block.end_ns] if known else [], np.int64),
-            np.array([block.temperature[BOX_NODE]] if block.temperature is not None else []),
+            np.array([] if box is None else [block.end_ns], np.int64),
+            np.array([] if box is None else [box]),
         )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from scipy.special import logsumexp
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
-from beardyn_core.observe.speed_lines import (
+from beardyn_core.monitor.speed_lines import (
     OVERSAMPLING,
     Signal,
     SpeedSettings,
@@ -27,7 +27,7 @@ from beardyn_core.observe.speed_lines import (
     searched_signals,
     weigh,
 )
-from beardyn_core.observe.speed_rivals import Alternatives, Rival, Shaft, find_alternatives
+from beardyn_core.monitor.speed_rivals import Alternatives, Rival, Shaft, find_alternatives
 
 _TURN = 2.0 * np.pi
 _LEAST_SAMPLES = 64
