@@ -7,9 +7,9 @@ What a Python program uses is here and explained in docs/python.md::
     run = bd.simulate("cup_spall", tier="quasistatic", duration=2.0)
     run.vibration.values, run.vibration.time, run.truth
 
-=========== ====================================================================
+=========== =====================================================================
 module      responsibility
-=========== ====================================================================
+=========== =====================================================================
 base        errors, units, files, arrays, and how kernels are compiled and kept
 effects     the catalogue of effects and sets of them
 bearing     geometry, kinematics, materials, lubricants
@@ -17,9 +17,6 @@ scene       one bearing under one operation: loads, mounting, defects, sensors
 structure   modes of axleboxes: meshes, finite elements, tables of modes
 rail        wheel-rail scenario to load on the journal
 config      YAML files to bearings and scenes, all mistakes at once
-model       bearing and scene to kernel parameters, and where each number stands
-kernels     contacts, rollers and rings as compiled lane code
-integrate   static equilibrium, state, time steps, status
 sensors     from the motion of bodies to the readings of sensors
 monitor     from vibration and speed to a verdict
 choice      tier, effects, laminae and step for an accuracy, with reasons
@@ -35,7 +32,8 @@ follow      load, end play and spall from vibration, with intervals
 calibration the scene of one measured axlebox
 api         the functions of this module
 cli         the beardyn command, a module a subcommand
-=========== ====================================================================
+physics     contacts, bodies, statics and the steps of every tier: an idea a file
+=========== =====================================================================
 
 Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract. This module imports
 nothing before it is asked for.

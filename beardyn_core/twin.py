@@ -15,21 +15,22 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH, when_compiling
 from beardyn_core.base.versions import versions
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.integrate.cage_watch import CageWatch
-from beardyn_core.integrate.rest import rest_under, weight_on_cone
-from beardyn_core.integrate.snapshot import Snapshot
-from beardyn_core.integrate.start import at_rest, initial_state
-from beardyn_core.integrate.state import Output, State, work_space
-from beardyn_core.integrate.status import assess, describe, is_fatal
-from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.integrate.warming import blocks_between, cold_start, scene_at, warmed
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
-from beardyn_core.model.build import BLOCK_NS, build_parameters
-from beardyn_core.model.faults import grow
-from beardyn_core.model.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
-from beardyn_core.model.stages import stage_cycles
-from beardyn_core.model.structure import body_of
+from beardyn_core.physics.bodies.arrangement import BOTH_ROWS, Arrangement
+from beardyn_core.physics.bodies.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
+from beardyn_core.physics.bodies.rates import BLOCK_NS
+from beardyn_core.physics.bodies.stages import stage_cycles
+from beardyn_core.physics.defect import grow
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.statics.rest import rest_under, weight_on_cone
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.cage_watch import CageWatch
+from beardyn_core.physics.tiers.snapshot import Snapshot
+from beardyn_core.physics.tiers.start import at_rest, initial_state
+from beardyn_core.physics.tiers.state import Output, State, work_space
+from beardyn_core.physics.tiers.status import assess, describe, is_fatal
+from beardyn_core.physics.tiers.tiers import TIERS
+from beardyn_core.physics.warming import blocks_between, cold_start, scene_at, warmed
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.scene.defect import Patch, truth_of

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.config.yaml_text import read_mapping
-from beardyn_core.model.heat import NODES
+from beardyn_core.physics.thermal import NODES
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import orbit_joints
 from beardyn_core.record.meshes import ROW_SIDE

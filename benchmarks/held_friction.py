@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     CONE_BODY,
     CONTACT_OUTPUT,
     CUP_BODY,
@@ -29,6 +28,7 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
 )
+from beardyn_core.physics.tiers.status import chatter_index
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.measures import third_octave_levels
 from beardyn_core.twin import Twin

@@ -16,7 +16,7 @@ import numba
 from beardyn_core import kernels
 from beardyn_core.base.jit import LANE_WIDTH, OPTIONS, inline
 from beardyn_core.choice import load_scene
-from beardyn_core.integrate import imex
+from beardyn_core.physics.tiers import imex
 from beardyn_core.scene.scene import Scene
 from benchmarks.runs import Table
 from test.kernels.rig import Rig

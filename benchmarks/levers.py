@@ -24,8 +24,8 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_effects
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.model.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import SIGNAL_TORQUE
+from beardyn_core.physics.tiers.status import chatter_index
 from beardyn_core.run import start
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     BODY_STATES,
     CAGE_BODY,

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from beardyn_core.choice import load_scene
-from beardyn_core.integrate.step_choice import choose_steps
+from beardyn_core.physics.tiers.step_choice import choose_steps
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES, TIERS

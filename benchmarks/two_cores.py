@@ -18,7 +18,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from beardyn_core.kernels.lanes import typed_intrinsic
+from beardyn_core.physics.lanes.lanes import typed_intrinsic
 from beardyn_core.sensors.stage_clock import StageClock
 from benchmarks.right_answers import full_scenes
 from benchmarks.runs import SETTLING_BLOCKS, Table, started

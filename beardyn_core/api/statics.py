@@ -26,12 +26,12 @@ from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import LineFilm, RollingResistance
 from beardyn_core.effects.grease import LAYERS
-from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
-from beardyn_core.integrate.static import StaticSolution, solve
-from beardyn_core.integrate.torque import entrainment_speeds, running_torque
-from beardyn_core.model.laminae import equivalent_radius
-from beardyn_core.model.losses import oil_supply
-from beardyn_core.model.structure import bending_rings
+from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.losses import oil_supply
+from beardyn_core.physics.ring_modes import bending_rings
+from beardyn_core.physics.statics.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
+from beardyn_core.physics.statics.static import StaticSolution, solve
+from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
 from beardyn_core.scene.operation import MOST_RPM
 
 Load = float | Sequence[float]
@@ -163,7 +163,7 @@ def torque(
 
     References
     ----------
-    See `beardyn_core.integrate.torque.running_torque`.
+    See `beardyn_core.physics.statics.torque.running_torque`.
     """
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))

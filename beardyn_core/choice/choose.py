@@ -20,7 +20,7 @@ from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
 from beardyn_core.choice.sampling import rate_for
 from beardyn_core.effects import Audit, EffectSet
-from beardyn_core.integrate.friction_steps import StepChoice
+from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.scene.scene import QUANTITIES, Free, Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.scene.tier import TIERS

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.effects.catalogue import catalogue
-from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 
 COST_FILE = Path(__file__).with_name("costs.json")
 

@@ -16,8 +16,8 @@ from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.ringing import Bounce, bounce
 from beardyn_core.choice.statics import Statics
-from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND
+from beardyn_core.physics.statics.static import StaticSolution
+from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import Patch, WornPocket
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

@@ -15,7 +15,7 @@ from beardyn_core.effects import (
     Thermal,
     Traction,
 )
-from beardyn_core.model.heat import thermal_network
+from beardyn_core.physics.thermal import thermal_network
 
 # Runs shorter than this stay at the temperature the scene gives.
 _SMALLEST_DRIFT = 0.01  # that a reason mentions, [K]

@@ -26,10 +26,10 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
-from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.integrate.torque import entrainment_speeds, running_torque
-from beardyn_core.model.laminae import equivalent_radius
-from beardyn_core.model.losses import SEALS, drag_params, oil_supply
+from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.losses import SEALS, drag_params, oil_supply
+from beardyn_core.physics.statics.static import StaticSolution
+from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
 from beardyn_core.scene.scene import Scene
 
 _SPIN_SHARE = 0.18

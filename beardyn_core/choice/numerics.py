@@ -17,10 +17,10 @@ from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.integrate.step_choice import choose_steps
-from beardyn_core.model.faults import lamina_cover, surface_radius
-from beardyn_core.model.journal import bending_give
+from beardyn_core.physics.defect import lamina_cover, surface_radius
+from beardyn_core.physics.journal import bending_give
+from beardyn_core.physics.tiers.friction_steps import StepChoice
+from beardyn_core.physics.tiers.step_choice import choose_steps
 from beardyn_core.scene.defect import Patch
 
 _FINE = 400

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config.structure import seat_of
-from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.model.journal import journal_shapes, modes_of
-from beardyn_core.model.mounting import box_coupling, cross_matrix, spatial_mass
-from beardyn_core.model.structure import ModalBody
-from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.physics.journal import journal_shapes, modes_of
+from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.statics.static import StaticSolution
+from beardyn_core.physics.suspension import box_coupling, cross_matrix, spatial_mass
+from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene
 
 _BAND_RATIO = 10.0**0.1  # third octaves of IEC 61260-1, base ten

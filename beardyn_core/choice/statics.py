@@ -9,11 +9,11 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.circumstances import LoadCase
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.integrate.rest import rest_under
-from beardyn_core.integrate.roller_equilibrium import spring_params
-from beardyn_core.integrate.static import StaticSolution
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.structure import body_of
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.statics.rest import rest_under
+from beardyn_core.physics.statics.roller_equilibrium import spring_params
+from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.scene.scene import Scene
 
 USUAL_LAMINAE = 6

@@ -18,8 +18,8 @@ from beardyn_core.choice.circumstances import LoadCase, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Thermal
-from beardyn_core.integrate.warming import cold_start, film_temperature
-from beardyn_core.model.heat import (
+from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.thermal import (
     BOX_NODE,
     CONE_NODE,
     CUP_NODE,
@@ -28,7 +28,7 @@ from beardyn_core.model.heat import (
     heat_shares,
     thermal_network,
 )
-from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.physics.warming import cold_start, film_temperature
 from beardyn_core.scene.scene import Scene
 
 HOTTEST: A[float, "above which grease, cage and seals fail and nothing settles, [K]"] = 473.15
@@ -43,7 +43,7 @@ _STEP = 0.4
 class SteadyHeat:
     """Where temperatures and losses agree."""
 
-    temperature: A[Float, "shape [node], of `beardyn_core.model.heat.NODES`, [K]"]
+    temperature: A[Float, "shape [node], of `beardyn_core.physics.thermal.NODES`, [K]"]
     ambient: A[float, "[K]"]
     end_play: A[float, "as warm as that, [m]"]
     torque: A[dict[str, float], "on the shaft by source, [N m]"]

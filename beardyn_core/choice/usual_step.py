@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from beardyn_core.config.structure import modes_of_effects
-from beardyn_core.integrate.friction_steps import StepChoice, usual_steps
+from beardyn_core.physics.tiers.friction_steps import StepChoice, usual_steps
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
@@ -38,8 +38,8 @@ def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> S
     modes = None if "structure" in scene.missing_effects else modes_of_effects(scene.effects)
     if modes is None:
         return choice
-    from beardyn_core.integrate.step_choice import AUDIBLE_BAND  # brings the model along
-    from beardyn_core.model.build import WAVEFORM_RATE
+    from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
+    from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND  # brings the model along
 
     band = AUDIBLE_BAND if band is None else band
     highest = max((float(each) for each in modes.frequency[: modes.free_count] if each <= band), default=0.0)

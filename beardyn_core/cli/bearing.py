@@ -19,8 +19,8 @@ from beardyn_core.cli.quantities import NEGATIVE_QUANTITY
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
-    from beardyn_core.integrate.rating_life import RatingLife
-    from beardyn_core.integrate.static import StaticSolution
+    from beardyn_core.physics.statics.rating_life import RatingLife
+    from beardyn_core.physics.statics.static import StaticSolution
 
 TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
 RING_MODES = {  # those of model.structure, which is as heavy
@@ -115,9 +115,9 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.bearing.life import load_doubts
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
-    from beardyn_core.integrate.rating_life import life_lines, life_object
-    from beardyn_core.integrate.static import solve
-    from beardyn_core.model.structure import bending_rings
+    from beardyn_core.physics.ring_modes import bending_rings
+    from beardyn_core.physics.statics.rating_life import life_lines, life_object
+    from beardyn_core.physics.statics.static import solve
 
     load, end_play, speed = operation_of(args)
     bearing = load_bearing(args.bearing)
@@ -154,7 +154,7 @@ def _life(case: _Case) -> RatingLife | None:
     if args.lubricant is None:
         return None
     from beardyn_core.config import load_lubricant
-    from beardyn_core.integrate.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
+    from beardyn_core.physics.statics.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
 
     return rating_life(
         case.bearing,
@@ -198,7 +198,7 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
 
 def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str, Any]:
     """Compute load and Hertz pressure along the most loaded roller, from its small to its large end."""
-    from beardyn_core.model.laminae import lamina_places, lamina_pressure
+    from beardyn_core.physics.lamina_table import lamina_places, lamina_pressure
 
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
     count = solution.cup_lamina_load.shape[-1]

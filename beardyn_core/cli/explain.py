@@ -96,7 +96,7 @@ def _heard(explanation: Explanation) -> list[str]:
 
 def _lines(choice: Choice, title: str) -> list[str]:
     from beardyn_core.choice.costs import measured_costs
-    from beardyn_core.model.build import WAVEFORM_RATE
+    from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 
     taken = sum(decision.cost_share for decision in choice.decisions if decision.on)
     rows = [

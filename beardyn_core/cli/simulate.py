@@ -132,7 +132,7 @@ class _Progress:
 
 def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
     """Gather what ``--json`` prints."""
-    from beardyn_core.integrate.rating_life import life_object
+    from beardyn_core.physics.statics.rating_life import life_object
 
     return {
         "scene": summary.scene,
@@ -186,7 +186,7 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
 
 def text(summary: RunSummary, recording: Path | None) -> str:
     """Write the summary for the terminal."""
-    from beardyn_core.integrate.rating_life import life_sentence
+    from beardyn_core.physics.statics.rating_life import life_sentence
     from beardyn_core.sensors.stage_clock import stage_lines
 
     residual = "not kept" if summary.energy_residual is None else f"{100.0 * summary.energy_residual:.3f} %"

@@ -13,7 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
-from beardyn_core.integrate.rating_life import LoadClass, RatingLife, rating_life
+from beardyn_core.physics.statics.rating_life import LoadClass, RatingLife, rating_life
 from beardyn_core.sensors.labels import HEALTHY
 
 _DRAWS, _SEED = 4000, 1

@@ -17,14 +17,13 @@ from scipy.optimize import minimize_scalar
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.kernels.generator_line import generator_line
-from beardyn_core.kernels.large_end import rib_gap
-from beardyn_core.kernels.vectors import add_scaled, dot, subtract
 from beardyn_core.laboratory import nine_contacts
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, unit
-from beardyn_core.model.laminae import lamina_places
-from beardyn_core.model.parameters import RacewayParams, RollerParams
-from beardyn_core.model.ribs import RibEndParams, RibParams
+from beardyn_core.physics.generator_line import generator_line
+from beardyn_core.physics.lamina_table import lamina_places
+from beardyn_core.physics.lanes.vectors import add_scaled, dot, subtract
+from beardyn_core.physics.rib import RibEndParams, RibParams, rib_gap
+from beardyn_core.physics.tiers.parameters import RacewayParams, RollerParams
 
 _UP = (0.0, 0.0, 1.0)
 _ALWAYS_THE_RIM = 2.0  # no cosine is larger

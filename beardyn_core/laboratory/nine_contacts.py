@@ -20,7 +20,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
-from beardyn_core.model.laminae import lamina_places
+from beardyn_core.physics.lamina_table import lamina_places
 
 SLICES = 6
 SMALL_RIB_RELIEF = math.radians(1.0)

@@ -12,11 +12,11 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.integrate.static import solve
 from beardyn_core.laboratory import closed_forms
 from beardyn_core.laboratory.nine_contacts import RollerPose, nominal_centre, nominal_pose, turned
 from beardyn_core.laboratory.search import LINES, SURFACE_LINE, SURFACES, Form, Pair
 from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Placement, Shape, Straight, placed
+from beardyn_core.physics.statics.static import solve
 
 Random = np.random.Generator
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
-from beardyn_core.model.heat import NODES
+from beardyn_core.physics.thermal import NODES
 from beardyn_core.record import arrays
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
 from beardyn_core.record.description import RunDescription

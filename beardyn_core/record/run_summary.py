@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.integrate.rating_life import RatingLife, scene_life
-from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.statics.rating_life import RatingLife, scene_life
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

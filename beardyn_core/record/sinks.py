@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from beardyn_core.model.build import BLOCK_NS
+from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.record.chunk_writing import QUICK_LEVEL
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import (

@@ -7,7 +7,6 @@ absence       rollers and rows that are not there
 accelerometer specific force at the sensor, mounting resonance, low pass, noise, clipping
 block         the block of about 20 ms that crosses every border
 channels      raw signals of the kernel to the channels of a block
-kinematics    world poses, twists and contact forces from the kernel's state
 labels        labels of a run for learners
 path_filter   a measured transfer path from the rigid box to a sensor
 pickup        what the inverter induces in the cables of the sensors

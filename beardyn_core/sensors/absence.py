@@ -13,8 +13,16 @@ import math
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.model.arrangement import BOTH_ROWS, Arrangement
-from beardyn_core.model.layout import ANGLE, ANGULAR, CAGE_BODY, CONTACT_OUTPUT, LINEAR, POSITION, TILT
+from beardyn_core.physics.bodies.arrangement import BOTH_ROWS, Arrangement
+from beardyn_core.physics.bodies.layout import (
+    ANGLE,
+    ANGULAR,
+    CAGE_BODY,
+    CONTACT_OUTPUT,
+    LINEAR,
+    POSITION,
+    TILT,
+)
 
 
 class Absence:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
-from beardyn_core.kernels.lane_math import at_least, at_most, cos_sin, log2
+from beardyn_core.physics.lanes.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 
 LOOKAHEAD = 12  # samples; the gain is within 0.02 dB

@@ -10,8 +10,8 @@ from typing import Protocol
 import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
-from beardyn_core.model import layout
-from beardyn_core.model.heat import BOX_NODE
+from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.thermal import BOX_NODE
 from beardyn_core.scene.sensor import RATES
 
 CONTACT_KINDS = ("cup", "cone", "rib", "pocket")

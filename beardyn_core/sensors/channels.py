@@ -6,9 +6,8 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     CUP_BODY,
     SIGNAL_FORCE,
@@ -16,11 +15,8 @@ from beardyn_core.model.layout import (
     TILT,
     TRENDS_PER_SNAPSHOT,
 )
-from beardyn_core.model.parameters import Parameters
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import RATES
-from beardyn_core.sensors.block import Block, EnergyAudit
-from beardyn_core.sensors.kinematics import (
+from beardyn_core.physics.bodies.rates import BLOCK_NS, WAVEFORM_RATE
+from beardyn_core.physics.tiers.kinematics import (
     INSTANT_CAGES,
     INSTANT_ROLLERS,
     INSTANT_SHAFT,
@@ -28,6 +24,10 @@ from beardyn_core.sensors.kinematics import (
     Snapshots,
     write_instants,
 )
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.sensor import RATES
+from beardyn_core.sensors.block import Block, EnergyAudit
 from beardyn_core.sensors.resampling import DELAY, AnyDecimator, Decimator, Interpolator, decimator, delay
 from beardyn_core.sensors.sensor_set import BLOCKS_PER_SECOND, REST, TREND_RATE, Sensors, lookahead
 

@@ -8,8 +8,12 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry
-from beardyn_core.model.build import BLOCK_NS, WAVEFORM_RATE
-from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_ANGULAR_ACCELERATION, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.layout import (
+    SIGNAL_ACCELERATION,
+    SIGNAL_ANGULAR_ACCELERATION,
+    SIGNAL_CHANNELS,
+)
+from beardyn_core.physics.bodies.rates import BLOCK_NS, WAVEFORM_RATE
 from beardyn_core.rail.transfer_path import path_read
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import AXES, PASSBAND, RATES, Accelerometer, rates_do_not_fit, steps_do_not_fit

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.integrate.rating_life import RatingLife
-from beardyn_core.model.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.statics.rating_life import RatingLife
 from beardyn_core.sensors.stage_clock import StageTime
 
 NUMERICAL = "time_step"

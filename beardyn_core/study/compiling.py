@@ -11,9 +11,9 @@ from pathlib import Path
 
 from beardyn_core.base.cache_root import cache_root
 from beardyn_core.base.machine_code import code_digest
-from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.lumped import advance_lumped
-from beardyn_core.integrate.quasistatic import advance_quasistatic
+from beardyn_core.physics.tiers.imex import advance
+from beardyn_core.physics.tiers.lumped import advance_lumped
+from beardyn_core.physics.tiers.quasistatic import advance_quasistatic
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 

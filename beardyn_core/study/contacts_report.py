@@ -12,7 +12,7 @@ from beardyn_core.laboratory.barrel import BarrelLoads
 from beardyn_core.laboratory.nine_contacts import PAIRINGS, SEARCHES_PER_ROLLER
 from beardyn_core.laboratory.rolling import Rolling
 from beardyn_core.laboratory.timing import MethodResult
-from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.study.ladder_report import machine
 from beardyn_core.study.table import Column, Table, digits, duration_text, nanometres, percent
 

@@ -16,8 +16,8 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.integrate.status import describe
-from beardyn_core.model.heat import NODES
+from beardyn_core.physics.thermal import NODES
+from beardyn_core.physics.tiers.status import describe
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import MemorySink, Sink

@@ -10,7 +10,7 @@ from beardyn_core.choice.load import in_box_of
 from beardyn_core.choice.rule import Choice
 from beardyn_core.config import load_effects
 from beardyn_core.effects import EffectSet
-from beardyn_core.integrate.friction_steps import usual_steps
+from beardyn_core.physics.tiers.friction_steps import usual_steps
 from beardyn_core.scene.scene import QUANTITIES, Numerics, Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.scene.tier import TIERS

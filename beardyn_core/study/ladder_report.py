@@ -12,7 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.study.ladder_levels import AUTO, OF_THE_SCENE, Level
 from beardyn_core.study.ladder_result import BAND_LIMIT_DB, Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import MEASURES, QUANTITIES, UNITS

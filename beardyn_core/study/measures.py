@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.model.build import WAVEFORM_RATE
 from beardyn_core.monitor.chain import MonitorSettings
 from beardyn_core.monitor.features import envelope, order_spectrum, resample_by_angle
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.scene.excitation import WheelPolygon
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

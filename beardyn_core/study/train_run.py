@@ -18,7 +18,7 @@ from beardyn_core import run
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.config.boxes import scene_of_box
-from beardyn_core.model.build import BLOCK_NS
+from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.rail.build import length_of_load
 from beardyn_core.rail.train import TrainLoads
 from beardyn_core.record.description import RunDescription

@@ -15,7 +15,7 @@ from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
-from beardyn_core.integrate.status import describe
+from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import ConstantOperation

@@ -22,9 +22,9 @@ import beardyn_core
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.study.compiling import warm_once
 from evidence.hard.case import HardCase
 from evidence.hard.case_scene import scene_of

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION, Status
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION, Status
 
 Vector = tuple[float, float, float]
 

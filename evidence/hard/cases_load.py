@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.integrate.status import Status
+from beardyn_core.physics.tiers.status import Status
 from evidence.hard.case import HardCase, Limit, Point, steady, through
 
 SPEED = 122.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from beardyn_core.integrate.status import Status
+from beardyn_core.physics.tiers.status import Status
 from evidence.hard.case import HardCase, Limit, steady
 
 SPEED = 122.0

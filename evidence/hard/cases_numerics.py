@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, Status
 from evidence.hard.case import HardCase, Limit, steady
 
 SPEED = 122.0

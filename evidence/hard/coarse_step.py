@@ -8,15 +8,15 @@ import numpy as np
 
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.start import initial_state
-from beardyn_core.integrate.state import Output, work_space
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.status import Status, assess, chatter_index
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters, spring_time
-from beardyn_core.model.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.tiers.build import build_parameters, spring_time
+from beardyn_core.physics.tiers.imex import advance
+from beardyn_core.physics.tiers.start import initial_state
+from beardyn_core.physics.tiers.state import Output, work_space
+from beardyn_core.physics.tiers.status import Status, assess, chatter_index
 from beardyn_core.scene.scene import Scene
 from evidence.hard.case import Point
 from evidence.hard.watch import Measures

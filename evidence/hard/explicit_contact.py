@@ -16,9 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.integrate.state import State
-from beardyn_core.integrate.status import Status, assess, chatter_index
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     BODY_STATES,
     CHATTER,
     CHATTER_LOAD,
@@ -26,6 +24,8 @@ from beardyn_core.model.layout import (
     ENERGY_TERMS,
     ROLLER_FIELDS,
 )
+from beardyn_core.physics.tiers.state import State
+from beardyn_core.physics.tiers.status import Status, assess, chatter_index
 
 Float = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, LARGEST_PENETRATION
 from evidence.hard.case import RUN_AS
 from evidence.hard.catalogue import CASES
 from evidence.hard.report import cells, outcome_from

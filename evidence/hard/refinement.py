@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from beardyn_core.model.layout import ANGLE
+from beardyn_core.physics.bodies.layout import ANGLE
 from beardyn_core.twin import Twin
 from evidence.hard.watch import STATISTICS
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, Status
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
 from evidence.hard import battery, run

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from beardyn_core.integrate.status import SENTENCES, Status
+from beardyn_core.physics.tiers.status import SENTENCES, Status
 from evidence.hard.case import HardCase
 from evidence.hard.refinement import Change
 from evidence.hard.watch import Measures

@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.integrate.state import State
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     ANGLE,
     AXIS,
     CAGE_BODY,
@@ -27,6 +25,8 @@ from beardyn_core.model.layout import (
     SIGNAL_TORQUE,
     VELOCITY,
 )
+from beardyn_core.physics.tiers.state import State
+from beardyn_core.physics.tiers.status import chatter_index
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Snapshot, Twin

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks, hilbert
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.model.faults import surface_radius
+from beardyn_core.physics.defect import surface_radius
 from evidence.impact.cases import Case
 from evidence.impact.study import RINGING, STEP_RATE, passed, run
 

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.model.faults import surface_radius
+from beardyn_core.physics.defect import surface_radius
 
 Bool = NDArray[np.bool_]
 

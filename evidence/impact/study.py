@@ -14,10 +14,10 @@ from scipy.signal import butter, sosfiltfilt
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.integrate.status import describe
-from beardyn_core.model.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import by_kurtogram
+from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
+from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.twin import Twin

@@ -17,7 +17,7 @@ from tqdm import tqdm
 
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.load import scene_with_all
-from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, expected_wall, plan_of
 from beardyn_core.study.ladder_levels import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, levels_of

@@ -14,7 +14,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.load import closed
 from beardyn_core.config.load import read_scene
-from beardyn_core.integrate.status import Status, describe
+from beardyn_core.physics.tiers.status import Status, describe
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from beardyn_core.integrate.cage_watch import CageWatch
-from beardyn_core.integrate.status import Status
+from beardyn_core.physics.tiers.cage_watch import CageWatch
+from beardyn_core.physics.tiers.status import Status
 from evidence.light.grid import (
     AUTO,
     AUTO_POINTS,

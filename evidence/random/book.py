@@ -18,8 +18,7 @@ _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parents[1]
 # of the simulator that a run goes through; the others make, read and judge recordings and sets
 _ROOMS = (
-    "base", "bearing", "choice", "config", "effects", "integrate", "kernels", "model", "rail", "scene",
-    "sensors", "structure",
+    "base", "bearing", "choice", "config", "effects", "physics", "rail", "scene", "sensors", "structure",
 )  # fmt: skip
 _NOUNS = ("backgrounds", "bearings", "effects", "lubricants", "structures", "vehicles")
 

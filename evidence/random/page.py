@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
-from beardyn_core.integrate.status import SENTENCES, Status
+from beardyn_core.physics.tiers.status import SENTENCES, Status
 from evidence.pages import DOCS
 from evidence.random.book import last_code, results
 from evidence.random.scenes import BEARINGS, KERNELS

@@ -17,10 +17,10 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH
-from beardyn_core.integrate.status import SENTENCES, Status, describe
-from beardyn_core.integrate.tiers import TIERS
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.status import SENTENCES, Status, describe
+from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block

@@ -11,7 +11,7 @@ from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from evidence.santos2017.friction import KINDS, Contacts, contacts_of, while_sliding, with_speed_jump

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.layout import SIGNAL_FORCE
+from beardyn_core.physics.bodies.layout import SIGNAL_FORCE
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.effects import ContactDamping
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 from beardyn_core.scene.scene import Scene
 from evidence.santos2017.runs import SETTLED, STEP_AT, StepRecord, at_once, record
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from beardyn_core.config import load_effects
-from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
-from beardyn_core.model.build import WAVEFORM_RATE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
+from beardyn_core.physics.tiers.friction_steps import StepChoice
+from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND, choose_steps
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

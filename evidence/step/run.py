@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.integrate.status import chatter_index, describe
-from beardyn_core.model.build import SAMPLES_PER_BLOCK, WAVEFORM_RATE
-from beardyn_core.model.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.rates import SAMPLES_PER_BLOCK, WAVEFORM_RATE
+from beardyn_core.physics.tiers.status import chatter_index, describe
 from beardyn_core.rail.build import load_of_scene
 from beardyn_core.sensors.resampling import Decimator
 from beardyn_core.study.measures import third_octave_levels

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.engine import Cluster, Engine
-from beardyn_core.integrate.friction_steps import StepChoice
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX
+from beardyn_core.physics.tiers.friction_steps import StepChoice
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX
 from beardyn_core.study.measures import NOMINAL_BANDS
 from beardyn_core.twin import Twin
 from evidence.step.cases import (

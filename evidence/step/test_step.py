@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.integrate.step_choice import AUDIBLE_BAND, choose_steps
+from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND, choose_steps
 from beardyn_core.study.measures import NOMINAL_BANDS
 from evidence.step.cases import (
     BRIDGE,

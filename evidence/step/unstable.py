@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.model.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import SIGNAL_TORQUE
+from beardyn_core.physics.tiers.status import chatter_index
 from beardyn_core.rail.build import load_history
 from beardyn_core.twin import Twin
 from evidence.step.cases import REFERENCE, Method, Point, scene_of

@@ -21,13 +21,13 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction, MixedTraction
 from beardyn_core.effects.traction import Traction
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.film import FilmParams
-from beardyn_core.model.layout import LAMINA_PRESSURE
-from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.traction import LoadSharingParams, aihara_params
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import LAMINA_PRESSURE
+from beardyn_core.physics.film import FilmParams
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.traction import LoadSharingParams, aihara_params
 from evidence.standard import standard_scene
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import (

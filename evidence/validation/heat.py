@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import cache, partial
 
 from beardyn_core.choice.steady_heat import SteadyHeat, steady_heat
-from beardyn_core.model.heat import NODES
+from beardyn_core.physics.thermal import NODES
 from evidence.heat.cases import (
     CLEARANCE,
     HEALTHY,

@@ -14,8 +14,8 @@ from beardyn_core.bearing.rolling_resistance import (
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.integrate.static import StaticSolution, solve
-from beardyn_core.integrate.torque import running_torque
+from beardyn_core.physics.statics.static import StaticSolution, solve
+from beardyn_core.physics.statics.torque import running_torque
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import aihara_point, fujiwara_point, houpert_point
 

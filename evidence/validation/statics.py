@@ -12,7 +12,7 @@ from beardyn_core.bearing.contact_law import (
 )
 from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.physics.statics.static import StaticSolution, solve
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import curvature_difference, curvature_sum
 from evidence.validation.load_zone import axial_integral, radial_integral

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.static import solve
-from beardyn_core.model.structure import ModalBody, body_of
+from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.statics.static import solve
 from evidence.validation.anchor import HOLDS_FROM, Finding, Trend, falls, rises
 from evidence.validation.posture import (
     RIG,

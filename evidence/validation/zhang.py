@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.physics.statics.static import StaticSolution, solve
 
 
 def solved_model(radial: float, axial: float) -> StaticSolution:

@@ -12,7 +12,7 @@ from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.model.laminae import lamina_places, lamina_pressure
+from beardyn_core.physics.lamina_table import lamina_places, lamina_pressure
 
 Float = NDArray[np.float64]
 

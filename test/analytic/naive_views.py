@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     ANGLE,
     ANGULAR,
     AXIAL,
@@ -30,7 +30,7 @@ from beardyn_core.model.layout import (
     TURN,
     VELOCITY,
 )
-from beardyn_core.model.parameters import RollerParams
+from beardyn_core.physics.tiers.parameters import RollerParams
 
 Float = NDArray[np.float64]
 SIDE = np.array([-1.0, 1.0])

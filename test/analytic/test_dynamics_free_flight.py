@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.effects import Gravity
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     AXIS,
     CAGE_BODY,

@@ -11,9 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance, Seal
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.torque import running_torque
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
     CONE,
     CONE_BODY,
@@ -31,6 +29,8 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
 )
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.statics.torque import running_torque
 from test.analytic.test_momentum_pairs import momenta, world
 from test.kernels.rig import LOAD_80_KN, SPEED, Rig, scene_with
 from test.kernels.test_step import cartesian, shaken

@@ -12,9 +12,8 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.integrate.static import solve
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     AXIS,
     CAGE_BODY,
     CONE_BODY,
@@ -24,6 +23,7 @@ from beardyn_core.model.layout import (
     RATE,
     VELOCITY,
 )
+from beardyn_core.physics.statics.static import solve
 from beardyn_core.scene.defect import MissingRoller
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     CAGE_BODY,
     CHANGE,

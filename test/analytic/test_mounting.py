@@ -8,10 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.integrate.static import solve
-from beardyn_core.kernels.bodies import drift_bodies
-from beardyn_core.kernels.box import BOX_FIELDS, box_energy, kick_box
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     BODY_STATES,
     CONE_BODY,
@@ -24,8 +21,10 @@ from beardyn_core.model.layout import (
     POSITION,
     TILT,
 )
-from beardyn_core.model.mounting import BoxCoupling, mounting_params
-from beardyn_core.model.parameters import GravityParams
+from beardyn_core.physics.bodies.rigid_bodies import drift_bodies
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.suspension import BOX_FIELDS, BoxCoupling, box_energy, kick_box, mounting_params
+from beardyn_core.physics.tiers.parameters import GravityParams
 from beardyn_core.scene.mounting import Mounting
 from test.kernels.rig import Float, constant_load, scene_with, standard_scene, started
 

@@ -15,7 +15,7 @@ from beardyn_core.bearing.life import edge_concentration
 from beardyn_core.bearing.profile import PROFILE_KINDS, Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.model.laminae import lamina_pressure
+from beardyn_core.physics.lamina_table import lamina_pressure
 from test.analytic.line_load import line_load
 
 HALF, DIAMETER, MODULUS = 25.0e-3, 26.7e-3, 226.4e9

@@ -22,8 +22,8 @@ from beardyn_core.bearing.life import (
 )
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.integrate.rating_life import LoadClass, load_classes, rating_life, scene_life
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.rating_life import LoadClass, load_classes, rating_life, scene_life
+from beardyn_core.physics.statics.static import solve
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.load import LoadHistory
 

@@ -29,8 +29,8 @@ from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
-from beardyn_core.integrate.roller_contacts import ConePose, contact_model, rib_contacts
-from beardyn_core.integrate.static import _rotation, solve
+from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model, rib_contacts
+from beardyn_core.physics.statics.static import _rotation, solve
 
 HS = load_bearing("HS130x230")
 

@@ -8,7 +8,7 @@ import pytest
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
-from beardyn_core.model.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.layout import SIGNAL_ACCELERATION, SIGNAL_CHANNELS
 from beardyn_core.rail.transfer_path import TransferPath, read_transfer_path
 from beardyn_core.scene.background import Background, Pickup, PickupLine
 from beardyn_core.scene.scene import Scene

@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.roller_contacts import (
+from beardyn_core.physics.statics.roller_contacts import (
     ConePose,
     cone_contacts,
     contact_model,
     cup_contacts,
     rib_contacts,
 )
-from beardyn_core.integrate.static import _rotation
+from beardyn_core.physics.statics.static import _rotation
 
 HS = load_bearing("HS130x230")
 

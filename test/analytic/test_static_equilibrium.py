@@ -18,16 +18,16 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate import equilibria
-from beardyn_core.integrate.equilibria import equilibrium
-from beardyn_core.integrate.roller_contacts import (
+from beardyn_core.physics.statics import equilibria
+from beardyn_core.physics.statics.equilibria import equilibrium
+from beardyn_core.physics.statics.roller_contacts import (
     ConePose,
     cone_contacts,
     contact_model,
     cup_contacts,
     rib_contacts,
 )
-from beardyn_core.integrate.static import StaticSolution, _rotation, solve
+from beardyn_core.physics.statics.static import StaticSolution, _rotation, solve
 from test.examples import examples, fast_ones
 
 HS = load_bearing("HS130x230")

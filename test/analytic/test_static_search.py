@@ -12,7 +12,7 @@ import pytest
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 
 HS = load_bearing("HS130x230")
 

@@ -38,9 +38,9 @@ from beardyn_core.effects import (
     SmallRib,
     Thermal,
 )
-from beardyn_core.model import build
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers import build
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import Defect, Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     AXIS,
     BODY_STATES,
     CAGE_BODY,
@@ -19,8 +19,8 @@ from beardyn_core.model.layout import (
     TILT,
     TURN,
 )
-from beardyn_core.model.parameters import RollerParams
-from beardyn_core.sensors.kinematics import INSTANT_ROLLERS, Snapshots, write_instants
+from beardyn_core.physics.tiers.kinematics import INSTANT_ROLLERS, Snapshots, write_instants
+from beardyn_core.physics.tiers.parameters import RollerParams
 from test.analytic import naive_views
 
 COUNT, CAGE_PLACE, TIMES = 17, 0.031, 3

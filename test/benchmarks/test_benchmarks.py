@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from beardyn_core.model.layout import BODY_STATES, CONE_BODY, CUP_BODY, LINEAR
+from beardyn_core.physics.bodies.layout import BODY_STATES, CONE_BODY, CUP_BODY, LINEAR
 from benchmarks.naive_model import NaiveModel, forces_against_kernel
 from benchmarks.runs import Table, straight_line
 from test.kernels.rig import Rig, standard_scene

@@ -18,7 +18,7 @@ from beardyn_core.cli import bearing, schema
 from beardyn_core.cli import main as command
 from beardyn_core.config import shipped_names
 from beardyn_core.config.schema import SCHEMA_KINDS
-from beardyn_core.integrate import static
+from beardyn_core.physics.statics import static
 
 
 def beardyn(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:

@@ -12,7 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.choice import explain_scene, load_scene, scene_from_text
 from beardyn_core.choice.usual_step import with_modes
 from beardyn_core.config import scene_text
-from beardyn_core.integrate.friction_steps import StepChoice
+from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.scene.scene import Scene
 
 AUTO = {"steps_per_sample": "auto"}

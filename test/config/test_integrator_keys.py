@@ -11,9 +11,9 @@ import yaml
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.scene.scene import Scene
 
 REFERENCE = {"integrator": "explicit", "steps_per_sample": 391}

@@ -13,8 +13,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import read_mapping
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, ROLLER_ORDERS, Deviations, Scatter, passed_on
 from beardyn_core.scene.waviness import Waviness
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.integrate.static import StaticSolution, solve
-from beardyn_core.model.layout import CONE_BODY, POSITION, SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, SIGNAL_TORQUE
+from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.tier import TIERS
 from test.examples import fast_ones

@@ -9,16 +9,16 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, chatter_index
-from beardyn_core.kernels.roller import velocity_change
-from beardyn_core.kernels.solve import inertia_matrix
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     MOMENTUM,
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
     VELOCITY,
 )
-from beardyn_core.model.parameters import ExplicitParams
+from beardyn_core.physics.lanes.solve import inertia_matrix
+from beardyn_core.physics.tiers.parameters import ExplicitParams
+from beardyn_core.physics.tiers.roller import velocity_change
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, chatter_index
 from beardyn_core.sensors.block import EnergyAudit
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import SPEED, Float, Rig, scene_with

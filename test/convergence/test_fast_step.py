@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps, fastest_mode
 from beardyn_core.effects import ContactDamping, Gravity, RingStructure
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 from beardyn_core.rail.build import load_history
 from beardyn_core.run import blocks
 from beardyn_core.scene.mounting import Mounting

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.model.build import HELD_STEPS
+from beardyn_core.physics.tiers.build import HELD_STEPS
 from benchmarks.held_friction import Run
 
 BLOCKS = 8

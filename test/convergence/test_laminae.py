@@ -11,7 +11,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 from test.analytic.line_load import LineLoad, line_load
 
 HS = load_bearing("HS130x230")

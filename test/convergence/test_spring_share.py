@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.config import load_bearing, shipped_names
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.step_choice import bounce_frequency
-from beardyn_core.model.build import WAVEFORM_RATE, highest_bounce, implicit_spring_share
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.tiers.build import highest_bounce, implicit_spring_share
+from beardyn_core.physics.tiers.step_choice import bounce_frequency
 from test.kernels.rig import Float
 
 

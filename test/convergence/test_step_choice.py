@@ -11,12 +11,12 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing, load_effects
 from beardyn_core.effects import CoulombTraction, EffectSet, LoadSharingTraction
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.status import LARGEST_CHATTER_INDEX, Status, chatter_index, describe
-from beardyn_core.integrate.step_choice import bounce_frequency, choose_steps
-from beardyn_core.model.build import WAVEFORM_RATE
-from beardyn_core.model.journal import bending_give
-from beardyn_core.model.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
+from beardyn_core.physics.journal import bending_give
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, Status, chatter_index, describe
+from beardyn_core.physics.tiers.step_choice import bounce_frequency, choose_steps
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation

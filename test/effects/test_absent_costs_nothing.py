@@ -17,7 +17,7 @@ import pytest
 
 from beardyn_core import kernels
 from beardyn_core.base.jit import OPTIONS, inline
-from beardyn_core.integrate import imex
+from beardyn_core.physics.tiers import imex
 from test.effects.test_absent_effects import instruction_count
 from test.kernels.rig import Rig, scene_with
 

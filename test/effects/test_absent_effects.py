@@ -16,8 +16,7 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import ContactDamping, EffectSet
-from beardyn_core.integrate.imex import advance
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     AXIAL,
     CAGE_BODY,
     CONE,
@@ -37,6 +36,7 @@ from beardyn_core.model.layout import (
     ROLLER_STATES,
     SIGNAL_TORQUE,
 )
+from beardyn_core.physics.tiers.imex import advance
 from test.kernels.rig import Float, Rig, scene_with
 
 pytestmark = pytest.mark.slow

@@ -16,11 +16,7 @@ from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
-from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.status import Status
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.cage import cage_params
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
     CHANGE,
     CUP_BODY,
@@ -30,6 +26,10 @@ from beardyn_core.model.layout import (
     POCKET,
     POSITION,
 )
+from beardyn_core.physics.pocket import cage_params
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.imex import advance
+from beardyn_core.physics.tiers.status import Status
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin

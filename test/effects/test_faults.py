@@ -13,9 +13,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.faults import surface_radius
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     CONE,
     CONTACT_OUTPUT,
     CUP,
@@ -30,6 +28,8 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     TURN,
 )
+from beardyn_core.physics.defect import surface_radius
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness, band_amplitudes

@@ -11,10 +11,10 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import CoulombTraction, EffectSet, LineFilm, LoadSharingTraction, MixedTraction
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.film import RigidFilmParams, ThermalFilmParams
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.film import RigidFilmParams, ThermalFilmParams
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.status import chatter_index
 from test.effects.test_absent_effects import instruction_count
 from test.kernels.entries import frictions
 from test.kernels.rig import Float, Rig, scene_with

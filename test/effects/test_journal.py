@@ -16,12 +16,7 @@ from beardyn_core.choice.fast_step import fast_steps, fastest_mode
 from beardyn_core.choice.ringing import bounce, levels
 from beardyn_core.config.nouns import load_vehicle
 from beardyn_core.effects import EffectSet
-from beardyn_core.integrate.equilibria import equilibrium
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.step_choice import choose_steps
-from beardyn_core.kernels.axle import ALONG, PLACE, SPEED, UPRIGHT, kick_journal
-from beardyn_core.model.journal import JournalParams, bending_give, journal_params, modes_of
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     BODY_STATES,
     CONE_BODY,
@@ -35,8 +30,22 @@ from beardyn_core.model.layout import (
     SIGNAL_ACCELERATION,
     TILT,
 )
-from beardyn_core.model.mounting import mounting_params
-from beardyn_core.model.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.physics.journal import (
+    ALONG,
+    PLACE,
+    SPEED,
+    UPRIGHT,
+    JournalParams,
+    bending_give,
+    journal_params,
+    kick_journal,
+    modes_of,
+)
+from beardyn_core.physics.statics.equilibria import equilibrium
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.suspension import mounting_params
+from beardyn_core.physics.tiers.step_choice import choose_steps
+from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.wheelset import HALF_GAUGE, SHEAR, YOUNG, bending, shaft
 from beardyn_core.scene.operation import QuarterVehicleOperation

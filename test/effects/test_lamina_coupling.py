@@ -15,7 +15,7 @@ import pytest
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.integrate.imex import advance
+from beardyn_core.physics.tiers.imex import advance
 from test.effects.test_absent_effects import instruction_count
 from test.kernels.rig import Float, Rig, scene_with, standard_scene
 from test.kernels.runs import Record, record

@@ -11,14 +11,14 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
-from beardyn_core.integrate.imex import advance
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ENERGY_LOST,
     LOSS_DRAG,
     LOSS_ROLLING,
     LOSS_SEAL,
     ROLLER_STATES,
 )
+from beardyn_core.physics.tiers.imex import advance
 from test.effects.test_absent_effects import Variant, instruction_count
 from test.kernels.rig import Rig, scene_with
 

@@ -17,14 +17,13 @@ from beardyn_core.config.nouns import load_bearing, load_box
 from beardyn_core.config.structure import modes_of_effects, mounting_of, seat_of, table_path
 from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
-from beardyn_core.integrate import rest
-from beardyn_core.integrate.equilibria import equilibrium
-from beardyn_core.integrate.rest import rest_under, springs_under
-from beardyn_core.kernels.structure import _bend, _kick
-from beardyn_core.model import structure
-from beardyn_core.model.layout import SIGNAL_CHANNELS
-from beardyn_core.model.mounting import mounting_params
-from beardyn_core.model.structure import ModalBody, body_of, structure_params
+from beardyn_core.physics import ring_modes as structure
+from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS
+from beardyn_core.physics.ring_modes import ModalBody, _bend, _kick, body_of, structure_params
+from beardyn_core.physics.statics import rest
+from beardyn_core.physics.statics.equilibria import equilibrium
+from beardyn_core.physics.statics.rest import rest_under, springs_under
+from beardyn_core.physics.suspension import mounting_params
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.box import Box

@@ -12,10 +12,8 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     AXIS,
     CAGE_BODY,
     CONE_BODY,
@@ -32,6 +30,8 @@ from beardyn_core.model.layout import (
     SIGNAL_TORQUE,
     VELOCITY,
 )
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.scene import Scene
 from test.analytic.test_momentum_pairs import momenta
 from test.kernels.entries import ribs

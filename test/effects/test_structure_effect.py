@@ -10,8 +10,7 @@ import pytest
 
 from beardyn_core.bearing.ring_bending import ThinRing, cup_ring, housing_ring, rectangular_ring
 from beardyn_core.effects import EffectSet, RingStructure
-from beardyn_core.integrate.static import solve
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGLE,
     ANGULAR,
     CONE,
@@ -31,7 +30,9 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     VELOCITY,
 )
-from beardyn_core.model.structure import body_of, exact_oscillators
+from beardyn_core.physics.oscillators import exact_oscillators
+from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.statics.static import solve
 from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, standard_scene, started
 from test.kernels.test_step import shaken

@@ -34,9 +34,9 @@ from beardyn_core.effects import (
     Seal,
     SmallRib,
 )
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.layout import ROLLER_STATES
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import ROLLER_STATES
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import PATCH_KINDS, Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness

@@ -9,8 +9,8 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.effects import RingStructure
-from beardyn_core.integrate.static import solve
-from beardyn_core.model.structure import rings
+from beardyn_core.physics.ring_modes import rings
+from beardyn_core.physics.statics.static import solve
 
 BEARING = "HS130x230"
 

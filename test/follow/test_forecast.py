@@ -14,7 +14,7 @@ from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, drawn_between
 from beardyn_core.follow.part import PartEstimate
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.integrate.rating_life import LoadClass, rating_life
+from beardyn_core.physics.statics.rating_life import LoadClass, rating_life
 
 BEARING, GREASE = load_bearing("HS130x230"), load_lubricant("L055")
 LENGTH = (24e-3, 26e-3)

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.physics.lanes.lanes import Lanes
 
 
 @pytest.fixture(params=[8, 1], ids=["lanes8", "lanes1"])

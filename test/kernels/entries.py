@@ -8,13 +8,14 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry, inline
-from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.film import log2_entrainment, log2_film_thickness, log2_load
-from beardyn_core.kernels.generator_line import generator_line, line_slip
-from beardyn_core.kernels.held import Held
-from beardyn_core.kernels.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
-from beardyn_core.kernels.laminae import Raceway, lamina_sums
-from beardyn_core.kernels.lane_math import (
+from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.held import Held
+from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.film import log2_entrainment, log2_film_thickness, log2_load
+from beardyn_core.physics.generator_line import generator_line, line_slip
+from beardyn_core.physics.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
+from beardyn_core.physics.laminae import Raceway, lamina_sums
+from beardyn_core.physics.lanes.lane_math import (
     arctangent_over,
     asinh_over,
     at_least,
@@ -32,21 +33,19 @@ from beardyn_core.kernels.lane_math import (
     where_greater,
     wrap,
 )
-from beardyn_core.kernels.large_end import rib_gap
-from beardyn_core.kernels.orbit import Body, View
-from beardyn_core.kernels.pocket import Motion, Pocket, free_pocket
-from beardyn_core.kernels.point_contact import push_small_rib, small_rib_contact
-from beardyn_core.kernels.raceway import RacewayContact, push_raceway
-from beardyn_core.kernels.rib import push_rib, rib_contact
-from beardyn_core.kernels.solve import (
+from beardyn_core.physics.lanes.solve import (
     add_line,
     add_line_everywhere,
     add_point,
     add_point_everywhere,
     solve,
 )
-from beardyn_core.kernels.traction import LaminaContact, friction_rate
-from beardyn_core.kernels.vectors import Wrench, subtract
+from beardyn_core.physics.lanes.vectors import Wrench, subtract
+from beardyn_core.physics.pocket import Motion, Pocket, free_pocket
+from beardyn_core.physics.point_contact import push_small_rib, small_rib_contact
+from beardyn_core.physics.raceway import RacewayContact, push_raceway
+from beardyn_core.physics.rib import push_rib, rib_contact, rib_gap
+from beardyn_core.physics.traction import LaminaContact, friction_rate
 
 MATH_NAMES = (
     "ninth_root", "log2", "exp2", "wrap", "cos", "sin", "sqrt", "magnitude", "floor", "at_least", "at_most",

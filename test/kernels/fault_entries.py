@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry, inline
-from beardyn_core.kernels.balanced_roller import cone_waves
-from beardyn_core.kernels.defect import (
+from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.defect import (
     find_damage,
     pocket_length,
     pocket_wear,
@@ -14,16 +15,15 @@ from beardyn_core.kernels.defect import (
     spring_damage,
     spring_slopes,
 )
-from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.laminae import released_power
-from beardyn_core.kernels.lane_tables import gather_pair
-from beardyn_core.kernels.orbit import Body, View
-from beardyn_core.kernels.pocket import free_pocket
-from beardyn_core.kernels.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
-from beardyn_core.kernels.rolling_waves import fetch_waves, wave_places, waved
-from beardyn_core.kernels.spring_roller import over_patches
-from beardyn_core.kernels.vectors import Twist, dot, scale
-from beardyn_core.kernels.waviness import wave_gap
+from beardyn_core.physics.laminae import released_power
+from beardyn_core.physics.lanes.lane_tables import gather_pair
+from beardyn_core.physics.lanes.vectors import Twist, dot, scale
+from beardyn_core.physics.pocket import free_pocket
+from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
+from beardyn_core.physics.tiers.balanced_roller import cone_waves
+from beardyn_core.physics.tiers.rolling_waves import fetch_waves, wave_places, waved
+from beardyn_core.physics.tiers.spring_roller import over_patches
+from beardyn_core.physics.waviness import wave_gap
 from test.kernels.entries import pocket_of
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry
-from beardyn_core.kernels.drag import prepare_drag, push_drag
-from beardyn_core.kernels.exchange import load_vector, store_vector
-from beardyn_core.kernels.orbit import Body, View
-from beardyn_core.kernels.rolling import rolling_couple
-from beardyn_core.kernels.solve import add_couple
-from beardyn_core.kernels.vectors import Wrench
+from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.drag import prepare_drag, push_drag
+from beardyn_core.physics.lanes.solve import add_couple
+from beardyn_core.physics.lanes.vectors import Wrench
+from beardyn_core.physics.rolling_resistance import rolling_couple
 
 
 @entry

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.effects import EffectSet
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Patch
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import moving_contacts

@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import EffectSet
-from beardyn_core.integrate.imex import advance
-from beardyn_core.integrate.start import initial_state
-from beardyn_core.integrate.state import Output, State, WorkSpace, work_space
-from beardyn_core.integrate.static import solve
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.faults import roller_oversize
-from beardyn_core.model.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
-from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.scatter import crown_errors
-from beardyn_core.model.structure import body_of
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
+from beardyn_core.physics.defect import roller_oversize
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.scatter import crown_errors
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.imex import advance
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.start import initial_state
+from beardyn_core.physics.tiers.state import Output, State, WorkSpace, work_space
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.scene.scene import Scene
 from test.kernels.naive import Motion
 

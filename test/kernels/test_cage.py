@@ -14,11 +14,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.cage import LandParams
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     BODY_STATES,
     CAGE_BODY,
@@ -28,7 +25,10 @@ from beardyn_core.model.layout import (
     RATE,
     TILT,
 )
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.pocket import LandParams
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_cage, naive_step
 from test.kernels.cage_entries import journals, kinematic_pockets, lands, rotating_pockets
 from test.kernels.casting import through

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.jit import entry
-from beardyn_core.integrate.state import State
-from beardyn_core.integrate.status import chatter_index
-from beardyn_core.kernels.exchange import Here, watch_chatter
-from beardyn_core.model.layout import BODY_STATES, ENERGY_TERMS, ROLLER_FIELDS
+from beardyn_core.physics.bodies.exchange import Here, watch_chatter
+from beardyn_core.physics.bodies.layout import BODY_STATES, ENERGY_TERMS, ROLLER_FIELDS
+from beardyn_core.physics.tiers.state import State
+from beardyn_core.physics.tiers.status import chatter_index
 
 STEPS, CAPACITY = 400, 50.0
 TIME = np.arange(STEPS)

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.faults import FaultParams, surface_radius
-from beardyn_core.model.patch_path import edge_softness, reach_of, roller_path
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.defect import FaultParams, surface_radius
+from beardyn_core.physics.patch_path import edge_softness, reach_of, roller_path
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.examples import fast_ones

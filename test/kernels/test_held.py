@@ -10,17 +10,17 @@ import pytest
 
 from beardyn_core.base.jit import entry
 from beardyn_core.effects import CoulombTraction, LoadSharingTraction
-from beardyn_core.kernels.exchange import store_vector
-from beardyn_core.kernels.film import log2_entrainment
-from beardyn_core.kernels.generator_line import generator_line, line_slip
-from beardyn_core.kernels.held import Held, hold_contact, is_fresh, remember
-from beardyn_core.kernels.laminae import Raceway, lamina_sums
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.kernels.raceway import RacewayContact, push_raceway
-from beardyn_core.kernels.vectors import Wrench
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import HELD_STEPS, build_parameters
-from beardyn_core.model.parameters import HeldParams, Parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.exchange import store_vector
+from beardyn_core.physics.bodies.held import Held, hold_contact, is_fresh, remember
+from beardyn_core.physics.film import log2_entrainment
+from beardyn_core.physics.generator_line import generator_line, line_slip
+from beardyn_core.physics.laminae import Raceway, lamina_sums
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.lanes.vectors import Wrench
+from beardyn_core.physics.raceway import RacewayContact, push_raceway
+from beardyn_core.physics.tiers.build import HELD_STEPS, build_parameters
+from beardyn_core.physics.tiers.parameters import HeldParams, Parameters
 from test.kernels import naive, naive_traction
 from test.kernels.casting import through
 from test.kernels.entries import body_and_view

@@ -17,7 +17,7 @@ from beardyn_core.bearing.lamina_coupling import (
     part_exponent,
 )
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.model.faults import surface_radius
+from beardyn_core.physics.defect import surface_radius
 from beardyn_core.scene.defect import Patch
 from test.kernels.pressed_roller import (
     ENERGY,

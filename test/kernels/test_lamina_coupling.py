@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, rectangle_influence
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.layout import LAMINA_STIFFNESS
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import LAMINA_STIFFNESS
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_coupling
 from test.kernels.casting import through
 from test.kernels.entries import couplings

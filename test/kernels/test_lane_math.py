@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.physics.lanes.lanes import Lanes
 from test.kernels.casting import through
 from test.kernels.entries import MATH_NAMES, lane_math
 

@@ -14,8 +14,8 @@ from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance
-from beardyn_core.model.laminae import equivalent_radius
-from beardyn_core.model.losses import (
+from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.losses import (
     AIR_DENSITY,
     CYLINDER_EXPONENT,
     CYLINDER_FRICTION,

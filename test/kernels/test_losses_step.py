@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.starved_rolling import rolling_couple
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     CAGE_BODY,
     CONE_BODY,
@@ -23,7 +23,7 @@ from beardyn_core.model.layout import (
     TILT,
     TURN,
 )
-from beardyn_core.model.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, oil_supply
+from beardyn_core.physics.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, oil_supply
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench

@@ -17,7 +17,7 @@ CORE = Path(__file__).resolve().parents[2] / "beardyn_core"
 # the step of the full tier: what it comes from, and the types of all that it may be called with
 DIGEST = """
 import json, sys
-from beardyn_core.integrate.imex import advance
+from beardyn_core.physics.tiers.imex import advance
 from beardyn_core.base.machine_code import code_digest
 print(json.dumps(code_digest(advance.py_func)))
 """

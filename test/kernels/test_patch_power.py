@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.waviness import Waviness
 from test.kernels.casting import Float, through

@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.parameters import Parameters
-from beardyn_core.model.traction import CoulombParams
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.traction import CoulombParams
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import RACEWAY_OUTPUTS, raceways

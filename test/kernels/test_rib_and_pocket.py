@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import pockets, ribs

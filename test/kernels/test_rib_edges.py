@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.ribs import RibParams, SmallRibParams
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.rib import RibParams, SmallRibParams
+from beardyn_core.physics.tiers.build import build_parameters
 from test.kernels import naive, naive_rib
 from test.kernels.casting import through
 from test.kernels.entries import rib_gaps, ribs, small_ribs

@@ -10,10 +10,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.integrate.tiers import lumped_parameters, quasistatic_parameters
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.bodies.layout import (
     ANGLE,
     AXIAL,
     AXIS,
@@ -24,7 +22,9 @@ from beardyn_core.model.layout import (
     POCKET_ANGLE,
     POSITION,
 )
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.tiers import lumped_parameters, quasistatic_parameters
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Scene
 from test.kernels.casting import Float, through

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from beardyn_core.kernels.lanes import Lanes
+from beardyn_core.physics.lanes.lanes import Lanes
 from test.kernels.casting import through
 from test.kernels.entries import contact_matrices, solves
 

@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.jit import OPTIONS, entry, inline
-from beardyn_core.kernels.stage_timer import PERIOD, mark, time_step
-from beardyn_core.model.build import HELD_STEPS
-from beardyn_core.model.stages import (
+from beardyn_core.physics.bodies.stage_timer import PERIOD, mark, time_step
+from beardyn_core.physics.bodies.stages import (
     CAGE,
     CONTACT,
     CYCLES,
@@ -29,6 +28,7 @@ from beardyn_core.model.stages import (
     new_timers,
     stage_cycles,
 )
+from beardyn_core.physics.tiers.build import HELD_STEPS
 
 X86 = platform.machine().lower() in ("x86_64", "amd64")
 pytestmark = pytest.mark.skipif(not X86, reason="only x86 lets a program read its cycle counter")
@@ -148,9 +148,9 @@ def body(dispatcher: Any, *arguments: Any) -> list[str]:
 _MARKED = """
 import numpy as np
 from beardyn_core.base.jit import entry
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.kernels.stage_timer import mark_result
-from beardyn_core.model.stages import FILM, new_timers
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.bodies.stage_timer import mark_result
+from beardyn_core.physics.bodies.stages import FILM, new_timers
 
 @entry
 def marked(lanes, values, timers):

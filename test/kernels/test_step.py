@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.integrate.status import Status, assess
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     ANGLE,
     ANGULAR,
     AXIAL,
@@ -29,6 +28,7 @@ from beardyn_core.model.layout import (
     TURN,
     VELOCITY,
 )
+from beardyn_core.physics.tiers.status import Status, assess
 from beardyn_core.scene.scene import Scene
 from test.kernels import naive_step
 from test.kernels.rig import Rig, standard_scene

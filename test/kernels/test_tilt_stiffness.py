@@ -8,17 +8,17 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from beardyn_core.base.jit import entry
-from beardyn_core.kernels.exchange import store_vector
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.kernels.spring_roller import (
+from beardyn_core.physics.bodies.exchange import store_vector
+from beardyn_core.physics.bodies.layout import SUM_FIELDS
+from beardyn_core.physics.contact_damping import DampingParams
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.spring_roller import (
     _LENGTH_CC,
     _in_cages_frame,
     add_length,
     add_tilt,
     tilt_stiffness,
 )
-from beardyn_core.model.layout import SUM_FIELDS
-from beardyn_core.model.parameters import DampingParams
 
 Float = NDArray[np.float64]
 REACH, TIME, FOUNDATION = 0.024, 3e-6, 1.3e11

@@ -18,10 +18,10 @@ from beardyn_core.effects import (
     MixedTraction,
     ShearedFilmTraction,
 )
-from beardyn_core.kernels.lanes import Lanes
-from beardyn_core.model.arrangement import Arrangement
-from beardyn_core.model.build import build_parameters
-from beardyn_core.model.parameters import Parameters
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.tiers.build import build_parameters
+from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_traction
 from test.kernels.casting import through
 from test.kernels.entries import frictions, saturations

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.config import load_bearing
-from beardyn_core.integrate.static import solve
+from beardyn_core.physics.statics.static import solve
 from evidence.validation.load_zone import axial_integral, radial_integral
 from evidence.validation.zhang import published_model, solved_model
 

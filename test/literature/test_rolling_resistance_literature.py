@@ -18,8 +18,8 @@ from beardyn_core.bearing.rolling_resistance import (
     zhou_hoeprich_line,
 )
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.integrate.static import solve
-from beardyn_core.integrate.torque import running_torque
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.statics.torque import running_torque
 from evidence.validation.losses import RPM, bearing_32216
 
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction
-from beardyn_core.model.layout import LAMINA_PRESSURE
+from beardyn_core.physics.bodies.layout import LAMINA_PRESSURE
 from evidence.validation.films import (
     NO_ASPERITIES,
     boundary_blend,

@@ -13,8 +13,8 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file, write_mapping
-from beardyn_core.integrate.status import SENTENCES, Status, describe
-from beardyn_core.model.layout import LOSS_DAMPING
+from beardyn_core.physics.bodies.layout import LOSS_DAMPING
+from beardyn_core.physics.tiers.status import SENTENCES, Status, describe
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import SMALLEST_LOSS
 from beardyn_core.twin import Twin

@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet, Rib
-from beardyn_core.integrate.status import Status, describe
+from beardyn_core.physics.tiers.status import Status, describe
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from test.kernels.rig import SPEED, constant_load, scene_with, started

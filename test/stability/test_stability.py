@@ -12,9 +12,9 @@ import pytest
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_effects
 from beardyn_core.effects import ContactDamping
-from beardyn_core.integrate.status import Status, assess
-from beardyn_core.model.build import spring_time
-from beardyn_core.model.layout import CONE_BODY, LINEAR, PENETRATION, SIGNAL_FORCE
+from beardyn_core.physics.bodies.layout import CONE_BODY, LINEAR, PENETRATION, SIGNAL_FORCE
+from beardyn_core.physics.tiers.build import spring_time
+from beardyn_core.physics.tiers.status import Status, assess
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from test.kernels.rig import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.model import layout
+from beardyn_core.physics.bodies import layout
 from beardyn_core.twin import Twin
 from test.tiers.runs import Float
 

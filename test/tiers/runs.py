@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import EffectSet, Gravity, LineFilm
-from beardyn_core.integrate.static import StaticSolution, solve
+from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.rail.build import load_history
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene

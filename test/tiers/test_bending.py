@@ -14,12 +14,7 @@ from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.fast_step import fast_steps
 from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
-from beardyn_core.integrate.roller_contacts import ConePose, contact_model
-from beardyn_core.integrate.roller_equilibrium import load_of_approach, solve_rollers
-from beardyn_core.integrate.state import Output, State
-from beardyn_core.integrate.static import solve
-from beardyn_core.kernels.box import FORCE
-from beardyn_core.model.layout import (
+from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
     CONE_BODY,
     CUP_BODY,
@@ -30,9 +25,14 @@ from beardyn_core.model.layout import (
     SIGNAL_FORCE,
     TURN,
 )
-from beardyn_core.model.structure import ModalBody, body_of
-from beardyn_core.model.tier_bending import step_body
-from beardyn_core.model.tier_parameters import lever_of_cup
+from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
+from beardyn_core.physics.statics.roller_equilibrium import load_of_approach, solve_rollers
+from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.suspension import FORCE
+from beardyn_core.physics.tiers.state import Output, State
+from beardyn_core.physics.tiers.tier_bending import step_body
+from beardyn_core.physics.tiers.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.integrate.kinematic_step import TRENDS_PER_BLOCK
+from beardyn_core.physics.tiers.kinematic_step import TRENDS_PER_BLOCK
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS

@@ -42,7 +42,7 @@ def test_idle_rollers_rub_in_their_pockets() -> None:
     weight = 2.0 / np.pi * effects.gravity.acceleration * bearing.roller_mass
     drag = 0.0
     if effects.drag is not None:
-        from beardyn_core.model.losses import drag_params
+        from beardyn_core.physics.losses import drag_params
 
         law = drag_params(scene)
         assert law is not None
@@ -55,7 +55,7 @@ def test_idle_rollers_rub_in_their_pockets() -> None:
 
 def test_a_kinematic_cage_rubs_nothing() -> None:
     from beardyn_core.effects import KinematicCage
-    from beardyn_core.model.tier_parameters import kinematic_params
+    from beardyn_core.physics.tiers.tier_parameters import kinematic_params
 
     scene = load_scene("static_80kN", tier="lumped", effects="standard")
     assert kinematic_params(scene).pocket is not None

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.integrate.roller_contacts import ConePose, contact_model
-from beardyn_core.integrate.roller_equilibrium import (
+from beardyn_core.physics.bodies.layout import CAGE_BODY, CONE_BODY, CUP_BODY, POSITION, TILT, TURN
+from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
+from beardyn_core.physics.statics.roller_equilibrium import (
     RollerState,
     load_of_approach,
     solve_rollers,
     spring_params,
 )
-from beardyn_core.integrate.static import _rotation
-from beardyn_core.model.layout import CAGE_BODY, CONE_BODY, CUP_BODY, POSITION, TILT, TURN
+from beardyn_core.physics.statics.static import _rotation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
-from beardyn_core.kernels.kinematic_rings import SLIDING
-from beardyn_core.model.tier_parameters import slide_params
+from beardyn_core.physics.tiers.kinematic_rings import SLIDING
+from beardyn_core.physics.tiers.tier_parameters import slide_params
 from beardyn_core.run import start
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene

@@ -11,8 +11,8 @@ from beardyn_core.choice import load_scene
 from beardyn_core.choice.circumstances import circumstances
 from beardyn_core.choice.steady_heat import steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
-from beardyn_core.model.heat import NODES
-from beardyn_core.model.layout import LOSS_NAMES, SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import LOSS_NAMES, SIGNAL_TORQUE
+from beardyn_core.physics.thermal import NODES
 from beardyn_core.run import Simulation, start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin

@@ -1,0 +1,61 @@
+"""Forces and motion: an idea a file, with its parameters, the builder from the scene and the compiled part.
+
+A contact is one file, its functions in the order of a step: prepare, stiffen, push, settle.
+
+Arguments mean the same in all kernels; a function's own words tell what is special there:
+
+- ``lanes``, ``block``, ``p``: the lane width, the block of rollers, and the parameters of the tier.
+- Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,
+  ``roller``, ``damping`` and the like are the tuples of their files too.
+- ``rollers`` [block, ROLLER_FIELDS, lane], ``rings`` [ring, RING_FIELDS, lane], ``sums`` [1, SUM_FIELDS +
+  3 x series, lane], ``bodies`` [body, BODY_STATES], ``wrenches`` [body, 6], ``energy`` [ENERGY_TERMS],
+  ``flex`` [2, mode], ``laminae`` [LAMINA_ROWS, lamina]: C-contiguous float64 arrays, see `bodies.layout`.
+- ``body``, ``view``, ``here``, ``change``: a `Body`, the `View` of the ring that it meets, `Here`, and the
+  `Twist` of the roller over the step; ``step`` [s]; ``ring``: ``CUP`` or ``CONE``.
+- ``centre``: centre of mass of the roller from the ring's origin [m]; ``axis``, ``ring_axis``: unit axes,
+  towards the large end; ``oversize``: radius error of the roller [m].
+- ``azimuths``: of the roller in the ring's frame, and of the contact in the roller's [rad]; ``cosine`` and
+  ``sine`` are those of the orbit azimuth.
+
+In the fast tiers, whose rollers stay in their meridian planes:
+
+- ``direction``: cosine and sine of the cage angle; ``turns``: angle of cages, cone, and rollers in their
+  pockets [rad]; ``speeds``: of shaft and cages [rad/s]; ``angle``: of the pocket [rad].
+- ``place``: radius and axial place of the centre of mass [m]; ``axis``: its radial and axial part.
+- ``motion``: from `relative_cone`; ``loads``: cup, cone and rib load [N].
+
+================== ================================================================================================
+module             responsibility
+================== ================================================================================================
+warming            slow warming next to the fast motion
+scatter            scatter as numbers of each roller
+lamina_table       table of the laminae, and their coupling
+laminae            the springs of a raceway contact and their sums
+lamina_springs     laminae as springs, summed (quasistatic tier)
+lamina_coupling    laminae that sink with each other, also partly over a patch
+raceway            contact of a roller with a raceway
+generator_line     contact line of a roller on a raceway
+point_contact      contact with the cone at a point, and the small rib
+land               land of a cage in cup or cone
+waviness           gap of waviness; the force along a sloping gap
+thermal            nodes of the thermal network and where losses go
+traction           friction of the raceway contacts
+film               film of the raceway contacts
+losses             rolling resistance, drag and seals as parameters
+rib                ribs at both roller ends: spheres on a cone, their film and friction
+pocket             pockets of the cage, and its simplified forms
+defect             patches, waviness, wear and size errors: tables, and the gaps they make
+patch_path         path of a roller over a patch, and how its sharp edges give way
+journal            bending of the axle at the journal
+ring_modes         bending of the axlebox: rings or modes of a table
+suspension         what holds the box, or both rings
+drag               medium around the rollers
+rolling_resistance couple against rolling
+contact_damping    damping of every Hertz contact
+oscillators        steps of a mode with its exact free motion
+lanes              lane values: arithmetic, functions, vectors, the system of a roller
+bodies             what every idea shares: layout of the state, rollers in lanes, rigid bodies, what contacts write
+statics            equilibrium, torque and life, in NumPy
+tiers              parameters, state and steps of full, quasistatic and lumped
+================== ================================================================================================
+"""

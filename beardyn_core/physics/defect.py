@@ -1,0 +1,450 @@
+"""Patches, waviness, wear and size errors as kernel parameters, and their growth between blocks."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import inline
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.lamina_table import equivalent_radius, for_springs, lamina_places
+from beardyn_core.physics.lanes.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
+from beardyn_core.physics.lanes.lanes import any_positive
+from beardyn_core.physics.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
+from beardyn_core.physics.scatter import added_clearance, crown_errors, scattered_oversize
+from beardyn_core.scene.defect import Patch, RollerError, WornPocket
+from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.waviness import Waviness
+
+
+class SurfaceParams(NamedTuple):
+    """Patches of one surface."""
+
+    places: Any  # [patch, PATCH_FIELDS]: centre [rad], repeats a turn, radius [m], radius by repeats, reach
+    present: Any  # [block, patch, lane], 1 where the lane's roller meets the patch
+    cover: Any  # [patch, lamina], share of the lamina's length
+    paths: Any  # [patch x lamina x PATCH_POINTS], gap over even arcs from the centre to the reach [m]
+    softness: Any  # there, what sharp edges add to the compliance of the contact [-]
+
+
+class DamageParams(NamedTuple):
+    """Springs of a contact near a patch: sound parts of all laminae, then their damaged parts."""
+
+    laminae: Any  # the lamina table twice over [row of the table, 2 x lamina]
+    springs: Any  # work space [1, spring x SPRING_FIELDS, lane]
+
+
+class WaveParams(NamedTuple):
+    """Waviness of one surface; a row of the table is one turn and two points more."""
+
+    table: Any  # flat [m]
+    first: Any  # [block, 1, lane], where the lane's row of the table begins
+    points: float  # of one turn
+
+
+class FaultParams(NamedTuple):
+    """Faults; ``None`` is absent."""
+
+    cup: SurfaceParams | None
+    cone: SurfaceParams | None
+    roller: SurfaceParams | None
+    cup_damage: DamageParams | None  # present with any patch of cup or rollers
+    cone_damage: DamageParams | None
+    cup_waves: WaveParams | None
+    cone_waves: WaveParams | None
+    roller_waves: WaveParams | None
+    pockets: Any  # half of the clearance added along the pitch circle, and at the ends [block, 2, lane], [m]
+    crowns: Any = None  # drop of the profile's error over the squared abscissa [block, 1, lane], [1/m]
+
+
+SURFACES = ("cup", "cone", "roller")
+
+_SMALLEST_PART = 1.0e-9  # of a lamina
+
+
+def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
+    """Collect all faults at t = 0; what the scene does not have is ``None``."""
+    cup, cone, roller = (surface_params(scene, on, arrangement) for on in SURFACES)
+    cup_waves, cone_waves, roller_waves = (wave_params(scene, on, arrangement) for on in SURFACES)
+    cup_damage, cone_damage = (
+        None if ring is None and roller is None else damage_params(laminae, arrangement.width)
+        for ring in (cup, cone)
+    )
+    return FaultParams(
+        cup, cone, roller, cup_damage, cone_damage, cup_waves, cone_waves, roller_waves,
+        pocket_wear_of(scene, arrangement), crown_params(scene, arrangement),
+    )  # fmt: skip
+
+
+def patches_of(scene: Scene, on: str) -> list[Patch]:
+    """List the patches of one surface, in the order of the scene."""
+    return [defect for defect in scene.defects if isinstance(defect, Patch) and defect.on == on]
+
+
+def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfaceParams | None:
+    """Collect the patches of one surface; ``None`` without any."""
+    patches = patches_of(scene, on)
+    if not patches:
+        return None
+    count = scene.numerics.laminae
+    places = np.zeros((len(patches), layout.PATCH_FIELDS))
+    present = np.zeros((arrangement.block_count, len(patches), arrangement.width))
+    paths = np.zeros((len(patches), count, layout.PATCH_POINTS))
+    for index, patch in enumerate(patches):
+        there = arrangement.row == patch.row
+        if on == "roller":
+            there = there & (arrangement.roller == patch.roller)
+        present[:, index] = there
+    cover = np.array([lamina_cover(scene.bearing, patch, count) for patch in patches])
+    surface = SurfaceParams(places, present, cover, paths.reshape(-1), np.zeros(paths.size))
+    for index, patch in enumerate(patches):
+        _write_patch(surface, index, patch, scene, 0.0)
+    return surface
+
+
+def grow(faults: FaultParams, scene: Scene, time: float) -> None:
+    """Give growing patches their size at a time [s]; a function of the time alone."""
+    for on, surface in zip(SURFACES, (faults.cup, faults.cone, faults.roller), strict=True):
+        for index, patch in enumerate(patches_of(scene, on)):
+            if surface is not None and patch.growth is not None:
+                _write_patch(surface, index, patch, scene, time)
+
+
+def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene, time: float) -> None:
+    bearing, count = scene.bearing, scene.numerics.laminae
+    size = patch.size_at(time)
+    radii = contact_radii(bearing, patch.on, count)
+    reach = max(reach_of(patch, size, radius, bearing) for radius in radii)
+    repeats = bearing.roller_count if patch.kind == "brinelling" else 1
+    radius = surface_radius(bearing, patch.on)
+    place = surface.places[index]
+    place[layout.PLACE_AZIMUTH] = patch.azimuth
+    place[layout.PLACE_REPEATS] = repeats
+    place[layout.PLACE_RADIUS] = radius
+    place[layout.PLACE_ARC_RADIUS] = radius / repeats
+    place[layout.PLACE_REACH] = reach
+    place[layout.PLACE_SCALE] = PATH_CELLS / reach
+    paths = surface.paths.reshape(-1, count, layout.PATCH_POINTS)
+    softness = surface.softness.reshape(paths.shape)
+    for lamina, contact_radius in enumerate(radii):
+        path = roller_path(patch, size, contact_radius, reach)
+        paths[index, lamina, : PATH_CELLS + 1] = path
+        softness[index, lamina, : PATH_CELLS + 1] = edge_softness(
+            patch, size, contact_radius, reach, path, bearing
+        )
+
+
+def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
+    """Take radii of cylinders on a plane in place of the laminae's contacts with a surface, [lamina], [m].
+
+    A patch of a roller meets both rings: there a radius is the roller's own.
+    """
+    places = lamina_places(bearing, count)
+    if on == "roller":
+        return np.asarray((bearing.apex_distance + places) * math.tan(bearing.half_angle))
+    return equivalent_radius(bearing, places, on)
+
+
+def surface_radius(bearing: Bearing, on: str) -> float:
+    """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
+    distance = bearing.apex_distance / math.cos(bearing.half_angle)
+    angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}
+    return 0.5 * bearing.roller_diameter if on == "roller" else distance * math.sin(angle[on])
+
+
+def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
+    """Compute the share of the length of each lamina that a patch covers, shape [lamina], [-].
+
+    A part that is rounding is none: the surface under it does not exist.
+    """
+    place = lamina_places(bearing, count)
+    half = 0.5 * bearing.effective_length / count
+    low = np.maximum(place - half, patch.offset - 0.5 * patch.length)
+    high = np.minimum(place + half, patch.offset + 0.5 * patch.length)
+    cover = np.clip((high - low) / (2.0 * half), 0.0, 1.0)
+    cover[cover < _SMALLEST_PART] = 0.0
+    cover[cover > 1.0 - _SMALLEST_PART] = 1.0
+    return np.asarray(cover)
+
+
+def damage_params(laminae: Float, width: int) -> DamageParams:
+    """Double the lamina table (sound and damaged springs) and make work space for the springs."""
+    springs = np.zeros((1, layout.SPRING_FIELDS * 2 * laminae.shape[1], width))
+    return DamageParams(for_springs(laminae), springs)
+
+
+def pocket_wear_of(scene: Scene, arrangement: Arrangement) -> Float | None:
+    """Take half of the clearance added to each pocket, [block, 2, lane], [m]; ``None`` without any.
+
+    The first is along the pitch circle, from wear and scatter, the second at the ends, where a longer roller
+    takes it.
+    """
+    if scene.scattered is None and not any(isinstance(defect, WornPocket) for defect in scene.defects):
+        return None
+    longer = np.zeros((2, arrangement.roller_count))
+    if scene.scattered is not None:
+        longer = scene.scattered.deviations(scene.bearing).roller_length
+    halves = (0.5 * added_clearance(scene), -0.5 * longer)
+    return np.stack([arrangement.to_lanes(half) for half in halves], axis=1)
+
+
+def crown_params(scene: Scene, arrangement: Arrangement) -> Float | None:
+    """Spread the errors of the rollers' profiles over the lanes, [block, 1, lane], [1/m]; or ``None``."""
+    crowns = crown_errors(scene)
+    return None if crowns is None else np.ascontiguousarray(arrangement.to_lanes(crowns)[:, None, :])
+
+
+def roller_oversize(scene: Scene) -> Float:
+    """Work out the radius error of each roller from scatter and defects, shape [row, roller], [m]."""
+    error = scattered_oversize(scene)
+    for defect in scene.defects:
+        if isinstance(defect, RollerError):
+            error[defect.row, defect.roller] += 0.5 * defect.diameter
+    return error
+
+
+POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
+# ... and to 8 % where scatter makes it: there it is a hundredth of the longest or less
+POINTS_PER_SCATTERED_WAVE = 8
+
+
+def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams | None:
+    """Tabulate the waviness of one surface over a period per row or roller; ``None`` without any."""
+    waves = [wave for wave in scene.waves if wave.on == on]
+    if not waves:
+        return None
+    shortest = [
+        max(wave.orders) * (POINTS_PER_WAVE if wave in scene.waviness else POINTS_PER_SCATTERED_WAVE)
+        for wave in waves
+    ]
+    points = max(1024, *shortest)
+    count = arrangement.roller_count if on == "roller" else 1
+    tables = np.zeros((2, count, points + 2))
+    for wave in waves:
+        for roller in range(count):
+            if wave.roller is None or on != "roller" or wave.roller == roller:
+                tables[wave.row, roller] += np.resize(_one_turn(wave, roller, points), points + 2)
+    first = np.arange(2 * count, dtype=float).reshape(2, count) * (points + 2)
+    start = arrangement.to_lanes(np.broadcast_to(first, (2, arrangement.roller_count)))
+    return WaveParams(tables.reshape(-1), np.ascontiguousarray(start[:, None, :]), float(points))
+
+
+def _one_turn(wave: Waviness, roller: int, points: int) -> Float:
+    """Compute `Waviness.gap` at points around the body by a Fourier transform, shape [point], [m]."""
+    lines = np.zeros(points // 2 + 1, np.complex128)
+    np.add.at(lines, list(wave.orders), np.array(wave.amplitudes) * np.exp(1j * wave.phases(roller)))
+    return np.fft.irfft(0.5 * points * lines, points)
+
+
+_LAST = layout.PATCH_POINTS - 2.0
+_SPRINGS = 0  # the work space has one page
+# of a contact, by which softness counts beside a gap where several patches meet [m]
+_USUAL_DEPTH = 5e-6
+# an energy goes with the 19/9th power of the depth, its force with the 10/9th
+_ENERGY = 9.0 / 19.0
+
+
+@inline
+def patch_arc(azimuth, patch, surface):
+    """Work out the arc from the nearest centre of a patch, [m]."""
+    turn = surface.places[patch, layout.PLACE_REPEATS] * (
+        azimuth - surface.places[patch, layout.PLACE_AZIMUTH]
+    )
+    return wrap(turn) * surface.places[patch, layout.PLACE_ARC_RADIUS]
+
+
+@inline
+def patch_nearness(lanes, block, azimuth, patch, surface):
+    """Tell how far a roller is inside the reach of a patch; not positive where it does not feel it, [m]."""
+    inside = surface.places[patch, layout.PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
+    return lanes.load(surface.present, block, patch) * inside
+
+
+@inline
+def any_near(lanes, block, azimuth, surface):
+    """Tell whether any lane is within the reach of any patch of a surface."""
+    if surface is None:
+        return False
+    nearest = lanes.constant(0.0)
+    for patch in range(surface.places.shape[0]):
+        nearest = at_least(nearest, patch_nearness(lanes, block, azimuth, patch, surface))
+    return any_positive(nearest)
+
+
+@inline
+def find_damage(lanes, block, azimuths, count, surfaces, damage):
+    """Tell whether a contact is near a patch, and then work out the gaps of its springs.
+
+    ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
+
+    A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
+    continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
+    when they cover different shares of it, one damaged spring stands for all of them, with the mean share
+    (by sink) and the mean gap and softness of the lamina kept.
+    """
+    if damage is None:
+        return False
+    if not (
+        any_near(lanes, block, azimuths[0], surfaces[0]) or any_near(lanes, block, azimuths[1], surfaces[1])
+    ):
+        return False
+    springs = damage.springs
+    zero = lanes.constant(0.0)
+    for field in range(layout.SPRING_FIELDS * 2 * count):
+        lanes.store(springs, _SPRINGS, field, zero)
+    add_patches(lanes, block, azimuths[0], count, layout.SPRING_RING_SLOPE, surfaces[0], springs)
+    add_patches(lanes, block, azimuths[1], count, layout.SPRING_ROLLER_SLOPE, surfaces[1], springs)
+    one = lanes.constant(1.0)
+    for k in range(count):
+        sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+        first = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
+        second = lanes.load(springs, _SPRINGS, sound + layout.SPRING_SHARE)
+        share = first / at_least(second, 1e-30)
+        weight = 1.0 / at_least(share, 1e-12)
+        lanes.store(springs, _SPRINGS, sound + layout.SPRING_SHARE, 1.0 - share)
+        lanes.store(springs, _SPRINGS, damaged + layout.SPRING_SHARE, share)
+        for field in (layout.SPRING_GAP, layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
+            _scale(lanes, springs, damaged + field, weight)
+        firmness = 1.0 / (1.0 + weight * lanes.load(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS))
+        lanes.store(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS, firmness)
+        lanes.store(springs, _SPRINGS, sound + layout.SPRING_FIRMNESS, one)
+        for field in (layout.SPRING_RING_SOFTENING, layout.SPRING_ROLLER_SOFTENING):
+            _scale(lanes, springs, damaged + field, _ENERGY * weight * firmness)
+    return True
+
+
+@inline
+def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
+    """Add the moments of the gaps of one surface's patches to the springs of a contact.
+
+    Into the fields of the damaged spring go the sums of ``c w`` (share), ``c g`` (gap), ``c s`` (firmness),
+    ``c dg/dtheta`` (slope) and ``c ds/dtheta`` (softening), c the cover, s the softness and w the sink
+    ``|g|`` and s times a usual depth; into the share of the sound one that of w.
+    """
+    if surface is None:
+        return
+    for patch in range(surface.places.shape[0]):
+        if any_positive(patch_nearness(lanes, block, azimuth, patch, surface)):
+            arc = patch_arc(azimuth, patch, surface)
+            scale = surface.places[patch, layout.PLACE_SCALE]
+            position = at_most(magnitude(arc) * scale, _LAST)
+            cell = floor(position)
+            part = position - cell
+            present = lanes.load(surface.present, block, patch)
+            climb = scale * surface.places[patch, layout.PLACE_RADIUS] * present
+            climb = where_greater(arc, 0.0, climb, -climb)
+            for k in range(count):
+                sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+                begin = layout.PATCH_POINTS * (patch * count + k)
+                low = lanes.gather(surface.paths, cell + begin)
+                high = lanes.gather(surface.paths, cell + (begin + 1))
+                gap = present * (low + part * (high - low))
+                firm = lanes.gather(surface.softness, cell + begin)
+                soft = lanes.gather(surface.softness, cell + (begin + 1))
+                softness = present * (firm + part * (soft - firm))
+                cover = surface.cover[patch, k]
+                sink = magnitude(gap) + _USUAL_DEPTH * softness
+                _increase(lanes, springs, damaged + layout.SPRING_SHARE, cover * sink)
+                _increase(lanes, springs, sound + layout.SPRING_SHARE, sink)
+                _increase(lanes, springs, damaged + layout.SPRING_GAP, cover * gap)
+                _increase(lanes, springs, damaged + layout.SPRING_FIRMNESS, cover * softness)
+                _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
+                _increase(lanes, springs, damaged + slope_field + 1, cover * climb * (soft - firm))
+
+
+@inline
+def _increase(lanes, springs, field, value):
+    lanes.store(springs, _SPRINGS, field, lanes.load(springs, _SPRINGS, field) + value)
+
+
+@inline
+def _scale(lanes, springs, field, factor):
+    lanes.store(springs, _SPRINGS, field, factor * lanes.load(springs, _SPRINGS, field))
+
+
+@inline
+def springs_of(laminae, damage, coupling):
+    """Take the lamina table with a column for every spring, and how many springs a contact has.
+
+    Near a patch two of each lamina; coupled laminae are not divided.
+    """
+    if damage is None:
+        return laminae, laminae.shape[1]
+    if coupling is None:
+        return damage.laminae, 2 * laminae.shape[1]
+    return damage.laminae, laminae.shape[1]
+
+
+@inline
+def spring_damage(lanes, spring, damage):
+    """Share of its lamina [-] and gap [m] of a spring."""
+    if damage is None:
+        return 1.0, 0.0
+    field = layout.SPRING_FIELDS * spring
+    return (
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE),
+        lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_GAP),
+    )
+
+
+@inline
+def soften(lanes, tangent, spring, damage):
+    """Take off a stiffness what the edges of patches give way under a spring."""
+    if damage is None:
+        return tangent
+    return tangent * lanes.load(
+        damage.springs, _SPRINGS, layout.SPRING_FIELDS * spring + layout.SPRING_FIRMNESS
+    )
+
+
+@inline
+def gap_moments(lanes, near, lamina, count, damage):
+    """Work out the share of a lamina under a patch, the share of its stiffness lost, and the gap that counts.
+
+    Shares of the lamina [-]; the gap times the share and its firmness [m].
+    """
+    zero = lanes.constant(0.0)
+    if damage is None:
+        return zero, zero, zero
+    if near:
+        field = layout.SPRING_FIELDS * (count + lamina)
+        gap = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_GAP)
+        share = lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_SHARE)
+        firm = share * lanes.load(damage.springs, _SPRINGS, field + layout.SPRING_FIRMNESS)
+        return share, share - firm, firm * gap
+    return zero, zero, zero
+
+
+@inline
+def spring_slopes(lanes, spring, depth, damage):
+    """Work out how far a spring near a patch gives way with the ring's and the roller's azimuth, [m/rad].
+
+    That is the slope of its gap, and where its firmness changes what its force wants for the energy at a
+    ``depth`` [m], not negative, to go with it.
+    """
+    springs, field = damage.springs, layout.SPRING_FIELDS * spring
+    ring = lanes.load(springs, _SPRINGS, field + layout.SPRING_RING_SLOPE)
+    roller = lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE)
+    ring = ring + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_RING_SOFTENING)
+    return ring, roller + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SOFTENING)
+
+
+@inline
+def pocket_wear(lanes, block, pockets):
+    """Work out the half of the clearance added to each roller's pocket along the pitch circle, [m]."""
+    if pockets is None:
+        return 0.0
+    return lanes.load(pockets, block, 0)
+
+
+@inline
+def pocket_length(lanes, block, pockets):
+    """Work out the half of the clearance added to each roller's pocket at its ends, [m]."""
+    if pockets is None:
+        return 0.0
+    return lanes.load(pockets, block, 1)

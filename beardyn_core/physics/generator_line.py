@@ -1,0 +1,154 @@
+"""Contact line of a tapered roller on a conical raceway, and what acts along it.
+
+The contact points of all laminae of a rigid tapered roller lie on one *generator line*. In the ring's
+frame the approach is a cubic along it and the slip is affine, so geometry is worked out once per roller
+and raceway, and a lamina costs only its force law. Sums over the laminae are weighted by powers of the
+abscissa; from them force, moment and tangent matrix follow.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from beardyn_core.base.jit import inline
+from beardyn_core.physics.lanes.lane_math import sqrt
+from beardyn_core.physics.lanes.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
+
+
+class Line(NamedTuple):
+    """Contact line; abscissa x from the centre of mass towards the large end, [m]."""
+
+    arm: Vector  # contact point from the centre of mass at x = 0 [m]
+    arm_slope: Vector  # its change per abscissa
+    normal: Vector  # into the ring, at x = 0
+    around: Vector  # circumferential
+    along: Vector  # of the generator
+    approach: Any  # 4 factors of the penetration a0 + x (a1 + x (a2 + x a3)) [m]
+    bend: Any  # turn of the normal towards `around` per abscissa [1/m]
+
+
+class Slip(NamedTuple):
+    """Velocity of the roller against the ring along the line: value at x = 0 and slope, [m/s], [1/s]."""
+
+    rate: Any  # of approach
+    around: Any
+    along: Any
+
+
+@inline
+def generator_line(centre, axis, ring_axis, oversize, raceway, roller):
+    """Work out the contact generator of a tapered roller on a conical raceway: a `Line`.
+
+    Two passes of the closed form: the contact point of a disc on a cone is taken where the normal points,
+    first at the disc centre, then at the point so found. At the centre of mass the gap is good to
+    0.001 nm at 1 degree of skew; along the line to 0.05 nm at 2 mrad and 4 nm at 1 degree. The second pass
+    is for the direction of the force, which must do no work on the spin.
+    """
+    from_apex = add_scaled(centre, -roller.apex, ring_axis)
+    outward, centre_distance = _radial_direction(from_apex, ring_axis)
+    radius = oversize + roller.radius
+    edge = _edge_towards(outward, axis, ring_axis, raceway)
+    outward = _radial_direction(add_scaled(from_apex, radius, edge), ring_axis)[0]
+    edge = _edge_towards(outward, axis, ring_axis, raceway)
+    arm = scale(radius, edge)
+    point = add(from_apex, arm)
+    outward, distance = _radial_direction(point, ring_axis)
+    around = cross(ring_axis, outward)
+
+    # Along a skewed axis the contact walks around the roller with the azimuth of the disc centre; without
+    # that walk the elastic force would do work on the spin.
+    skew = dot(axis, around)
+    walk = skew / centre_distance
+    arm_slope = add_scaled(add_scaled(axis, roller.taper, edge), raceway.side * radius * walk, around)
+    slope_out = dot(arm_slope, outward)
+    slope_along = dot(arm_slope, ring_axis)
+    side_cosine = raceway.side * raceway.cosine
+    side_sine = raceway.side * raceway.sine
+    bend = side_cosine * dot(arm_slope, around) / distance
+    approach = (
+        side_cosine * distance - side_sine * dot(point, ring_axis) - raceway.gap,
+        side_cosine * slope_out - side_sine * slope_along,
+        0.5 * side_cosine * walk * skew,
+        -0.5 * side_cosine * walk * skew * dot(axis, outward) / centre_distance,
+    )
+    normal = add_scaled(scale(side_cosine, outward), -side_sine, ring_axis)
+    along = add_scaled(scale(raceway.sine, outward), raceway.cosine, ring_axis)
+    return Line(arm, arm_slope, normal, around, along, approach, bend)
+
+
+@inline
+def _edge_towards(outward, axis, ring_axis, raceway):
+    """Take the radial direction of the roller that points along the raceway's normal at an azimuth."""
+    normal = scale(raceway.side, add_scaled(scale(raceway.cosine, outward), -raceway.sine, ring_axis))
+    lean = dot(normal, axis)
+    return scale(1.0 / sqrt(1.0 - lean * lean), add_scaled(normal, -lean, axis))
+
+
+@inline
+def _radial_direction(point, ring_axis):
+    """Work out the unit vector from the ring axis to a point, and the distance."""
+    across = add_scaled(point, -dot(point, ring_axis), ring_axis)
+    distance = sqrt(dot(across, across))
+    return scale(1.0 / distance, across), distance
+
+
+@inline
+def line_slip(line, centre, body, view):
+    """Work out the velocity of the roller against the ring along the generator: a `Slip`."""
+    relative_omega = subtract(body.omega, view.omega)
+    at_centre = subtract(subtract(body.velocity, view.velocity), cross(view.omega, centre))
+    at_middle = add(at_centre, cross(relative_omega, line.arm))
+    slope = cross(relative_omega, line.arm_slope)
+    around = dot(at_middle, line.around)
+    return Slip(
+        (dot(at_middle, line.normal), dot(slope, line.normal) + line.bend * around),
+        (around, dot(slope, line.around)),
+        (dot(at_middle, line.along), dot(slope, line.along)),
+    )
+
+
+@inline
+def affine_change(line, direction, change):
+    """Work out how a twist changes the velocity along a direction on the line, affine in the abscissa."""
+    at_middle = add(change.velocity, cross(change.omega, line.arm))
+    return dot(at_middle, direction), dot(cross(change.omega, line.arm_slope), direction)
+
+
+@inline
+def shifted(affine, change, part):
+    """Add a part of a change to a function that is affine in the abscissa."""
+    return affine[0] + part * change[0], affine[1] + part * change[1]
+
+
+@inline
+def weighted(weights, affine):
+    """Sum ``w (a0 + a1 x)`` and ``w (a0 + a1 x) x`` over the laminae from the moments of w."""
+    return (weights[0] * affine[0] + weights[1] * affine[1], weights[1] * affine[0] + weights[2] * affine[1])
+
+
+@inline
+def power(weights, a, b):
+    """Sum ``w (a0 + a1 x)(b0 + b1 x)`` over the laminae from the moments of w."""
+    sums = weighted(weights, a)
+    return sums[0] * b[0] + sums[1] * b[1]
+
+
+@inline
+def line_wrench(line, normal_force, around_force, along_force):
+    """Add up the force on the roller and its moment about the centre of mass: a `Wrench`.
+
+    ``normal_force`` (3 numbers): sums of the normal force with x^0, x^1, x^2, pressing positive [N m^k];
+    ``around_force``, ``along_force`` (2 numbers): sums of the friction against the slip with x^0, x^1 [N
+    m^k].
+    """
+    around_0 = around_force[0] + line.bend * normal_force[1]
+    around_1 = around_force[1] + line.bend * normal_force[2]
+    force = _combine(line, normal_force[0], around_0, along_force[0])
+    leverage = _combine(line, normal_force[1], around_1, along_force[1])
+    return Wrench(force, add(cross(line.arm, force), cross(line.arm_slope, leverage)))
+
+
+@inline
+def _combine(line, normal_part, around_part, along_part):
+    pressed = scale(-normal_part, line.normal)
+    return add_scaled(add_scaled(pressed, -around_part, line.around), -along_part, line.along)

@@ -1,0 +1,130 @@
+"""Laminae of a roller: the table of what each has of its own, and their coupling."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.bearing.contact_law import line_contact_factor
+from beardyn_core.bearing.film_thickness import line_film
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, part_exponent
+from beardyn_core.effects import LaminaCoupling, LineFilm
+from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
+from beardyn_core.scene.scene import Scene
+
+
+class CouplingParams(NamedTuple):
+    """Laminae coupled through the half-space; `work` holds nothing from one contact to the next."""
+
+    root: Any  # [lamina, lamina]
+    follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
+    own_stiffness: Any  # [lamina]
+    part_exponent: float  # of the part of a lamina that stands higher than the rest
+    work: Any  # [COUPLING_ROWS, lamina, lane]
+
+
+def for_springs(table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Repeat a table [..., lamina] to [..., 2 x lamina]: near a patch a lamina is two springs."""
+    return np.ascontiguousarray(np.concatenate([table, table], axis=-1))
+
+
+def lamina_places(bearing: Bearing, count: int) -> NDArray[np.float64]:
+    """Work out the abscissae of the laminae from mid-length, towards the large end, shape [lamina], [m]."""
+    return ((np.arange(count) + 0.5) / count - 0.5) * bearing.effective_length
+
+
+def equivalent_radius(bearing: Bearing, place: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
+    """Work out the equivalent cylinder's radius in rolling direction, roller against ring, [lamina], [m]."""
+    cone_distance = bearing.apex_distance + place
+    roller = cone_distance * math.tan(bearing.half_angle) / math.cos(bearing.half_angle)
+    angle = bearing.cup_angle if ring == "cup" else bearing.cone_angle
+    raceway = cone_distance / math.cos(bearing.half_angle) * math.tan(angle)
+    side = -1.0 if ring == "cup" else 1.0
+    return 1.0 / (1.0 / roller + side / raceway)
+
+
+def lamina_pressure(bearing: Bearing, lamina_load: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
+    """Work out the Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
+
+    Parameters
+    ----------
+    lamina_load : float64 array, shape [..., lamina]
+        [N].
+
+    Returns
+    -------
+    float64 array, shape [..., lamina]
+        p0 = sqrt(q E* / (pi R)), [Pa].
+    """
+    count = lamina_load.shape[-1]
+    per_length = lamina_load * count / bearing.effective_length
+    radius = equivalent_radius(bearing, lamina_places(bearing, count), ring)
+    return np.asarray(np.sqrt(per_length * 0.5 * bearing.material.contact_modulus / (math.pi * radius)))
+
+
+def log2_film_factor(
+    radius: float,
+    lamina_length: float,
+    contact_modulus: float,
+    viscosity: float,
+    pressure_viscosity: float,
+    options: LineFilm | None,
+) -> float:
+    """Work out the binary logarithm of the film thickness at 1 N on the lamina and 1 m/s, [log2 m]."""
+    film = LineFilm(supply="flooded") if options is None else options
+    thickness = line_film(
+        1.0 / lamina_length, 1.0, radius, contact_modulus, viscosity, pressure_viscosity, film.formula
+    )
+    return math.log2(film.constant_share * thickness)
+
+
+def lamina_table(scene: Scene) -> NDArray[np.float64]:
+    """Tabulate lamina constants, shape [LAMINA_ROWS, lamina]; abscissae from the centre of mass."""
+    bearing, count = scene.bearing, scene.numerics.laminae
+    place = lamina_places(bearing, count)
+    length = bearing.effective_length / count
+    modulus = bearing.material.contact_modulus
+    table = np.zeros((layout.LAMINA_ROWS, count))
+    table[layout.LAMINA_PLACE] = place - bearing.roller_mass_offset
+    table[layout.LAMINA_DROP] = bearing.profile.lamina_drop(
+        count, bearing.effective_length, bearing.roller_diameter, modulus
+    )
+    table[layout.LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
+    table[layout.LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
+    for ring, name in enumerate(("cup", "cone")):
+        radius = equivalent_radius(bearing, place, name)
+        table[layout.LAMINA_FILM + ring] = [
+            log2_film_factor(r, length, modulus, viscosity, pressure_viscosity, scene.effects.film)
+            for r in radius
+        ]
+        # square of the mean Hertz pressure at 1 N: p_mean = pi/4 sqrt(q E* / (pi R)), E* = E'/2
+        table[layout.LAMINA_PRESSURE + ring] = (
+            (math.pi / 4) ** 2 * 0.5 * modulus / (math.pi * radius * length)
+        )
+    return table
+
+
+def coupling_params(
+    bearing: Bearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
+) -> CouplingParams | None:
+    """Make matrices and work space for `count` laminae, or ``None`` without the effect."""
+    if coupling is None:
+        return None
+    matrices = bearing_lamina_root(bearing, coupling, count)
+    own = np.diag(matrices.stiffness).copy()
+    follow = -matrices.stiffness / own[:, None]
+    np.fill_diagonal(follow, 0.0)
+    return CouplingParams(
+        root=np.ascontiguousarray(matrices.root),
+        follow=np.ascontiguousarray(follow),
+        own_stiffness=own,
+        part_exponent=part_exponent(coupling.strength),
+        work=aligned_zeros(layout.COUPLING_ROWS, count, arrangement.width),
+    )

@@ -1,0 +1,321 @@
+"""Equilibrium of every roller between cup, cone and rib for a given pose of the cone.
+
+The contact energy of a roller is convex in its position as long as it stays before its rib, so damped Newton
+steps that are short and only accept a lower energy (or a smaller residual force) find the one equilibrium. A
+roller that the rings leave free is put where a turning bearing would carry it: against cup and rib, just
+touching.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from beardyn_core.base.arrays import Float
+from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
+from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.physics.statics.roller_contacts import (
+    ConePose,
+    ContactModel,
+    ContactSet,
+    cone_contacts,
+    contact_model,
+    cup_contacts,
+    rib_contacts,
+    stiffened,
+)
+from beardyn_core.physics.tiers.tier_parameters import SpringParams, lever_of_cup
+
+Contacts = tuple[ContactSet, ContactSet, ContactSet]
+"""Of the rollers with cup, cone and rib."""
+TERMS = 8
+_SAMPLES = 31
+# below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
+_SMALLEST_SHARE = 1.0e-3
+_SMALLEST_APPROACH, _USUAL_APPROACH, _LARGEST_APPROACH = 2.0e-7, 1.5e-5, 4.0e-4
+_FINE = 20  # laminae
+
+
+@cache
+def load_of_approach(bearing: Bearing, laminae: int) -> tuple[Float, Float]:
+    """Work out the cup load of a roller over the approach of cone and cup along the cup's normal.
+
+    Both cones are pressed axially against one row, so that every roller of it has the same approach.
+
+    Returns ``approach`` [sample], [m], and ``load`` [sample], [N].
+    """
+    low, high = _SMALLEST_APPROACH ** (1.0 / 9.0), _LARGEST_APPROACH ** (1.0 / 9.0)
+    nodes = np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)
+    approach = (0.5 * (low + high) + 0.5 * (high - low) * nodes) ** 9
+    model = contact_model(bearing, 0.0, laminae, 0.0, 0.0)
+    load = np.empty(_SAMPLES)
+    for index, depth in enumerate(approach):
+        pose = ConePose(np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0]), np.eye(3))
+        load[index] = solve_rollers(model, pose, None).cup.force[1].sum(axis=-1).mean()
+    return approach, load
+
+
+@cache
+def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
+    """Fit the spring of one roller by least squares in the ninth root of the approach.
+
+    Notes
+    -----
+    Two line contacts in series with the rib in the force triangle nearly follow Q = K D^(10/9); what is
+    left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9): the fit is good
+    to 1e-5 with straight rollers and, above a thousandth of the largest load, to 4 % with a profile that
+    takes ends of the roller out of contact, 12 % with too few laminae for it.
+    """
+    approach, load = load_of_approach(bearing, laminae)
+    root = approach ** (1.0 / 9.0)
+    powers = root[:, None] ** np.arange(TERMS)
+    judged = np.maximum(load, _SMALLEST_SHARE * load.max())
+    terms = np.linalg.lstsq(powers * (approach * root / judged)[:, None], load / judged, rcond=None)[0]
+    angles = bearing.cup_angle, bearing.cone_angle, bearing.rib_angle
+    cone_share, rib_share = roller_forces(1.0, *angles)
+    return SpringParams(
+        series=np.ascontiguousarray(terms),
+        lever=lever_of_cup(bearing),
+        cone_share=cone_share,
+        rib_share=rib_share,
+        rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
+        idle=centrifugal_cup_load(1.0, bearing.cup_angle, bearing.rib_angle),
+        give=float((approach / load).min()),
+        reach=reach(bearing),
+    )
+
+
+@cache
+def reach(bearing: Bearing) -> float:
+    """Work out half of the length by which a roller holds a tilt of its rings against each other, [m].
+
+    Of a line of springs whose third of the square is the stiffness against tilt over that along the normal:
+    for straight rollers half of their length. A profile that takes the ends out of contact leaves less, the
+    more the lighter the load: taken at one in the middle of service, and with many laminae, for the spring
+    has none.
+    """
+    model = contact_model(bearing, 0.0, _FINE, 0.0, 0.0)
+    depth = np.array([0.0, -_USUAL_APPROACH / np.sin(bearing.cup_angle), 0.0])
+    stiffness = solve_rollers(model, ConePose(depth, np.eye(3)), None).cone_stiffness
+    if stiffness[2, 2] <= 0.0:  # so much crown that nothing touches
+        return 0.0
+    # about where a displacement across does not tilt
+    tilting = stiffness[3, 3] - stiffness[3, 2] ** 2 / stiffness[2, 2]
+    return math.sqrt(3.0 * max(tilting, 0.0) / stiffness[2, 2]) * math.cos(bearing.cup_angle)
+
+
+_ITERATIONS = 80
+# Rounding of a gap (1e-17 m) times the stiffness of a raceway contact is about 2e-8 N.
+_RELATIVE_TOLERANCE = 3.0e-12
+_ABSOLUTE_TOLERANCE = 5.0e-9
+_STALL_LIMIT = 2
+# Of a roller, tilt as lever times angle, [m]; a longer one jumps over the rib, beyond which centrifugal force
+# drives a roller out of the bearing.
+_LONGEST_STEP = 1.0e-4
+# A roller counts as free when its cone gap, with cup and rib just touching, is above this.
+_ROUNDING_GAP = 1.0e-15
+
+
+@dataclass(frozen=True)
+class RollerState:
+    """Rollers in equilibrium at one pose of the cone."""
+
+    position: Float  # [row, roller, 3], radial and axial displacement of mid-length and tilt [m, m, rad]
+    cup: ContactSet
+    cone: ContactSet
+    rib: ContactSet
+    residual: float  # largest force that is left on a roller [N]
+    # [5 + 2 x mode], force of the rollers on the cone, its moment about x and z, [N, N m], and their force on
+    # the amplitudes of the cup's bending [N]
+    cone_force: Float
+    cone_stiffness: Float  # change of the opposite of `cone_force` with the cone pose, rollers following
+    follow: Float  # [row, roller, 3, 5 + 2 x mode], change of roller position with the cone pose
+    energy: float  # contact energy less the work of the inertia loads [J]
+
+
+def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> RollerState:
+    """Find the equilibrium of all rollers.
+
+    Positions of a ``guess`` [row, roller, 3] are where those start that have a lower energy there than free.
+    """
+    solver = _Rollers(model, pose)
+    touching = _on_cup_and_rib(model, pose)
+    contacts = solver.contacts(touching, by_cone=False)
+    start = solver.at(touching, contacts)
+    free = (contacts[1].approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    free |= model.missing  # what is not there touches nothing either
+    if guess is not None:
+        warm = solver.at(guess)
+        start = _chosen(warm.energy < start.energy, warm, start)
+    trial = _newton(solver, start, free)
+    position = np.where(free[..., None], touching, trial.position)
+    return solver.state(position, free)
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Position of every roller with the energy, force and stiffness there."""
+
+    position: Float
+    energy: Float
+    force: Float
+    stiffness: Float
+    load: Float
+
+
+class _Rollers:
+    """Energy of the rollers at one pose of the cone, as a function of their positions."""
+
+    def __init__(self, model: ContactModel, pose: ConePose) -> None:
+        self.model = model
+        self.pose = pose
+        # With one lamina the raceways hold no tilt: it stays locked.
+        self.active = 2 if model.abscissa.size == 1 else 3
+        lever = model.bearing.effective_length / math.sqrt(12.0)
+        self.scale = np.array([1.0, 1.0, lever])
+
+    def contacts(self, position: Float, by_cone: bool) -> Contacts:
+        return (
+            cup_contacts(self.model, position, self.pose, by_cone),
+            cone_contacts(self.model, position, self.pose, by_cone),
+            rib_contacts(self.model, position, self.pose, by_cone),
+        )
+
+    def at(self, position: Float, contacts: Contacts | None = None) -> _Trial:
+        """Work out energy and its derivatives, tilt measured as lever times angle."""
+        contacts = contacts or self.contacts(position, by_cone=False)
+        energy = -np.sum(self.model.inertia_load * position, axis=-1)
+        force = np.broadcast_to(self.model.inertia_load / self.scale, position.shape).copy()
+        stiffness = np.zeros((*position.shape, 3))
+        load = np.full(energy.shape, float(np.abs(self.model.inertia_load[0])))
+        for contact in contacts:
+            direction = contact.by_roller / self.scale
+            energy += contact.energy.sum(axis=-1)
+            load += contact.force.sum(axis=-1)
+            force -= np.sum(contact.force[..., None] * direction, axis=-2)
+            stiffness += np.swapaxes(direction, -1, -2) @ stiffened(contact.stiffness, direction)
+        if self.active == 2:
+            force[..., 2] = 0.0
+            stiffness[..., 2, :] = 0.0
+            stiffness[..., :, 2] = 0.0
+            stiffness[..., 2, 2] = 1.0
+        return _Trial(position, energy, force, stiffness, load)
+
+    def state(self, position: Float, free: NDArray[np.bool_]) -> RollerState:
+        """Work out everything the ring equilibrium needs, rollers that are free left out."""
+        found = self.contacts(position, by_cone=True)
+        trial = self.at(position, found)
+        held = ~free
+        contacts = tuple(_without(contact, free) for contact in found)
+        size = 5 + self.model.bending.shape[-1]
+        cone_force = np.zeros(size)
+        stiffness = np.zeros((size, size))
+        coupling = np.zeros((*position.shape, size))
+        for contact in contacts:
+            cone_force -= np.einsum("ijk,ijkm->m", contact.force, contact.by_cone)
+            weighted = stiffened(contact.stiffness, contact.by_cone)
+            stiffness += np.einsum("ijkm,ijkn->mn", contact.by_cone, weighted)
+            coupling += np.swapaxes(contact.by_roller / self.scale, -1, -2) @ weighted
+        if self.active == 2:
+            coupling[..., 2, :] = 0.0
+        follow = np.zeros_like(coupling)
+        follow[held] = -np.linalg.solve(_regular(trial.stiffness[held], 1.0e-14), coupling[held])
+        stiffness += np.einsum("ijrm,ijrn->mn", coupling, follow)
+        left = np.abs(trial.force[held])
+        return RollerState(
+            position=position,
+            cup=contacts[0],
+            cone=contacts[1],
+            rib=contacts[2],
+            residual=float(left.max()) if left.size else 0.0,
+            cone_force=cone_force,
+            cone_stiffness=0.5 * (stiffness + stiffness.T),
+            follow=follow / self.scale[:, None],
+            energy=float(trial.energy[held].sum()),
+        )
+
+
+def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
+    """Take damped Newton steps on all rollers at once; each keeps its own damping."""
+    best = start
+    damping = np.full(free.shape, 1.0e-9)
+    stalled = np.zeros(free.shape, dtype=np.int64)
+    for _ in range(_ITERATIONS):
+        size = np.abs(best.force).max(axis=-1)
+        done = (
+            free | (size <= _RELATIVE_TOLERANCE * best.load + _ABSOLUTE_TOLERANCE) | (stalled > _STALL_LIMIT)
+        )
+        if done.all():
+            break
+        step = np.linalg.solve(_regular(best.stiffness, damping), best.force[..., None])[..., 0]
+        length = np.linalg.norm(step, axis=-1, keepdims=True)
+        step *= _LONGEST_STEP / np.maximum(length, _LONGEST_STEP)
+        step[done] = 0.0
+        trial = solver.at(best.position + step / solver.scale)
+        smaller = np.abs(trial.force).max(axis=-1) < size
+        lower = trial.energy < best.energy - 1.0e-12 * np.abs(best.energy)
+        accepted = (lower | smaller) & ~done
+        near = size <= 1.0e-7 * best.load + 1.0e-6
+        stalled = np.where(accepted | ~near, 0, stalled + 1)
+        damping = np.clip(np.where(accepted, 0.1 * damping, 20.0 * damping), 1.0e-14, 1.0e6)
+        best = _chosen(accepted, trial, best)
+    return best
+
+
+def _regular(stiffness: Float, damping: Float | float) -> Float:
+    """Add `damping` of its own size to a stiffness, invertible also where a direction is slack."""
+    size = np.trace(stiffness, axis1=-2, axis2=-1)
+    added = np.maximum(np.asarray(damping) * size, 1.0)
+    return stiffness + added[..., None, None] * np.eye(stiffness.shape[-1])
+
+
+def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
+    """Choose the rollers of `one` where `mask` holds and of `other` elsewhere."""
+    return _Trial(
+        position=np.where(mask[..., None], one.position, other.position),
+        energy=np.where(mask, one.energy, other.energy),
+        force=np.where(mask[..., None], one.force, other.force),
+        stiffness=np.where(mask[..., None, None], one.stiffness, other.stiffness),
+        load=np.where(mask, one.load, other.load),
+    )
+
+
+def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
+    """Set force, stiffness and energy of the contacts of free rollers to zero."""
+    held = ~free[..., None]
+    matrix = held.reshape(held.shape + (1,) * (contact.stiffness.ndim - held.ndim))
+    return replace(
+        contact,
+        force=contact.force * held,
+        stiffness=contact.stiffness * matrix,
+        energy=contact.energy * held,
+    )
+
+
+def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
+    """Place the rollers without tilt where cup and rib alone carry the inertia load, or just touch."""
+    bearing = model.bearing
+    centrifugal = float(model.inertia_load[0])
+    cup_load = centrifugal_cup_load(centrifugal, bearing.cup_angle, bearing.rib_angle)
+    _, rib_load = roller_forces(
+        cup_load, bearing.cup_angle, bearing.cone_angle, bearing.rib_angle, centrifugal
+    )
+    wanted = np.array(
+        [
+            (cup_load / (model.lamina_factor * model.abscissa.size)) ** (1.0 / LINE_EXPONENT),
+            (rib_load / model.rib_factor) ** (1.0 / POINT_EXPONENT),
+        ]
+    )
+    position = np.zeros_like(model.centre)
+    for _ in range(4):
+        cup = cup_contacts(model, position, pose, by_cone=False)
+        rib = rib_contacts(model, position, pose, by_cone=False)
+        matrix = np.stack([cup.by_roller[:, :, 0, :2], rib.by_roller[:, :, 0, :2]], axis=-2)
+        excess = np.stack([cup.approach.max(axis=-1), rib.approach[..., 0]], axis=-1) - wanted
+        position[..., :2] -= np.linalg.solve(matrix, excess[..., None])[..., 0]
+    return position

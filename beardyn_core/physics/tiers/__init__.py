@@ -1,0 +1,35 @@
+"""What a tier computes with: parameters from the scene, the state, and the steps in time.
+
+================= =====================================================================
+module            responsibility
+================= =====================================================================
+imex              linearly implicit steps of the full tier
+quasistatic       explicit steps of the quasistatic tier
+lumped            explicit steps of the lumped tier, and its rollers at some instants
+kinematic_step    what the fast tiers share of a step
+state             what a run changes and what its steps write
+start             the state a run starts from
+status            status bits and the sentence of each
+snapshot          what a run is frozen in and goes on from
+step_choice       the coarsest step that is converged
+friction_steps    the step that friction asks for, without an equilibrium
+tiers             what each tier computes with
+cage_watch        speeds of the cages over those of pure rolling
+cage_bodies       cages as bodies: free, following the rings, or prescribed
+balanced_roller   a roller between cup, cone and rib, implicit (quasistatic tier)
+spring_roller     a roller as one spring (lumped tier)
+kinematic_rings   rings of the fast tiers on the springs of all rollers
+kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
+kinematic_bending bending of the axlebox in the fast tiers
+joint_bending     few modes and rigid rings together on the springs of rollers
+roller            one step of a block of rollers
+build             a scene to parameters; how much of a spring a step takes in
+parameters        named tuples of kernel parameters; an absent effect is None
+tier_parameters   parameters of the tiers without roller dynamics
+tier_bending      bending of the axlebox in these tiers
+tier_waves        waviness as the rollers of the lumped tier meet it
+loose_rollers     rollers in the pockets of cages that turn and hang (quasistatic tier)
+rolling_waves     waviness under rollers that orbit kinematically (lumped tier)
+kinematics        world poses, twists and contact forces from the kernel's state
+================= =====================================================================
+"""

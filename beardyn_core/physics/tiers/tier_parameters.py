@@ -1,0 +1,362 @@
+"""Kernel parameters of the tiers without roller dynamics; see `parameters` for the rules."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
+from beardyn_core.effects import Cage, KinematicCage
+from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_copy
+from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
+from beardyn_core.physics.defect import FaultParams
+from beardyn_core.physics.scatter import mean_crown
+from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.tier_bending import BendingParams
+from beardyn_core.physics.tiers.tier_waves import RollingWaveParams
+from beardyn_core.scene.scene import Scene
+
+_LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
+_SLIDE = 0.01  # slip over rolling speed at which the film reaches it
+_SLOWEST = 0.05  # [m/s]
+# Below this rolling speed creep along the cup gives no more [m/s]: it has about the slope of the boundary
+# friction of the effect `traction` there, 0.1 that is rounded over 0.02 m/s.
+_SLOWEST_ALONG = 1.0
+_LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
+
+
+class PocketParams(NamedTuple):
+    """Friction of the pockets, from what it takes to push a roller round that no cone drives."""
+
+    weight: float  # part of a roller's weight that its bar carries on average over the orbit [N]
+    lever: float  # torque on the shaft over the push: both bars, friction, spin over shaft speed [m]
+    regularisation: float  # shaft speed below which it falls to zero [rad/s]
+
+
+class KinematicParams(NamedTuple):
+    """Motion of the rollers in pure rolling, and what follows from it, per shaft speed w."""
+
+    cage_ratio: float  # cage speed over w
+    spin_ratio: float  # spin of a roller against its orbit frame over cage speed
+    centrifugal: float  # force over squared cage speed [kg m]
+    gyroscopic: float  # moment about the centre of mass, large end outwards, over squared cage speed [kg m^2]
+    radius: float  # nominal centre of mass [m]
+    axial: float
+    axis_radial: float  # roller axis
+    axis_axial: float
+    cup_radius: float  # contacts from the bearing axis [m]
+    cone_radius: float
+    rib_slip: float  # sliding speed of the rib over w [m]
+    rib_spin: float  # rotation of a roller against the cone over w
+    rolling_on_cup: float  # rotation of a roller against the cup over w, of either sign
+    rolling_on_cone: float
+    rolling_weight: float  # of all rollers and cages [N]
+    rolling_count: float  # rollers of all rows
+    pocket: PocketParams | None
+
+
+class RingMotionParams(NamedTuple):
+    """Axlebox and journal as the tiers without roller dynamics move them; order x, y, z, about x, y, z."""
+
+    steady: Any  # [6], force on the box that does not change: preload and weight
+    box_push: Any  # [6], acceleration of the box by a force, 0 when it is held [1/kg], [1/(kg m^2)]
+    journal_push: float  # [1/kg]
+    journal_turn: float  # 0 when the journal does not tilt [1/(kg m^2)]
+    rate: float  # steps in a second [1/s]
+
+
+class RingResponseParams(NamedTuple):
+    """How a step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
+
+    lag: float  # h^2/12 and half a step of the dampers' time [s^2]
+    damper_share: float  # of the dampers in that
+    give: Any  # [5, 5], acceleration of the cone against the cup by a wrench between them
+    lever: float  # arm of the cup's normal about the bearing centre [m]
+
+
+class SpringParams(NamedTuple):
+    """A roller between its raceways as one spring along the cup's normal.
+
+    With the ninth root s of the approach D the cup load is ``D s (c0 + c1 s + ...)``.
+    """
+
+    series: Any  # [8]
+    lever: float  # arm of the cup's normal about the bearing centre [m]
+    cone_share: float  # cone load over cup load
+    rib_share: float  # rib load over cup load
+    rib_centrifugal: float  # rib load over centrifugal force, at a given cup load
+    idle: float  # cup load of a roller that the cone does not press, over centrifugal force
+    give: float  # least approach over cup load: that of the stiffest spring [m/N]
+    reach: float  # half of the length that holds a tilt of the rings [m]
+
+
+class LooseParams(NamedTuple):
+    """Rollers that move in the pockets of their cages, see `kernels.loose_rollers`."""
+
+    stiffness: float  # of both touches of a bar [N/m]
+    damping: float  # [N s/m]
+    half_clearance: float  # along the pitch circle [m]
+    bar_cosine: float  # of the lean of the bars against the radius
+    bar_sine: float
+    friction: float  # of the bars
+    regularisation: float  # [m/s]
+    traction: float  # limit of both raceways' traction over the load on the cone
+    slide: float  # slip over rolling speed at which it is reached
+    slowest: float  # rolling speed below which the slip at the limit stays the same [m/s]
+    mass: float  # of a cage [kg]
+    polar_inertia: float  # [kg m^2]
+    fall: float  # [m/s^2]
+    rubbing: float  # torque on the shaft over the normal force in the pockets [m]
+    rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
+
+
+class SlideParams(NamedTuple):
+    """Creep of the rollers along the cup, see `kernels.kinematic_rings.hold_sliding`."""
+
+    grip: float  # force over load, and over slip per rolling speed
+    slowest: float  # rolling speed below which it stays the same [m/s]
+    lever: float  # arm of the cup's line of contact about the bearing centre [m]
+
+
+class LumpedParameters(NamedTuple):
+    """Everything constant during a lumped run; `faults` is ``None`` in a bearing without patches."""
+
+    step: float  # [s]
+    base: Parameters
+    kinematic: KinematicParams
+    motion: RingMotionParams
+    response: RingResponseParams
+    spring: SpringParams
+    pockets: Any  # [block, 5, lane]: as of `pocket_directions`
+    sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+    faults: FaultParams | None
+    waves: RollingWaveParams | None
+    bending: BendingParams | None
+    slide: SlideParams | None  # ``None``: without a film
+
+
+class QuasistaticParameters(NamedTuple):
+    """Everything constant during a quasistatic run."""
+
+    step: float  # [s]
+    base: Parameters
+    kinematic: KinematicParams
+    motion: RingMotionParams
+    response: RingResponseParams
+    tangent: float  # stiffness of a pressed roller over the tenth root of its load [N^0.9/m]
+    pockets: Any  # [block, 5, lane]: as of `pocket_directions`
+    sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
+    highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
+    bending: BendingParams | None
+    loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
+    slide: SlideParams | None  # ``None``: without a film
+
+
+def without_roller_dynamics(base: Parameters) -> Parameters:
+    """Leave out what only the dynamics of the rollers read: each number costs time in every call."""
+    effects = base.effects._replace(
+        coupling=None, coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
+        structure=None,
+    )  # fmt: skip
+    return base._replace(effects=effects, explicit=None, held=None)
+
+
+def without_surfaces(base: Parameters) -> Parameters:
+    """Leave out the faults of raceways and rollers, which the lumped tier has in a form of its own."""
+    faults = base.effects.faults._replace(
+        cup=None, cone=None, roller=None, cup_damage=None, cone_damage=None,
+        cup_waves=None, cone_waves=None, roller_waves=None,
+    )  # fmt: skip
+    return base._replace(effects=base.effects._replace(faults=faults))
+
+
+def flattened(base: Parameters, scene: Scene) -> Parameters:
+    """Take the errors of the rollers' profiles as their mean along the contact, for rollers without tilt."""
+    faults = base.effects.faults
+    if faults.crowns is None:
+        return base
+    rollers = aligned_copy(base.rollers)
+    width, count = rollers.shape[2], scene.bearing.roller_count
+    arrangement = Arrangement(count, width, scene.rows, scene.missing_places)
+    rollers[:, OVERSIZE] -= arrangement.to_lanes(mean_crown(scene))
+    return base._replace(rollers=rollers, effects=base.effects._replace(faults=faults._replace(crowns=None)))
+
+
+def kinematic_params(scene: Scene) -> KinematicParams:
+    """Work out the pure rolling of a scene's bearing."""
+    bearing, effects = scene.bearing, scene.effects
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    offset = bearing.roller_mass_offset
+    radius = 0.5 * bearing.pitch_diameter + offset * sine
+    axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
+    spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    distance = bearing.apex_distance / math.cos(bearing.half_angle)
+    fall = effects.gravity.acceleration if effects.gravity else 0.0
+    cages = scene.rows * bearing.cage.mass if effects.cage else 0.0
+    return KinematicParams(
+        cage_ratio=cage_speed_ratio(bearing),
+        spin_ratio=-spin_ratio,
+        centrifugal=bearing.roller_mass * radius,
+        gyroscopic=sine * (axial_inertia * spin_ratio - (axial_inertia - transverse) * cosine),
+        radius=radius,
+        axial=0.5 * bearing.row_spacing + offset * cosine,
+        axis_radial=sine,
+        axis_axial=cosine,
+        cup_radius=distance * math.sin(bearing.cup_angle),
+        cone_radius=distance * math.sin(bearing.cone_angle),
+        rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
+        rib_spin=roller_cone_spin(bearing, 1.0),
+        rolling_on_cup=distance * math.sin(bearing.cone_angle) / bearing.roller_diameter,
+        rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
+        rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
+        rolling_count=float(scene.roller_total),
+        pocket=_pocket_params(scene),
+    )
+
+
+def loose_params(scene: Scene, step: float) -> LooseParams | None:
+    """Work out the pockets in which rollers move; none without a cage, or with a prescribed one.
+
+    Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
+    ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
+
+    References
+    ----------
+    Bair and Winer (1979): limiting shear stress over pressure, the scene's where it names one; it is reached
+    at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
+    """
+    cage, bearing, pocket = scene.effects.cage, scene.bearing, _pocket_params(scene)
+    if cage is None or isinstance(cage, KinematicCage) or pocket is None:
+        return None
+    if step > _LONGEST_LOOSE_STEP:
+        return None
+    lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
+    return LooseParams(
+        stiffness=2.0 * bearing.cage.stiffness,
+        damping=2.0 * bearing.cage.damping,
+        half_clearance=0.5 * (bearing.cage.circumferential_clearance + cage.pocket_wear),
+        bar_cosine=math.cos(lean),
+        bar_sine=math.sin(lean),
+        friction=cage.friction,
+        regularisation=cage.regularisation_speed,
+        traction=2.0 * _LIMITING_SHEAR,
+        slide=_SLIDE,
+        slowest=_SLOWEST,
+        mass=bearing.cage.mass,
+        polar_inertia=bearing.cage.polar_inertia,
+        fall=scene.effects.gravity.acceleration if scene.effects.gravity else 0.0,
+        rubbing=0.5 * pocket.lever,
+        rubbing_floor=pocket.regularisation,
+    )
+
+
+def slide_params(scene: Scene) -> SlideParams | None:
+    """Work out the creep along the cup of films that shear; none in a bearing without them."""
+    if scene.effects.film is None:
+        return None
+    angle = scene.bearing.cup_angle
+    radial, axial = _place_on_cup(scene.bearing)
+    return SlideParams(
+        _LIMITING_SHEAR / _SLIDE, _SLOWEST_ALONG, axial * math.sin(angle) - radial * math.cos(angle)
+    )
+
+
+def _pocket_params(scene: Scene) -> PocketParams | None:
+    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
+    cage, bearing = scene.effects.cage, scene.bearing
+    if cage is None or isinstance(cage, KinematicCage):
+        return None
+    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
+    fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
+    return PocketParams(
+        weight=2.0 / math.pi * fall * bearing.roller_mass,
+        lever=2.0 * cage.friction * spin,
+        regularisation=cage.regularisation_speed / spin,
+    )
+
+
+def ring_motion_params(base: Parameters) -> RingMotionParams:
+    """Work out the motion of axlebox and journal.
+
+    The suspension damps with the velocity of the middle of the step, (m + h c/2) a = F; a box that hangs
+    beside its centre keeps that of the beginning.
+    """
+    mounting, gravity = base.mounting, base.effects.gravity
+    steady = mounting.preload.copy()
+    steady[2] -= mounting.box_mass * (gravity.acceleration if gravity else 0.0)
+    inertia = np.concatenate([np.full(3, mounting.box_mass), mounting.box_inertia])
+    push = mounting.cup_moves / inertia
+    if mounting.coupling is None:
+        push = push / (1.0 + 0.5 * base.step * mounting.damping * push)
+    return RingMotionParams(
+        steady=steady,
+        box_push=push,
+        journal_push=1.0 / mounting.journal_mass,
+        journal_turn=mounting.journal_tilts / mounting.journal_inertia,
+        rate=1.0 / base.step,
+    )
+
+
+def ring_response_params(base: Parameters, motion: RingMotionParams, lever: float) -> RingResponseParams:
+    """Work out the correction of the step to fourth order, and to second order in the damping."""
+    damping, coupling = base.effects.damping, base.mounting.coupling
+    dampers = 0.0 if damping is None else 0.5 * base.step * damping.time_constant
+    lag = base.step**2 / 12.0 + dampers
+    box = np.diag(motion.box_push) if coupling is None else base.mounting.cup_moves * coupling.inverse_mass
+    moving = [0, 1, 2, 3, 5]
+    journal = np.array([*[motion.journal_push] * 3, *[motion.journal_turn] * 2])
+    give = np.ascontiguousarray(box[np.ix_(moving, moving)] + np.diag(journal))
+    bending = base.mounting.journal
+    if bending is not None:
+        for axis, turn, side in ((2, 3, 1.0), (0, 4, -1.0)):
+            shapes = np.zeros((5, len(bending.place)))
+            shapes[axis], shapes[turn] = bending.place, side * bending.slope
+            give += (shapes / bending.inertia) @ shapes.T
+    return RingResponseParams(lag, dampers / lag, give, lever)
+
+
+def pocket_directions(base: Parameters) -> Any:
+    """Take cosine and sine of the pocket angles, and the mask of the rollers, alone and times these."""
+    angle, mask = base.rollers[:, POCKET_ANGLE], base.rollers[:, MASK]
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.ascontiguousarray(np.stack([cosine, sine, mask, mask * cosine, mask * sine], axis=1))
+
+
+def row_sides(base: Parameters, rows: int) -> Any:
+    """Take the side of the row of each lane, shape [1, 1, lane]."""
+    width = base.rollers.shape[2]
+    return np.repeat([-1.0, 1.0][:rows], width // rows)[None, None]
+
+
+def patches_or_none(faults: FaultParams) -> FaultParams | None:
+    """Take the faults of a bearing as those of its patches alone, ``None`` when it has none."""
+    if faults.cup is None and faults.cone is None and faults.roller is None:
+        return None
+    return faults._replace(cup_waves=None, cone_waves=None, roller_waves=None, pockets=None, crowns=None)
+
+
+def roller_tangent(bearing: Bearing) -> float:
+    """Work out the stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
+
+    Two line contacts in series, for which 10/9 Q / D of Q = K D^(10/9) is 10/9 K^0.9 Q^0.1; profile and rib
+    are left out.
+    """
+    factor = line_contact_factor(bearing.material, bearing.effective_length) / 2.0**LINE_EXPONENT
+    return LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT)
+
+
+def lever_of_cup(bearing: Bearing) -> float:
+    """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
+    radial, axial = _place_on_cup(bearing)
+    return axial * math.cos(bearing.cup_angle) + radial * math.sin(bearing.cup_angle)
+
+
+def _place_on_cup(bearing: Bearing) -> tuple[float, float]:
+    """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
+    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
+    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    return distance * math.sin(angle), apex + distance * math.cos(angle)
