@@ -27,8 +27,8 @@ from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import LineFilm, RollingResistance
 from beardyn_core.effects.grease import LAYERS
 from beardyn_core.physics.lamina_table import equivalent_radius
-from beardyn_core.physics.losses import oil_supply
 from beardyn_core.physics.ring_modes import bending_rings
+from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.statics.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque

@@ -20,7 +20,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, long_steps
 
 # Turn of the fastest mode in a step, [rad]: its frequency is right within 0.5 %, see
-# `kernels.kinematic_rings`.
+# `physics.tiers.kinematic_rings`.
 LARGEST_TURN = 1.0
 # Highest third octave that a step of two samples leaves right where rings bend and rollers strike: loads
 # within 0.1 %, levels within 0.3 dB, 2 dB up to 2.5 kHz, against steps of half a sample; strikes of wheel and

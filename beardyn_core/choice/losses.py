@@ -26,8 +26,10 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
+from beardyn_core.physics.drag import drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
-from beardyn_core.physics.losses import SEALS, drag_params, oil_supply
+from beardyn_core.physics.rolling_resistance import oil_supply
+from beardyn_core.physics.seal import SEALS
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
 from beardyn_core.scene.scene import Scene

@@ -1,7 +1,7 @@
 """Closed forms of the nine contacts and of simple shapes, in plain NumPy and compiled.
 
-Compiled are the raceways by `kernels.generator_line.generator_line`, one evaluation for all discs of a
-roller, and both ribs by `kernels.large_end.rib_gap`. The pocket lines of the text are no walls of the
+Compiled are the raceways by `physics.generator_line.generator_line`, one evaluation for all discs of a
+roller, and both ribs by `physics.rib.rib_gap`. The pocket lines of the text are no walls of the
 twin, and are worked out here.
 """
 

@@ -24,9 +24,9 @@ In the fast tiers, whose rollers stay in their meridian planes:
 - ``place``: radius and axial place of the centre of mass [m]; ``axis``: its radial and axial part.
 - ``motion``: from `relative_cone`; ``loads``: cup, cone and rib load [N].
 
-================== ================================================================================================
+================== ================================================================================
 module             responsibility
-================== ================================================================================================
+================== ================================================================================
 warming            slow warming next to the fast motion
 scatter            scatter as numbers of each roller
 lamina_table       table of the laminae, and their coupling
@@ -41,7 +41,6 @@ waviness           gap of waviness; the force along a sloping gap
 thermal            nodes of the thermal network and where losses go
 traction           friction of the raceway contacts
 film               film of the raceway contacts
-losses             rolling resistance, drag and seals as parameters
 rib                ribs at both roller ends: spheres on a cone, their film and friction
 pocket             pockets of the cage, and its simplified forms
 defect             patches, waviness, wear and size errors: tables, and the gaps they make
@@ -54,8 +53,9 @@ rolling_resistance couple against rolling
 contact_damping    damping of every Hertz contact
 oscillators        steps of a mode with its exact free motion
 lanes              lane values: arithmetic, functions, vectors, the system of a roller
-bodies             what every idea shares: layout of the state, rollers in lanes, rigid bodies, what contacts write
+bodies             shared: layout of the state, lanes of rollers, rigid bodies, what contacts write
 statics            equilibrium, torque and life, in NumPy
 tiers              parameters, state and steps of full, quasistatic and lumped
-================== ================================================================================================
+seal               seals between cup and shaft
+================== ================================================================================
 """

@@ -1,4 +1,10 @@
-"""Patches, waviness, wear and size errors as kernel parameters, and their growth between blocks."""
+"""Patches, waviness, wear and size errors: their tables, the gaps they make, their growth between blocks.
+
+Far from every patch a contact costs one distance a patch. Near one, each lamina becomes two springs, its
+sound and its damaged part, the damaged one with the gap from the path of the roller over the patch. Near a
+sharp edge it is softer than a sound one; what it presses with is the slope of its energy over the depth, and
+what it leans with that over the arc.
+"""
 
 from __future__ import annotations
 

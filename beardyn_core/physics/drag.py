@@ -2,14 +2,62 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies.exchange import account, account_loss, react
 from beardyn_core.physics.bodies.layout import CUP, LOSS_DRAG
+from beardyn_core.physics.bodies.power import squared_over
 from beardyn_core.physics.lanes import vectors
 from beardyn_core.physics.lanes.lane_math import exp2, log2, magnitude, sqrt
 from beardyn_core.physics.lanes.solve import add_couple
+from beardyn_core.scene.scene import Scene
+
+
+class DragParams(NamedTuple):
+    """Medium around the rollers."""
+
+    orbit: float  # force at 1 m/s [N]
+    cylinder: float  # couple at 1 rad/s [N m]
+    cylinder_exponent: float  # of the speed in couple over speed
+    disc: float  # couple at 1 rad/s, both ends [N m]
+
+
+AIR_DENSITY = 1.2
+
+
+# Turbulent skin friction of a cylinder that turns in a wide medium, f = 0.105 Re^-0.274: within 10 % of
+# Theodorsen and Regier's 1/sqrt(f) = -0.6 + 4.07 log10(Re sqrt(f)) for Re from 1e3 to 1e5.
+CYLINDER_FRICTION, CYLINDER_EXPONENT = 0.105, 0.274
+# Laminar disc, both sides: c = 3.87 / sqrt(Re).
+DISC_FRICTION, DISC_EXPONENT = 3.87, 0.5
+
+
+def drag_params(scene: Scene) -> DragParams | None:
+    """Work out drag of a roller at 1 m/s, and churning couples at 1 rad/s."""
+    effect = scene.effects.drag
+    if effect is None:
+        return None
+    bearing, lubricant = scene.bearing, scene.lubricant
+    fill = effect.present_fill
+    density = fill * lubricant.density + (1.0 - fill) * AIR_DENSITY
+    reynolds = _radius(bearing) ** 2 / lubricant.kinematic_viscosity(scene.temperature)
+    side = 2.0 * math.pi * _radius(bearing) * bearing.roller_length
+    cylinder = 0.5 * density * side * _radius(bearing) ** 3
+    disc = 0.5 * density * _radius(bearing) ** 5
+    return DragParams(
+        orbit=0.5 * density * effect.drag_coefficient * bearing.roller_length * bearing.roller_diameter,
+        cylinder=effect.churning * cylinder * CYLINDER_FRICTION * reynolds**-CYLINDER_EXPONENT,
+        cylinder_exponent=1.0 - CYLINDER_EXPONENT,
+        disc=effect.churning * disc * DISC_FRICTION * reynolds**-DISC_EXPONENT,
+    )
+
+
+def _radius(bearing: Bearing) -> float:
+    return 0.5 * bearing.roller_diameter
+
 
 _SMALLEST_SPIN = 1e-6
 
@@ -95,3 +143,22 @@ def settle_drag(contact, change, total, here, drag, p):
     account_loss(here, LOSS_DRAG, p.step * lost, p.effects.audit)
     account(here, p.step * numerical, still, p.effects.audit)
     return vectors.add_wrenches(total, wrench)
+
+
+@inline
+def drag_push(speeds, k, drag):
+    """Work out the force of the medium on the orbit of a roller, [N]."""
+    if drag is None:
+        return 0.0
+    flow = speeds[1] * k.radius
+    return drag.orbit * flow * flow
+
+
+@inline
+def drag_torque(speeds, k, drag):
+    """Work out the torque of the drag on all rollers, along the shaft's rotation, [N m]."""
+    if drag is None:
+        return 0.0
+    flow, spin = speeds[1] * k.radius, speeds[1] * (k.spin_ratio + k.axis_axial)
+    power = drag.orbit * math.fabs(flow) * flow * flow + churning_rate(spin, drag) * spin * spin
+    return squared_over(k.rolling_count * power, speeds[0])

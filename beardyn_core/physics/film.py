@@ -1,4 +1,4 @@
-"""Film of the raceway contacts: kernel parameters from the lubricant and the options."""
+"""Film of the raceway contacts: from lubricant and options to its thickness on every lamina."""
 
 from __future__ import annotations
 

@@ -1,4 +1,15 @@
-"""Bending of the axle at the journal as kernel parameters: modes of half a wheelset."""
+"""Bending of the axle at the journal: modes of half a wheelset, and their motion.
+
+The modes are free ones of half a wheelset whose other half mirrors it, of unit modal mass; ``axle``
+[2, plane, mode] holds their places [m sqrt(kg)] and speeds in two planes, upright and along the track, in
+which a round axle has the same modes. They move and tilt the cone; the rollers push them there, the load
+pushes them at the wheel. What stands in ``bodies`` is the cone itself: the half wheelset as a rigid body and
+what bending adds. The modes are orthogonal to rigid motion, so the rigid body moves as it does without them.
+
+Places are measured from those at the first load, as the springs of the suspension are.
+
+Neglects the turning of the wheelset, which couples both planes, and bending by a moment of the load.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +33,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class JournalParams(NamedTuple):
-    """Modes of unit modal mass, the same upright and along the track; see `kernels.axle`."""
+    """Modes of unit modal mass, the same upright and along the track; see `physics.journal`."""
 
     place: Any  # [mode], displacement of the bearing's centre [1/sqrt(kg)]
     slope: Any  # [mode], tilt of the journal there, its end outwards [1/(m sqrt(kg))]
@@ -155,7 +166,7 @@ def _bend_plane(bodies, axle, plane, push, moment, load, energy, step, journal):
 def bend_axle(bodies, axle, wrench, load, energy, step, journal):
     """Move the modes along their speeds, accelerate them, and the cone with them; gives their energy, [J].
 
-    The motion of a free damped oscillator is exact, see `model.structure.exact_oscillators`. ``wrench`` (6):
+    The motion of a free damped oscillator is exact, see `oscillators.exact_oscillators`. ``wrench`` (6):
     on the cone [N, N m]; ``load`` [10]: load row; ``journal``: a `JournalParams`.
     """
     if journal is None:

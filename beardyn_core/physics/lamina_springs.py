@@ -20,7 +20,7 @@ def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patch
 
     References
     ----------
-    Palmgren's line contact; see `kernels.raceway.lamina_sums`.
+    Palmgren's line contact; see `physics.raceway.lamina_sums`.
     """
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)

@@ -1,4 +1,10 @@
-"""Cages as kernel parameters: pockets, their films, and lands."""
+"""Pockets of the cage: their films and lands as parameters, their contacts within a step, their torque.
+
+A pocket has two bars and two ends. The full cage has disc against plane at two abscissae of both bars and end
+against plane at both ends; the cheaper cages have two touches along the pitch circle only. Only sums over the
+walls are kept until the step is settled: five walls with all they have would take more of the cache than all
+else that a roller keeps.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +34,9 @@ from beardyn_core.physics.bodies.layout import (
     RING_TURN,
 )
 from beardyn_core.physics.bodies.orbit import ring_view
+from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.defect import pocket_length, pocket_wear
+from beardyn_core.physics.drag import drag_push
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import (
@@ -47,7 +55,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class PocketFilmParams(NamedTuple):
-    """Lubricant between roller and bar at one of two abscissae; see `kernels.pocket_film.pocket_loads`."""
+    """Lubricant between roller and bar at one of two abscissae; see `physics.pocket.pocket_loads`."""
 
     wedge: float  # load over rolling speed and radius over gap [N s/m]
     squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
@@ -58,7 +66,7 @@ class PocketFilmParams(NamedTuple):
 
 
 class LandParams(NamedTuple):
-    """Land of a cage in a cylinder of cup or cone; see `kernels.land`."""
+    """Land of a cage in a cylinder of cup or cone; see `physics.land`."""
 
     body: float  # row of the ring in the array of bodies
     outside: float  # +1 when the cage runs inside the ring, -1 around it
@@ -663,3 +671,19 @@ def _hold(walls, centre, arm, direction, offset, motion, kinematic):
     spring = kinematic.stiffness * offset
     force, lost = scale(-spring - damper, direction), scale(damper, direction)
     return _add_touch(walls, arm, slip, force, lost, 0.5 * spring * offset)
+
+
+@inline
+def pocket_torque(cone_load, speeds, k, drag, pocket):
+    """Work out the torque of the pockets of a block of rollers, along the shaft's rotation, [N m].
+
+    A roller that the cone does not press is pushed round by its bar, against the medium and its weight; what
+    it takes another roller in the load zone gives to its own bar. Neglects what ribs and rolling resistance
+    drive or brake idle rollers with, and the rattle of those that the load holds.
+    """
+    if pocket is None:
+        return 0.0 * cone_load
+    push = pocket.weight + drag_push(speeds, k, drag)
+    floor = pocket.regularisation
+    torque = pocket.lever * push * (speeds[0] / math.sqrt(speeds[0] * speeds[0] + floor * floor))
+    return where_greater(cone_load, SMALLEST_LOAD, 0.0 * cone_load, torque + 0.0 * cone_load)

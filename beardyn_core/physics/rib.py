@@ -1,4 +1,4 @@
-"""Rib contacts of both roller ends as kernel parameters."""
+"""Ribs at both roller ends: parameters, where a sphere meets the cone of a rib, its film and friction."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from beardyn_core.physics.bodies.exchange import (
     watch_largest,
 )
 from beardyn_core.physics.bodies.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
+from beardyn_core.physics.bodies.power import SMALLEST_LOAD, squared_over
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
@@ -390,7 +391,7 @@ def _deeper(radial, middle, axis, ring_axis, rib, end):
 
 
 _RIB_FORCE = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_FORCE
-_SMALLEST_LOAD = 1e-30
+_SMALLEST_ELASTIC = 1e-30
 
 _SHARE_FACTOR = -1.8 * LOG2_E
 _SHARE_EXPONENT = 1.2
@@ -569,7 +570,7 @@ def _settle_other(contact, change, total, here, law, end):
     time_constant = damper_time(p.effects.damping)
     wrench = point_contact.settle_point(second, change, here, LOSS_RIB, time_constant, rib.drilling, p)
     both = add_wrenches(total, wrench)
-    share = second.elastic / (first.elastic + second.elastic + _SMALLEST_LOAD)
+    share = second.elastic / (first.elastic + second.elastic + _SMALLEST_ELASTIC)
     arm = add_scaled(first.arm, share, subtract(second.arm, first.arm))
     sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
     force = load_vector(here.lanes, here.rollers, here.block, _RIB_FORCE)
@@ -676,3 +677,25 @@ def with_spin(sliding, reach, spin, drilling):
     if drilling is None:
         return sliding
     return sliding + reach * spin * spin
+
+
+@inline
+def sliding_torque(load, speeds, p, rib):
+    """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
+
+    The contact is taken in the roller's meridian plane at its nominal height.
+    """
+    if rib is None:
+        return 0.0 * load
+    k = p.kinematic
+    slip = k.rib_slip * speeds[0]
+    radius = k.radius + rib.sphere_place * k.axis_radial + rib.sphere_radius * rib.normal_radial
+    entrainment = (speeds[0] - speeds[1]) * radius - 0.5 * slip
+    # load = K depth^1.5
+    root = exp2((1.0 / 3.0) * log2(at_least(load, SMALLEST_LOAD) * (1.0 / rib.stiffness)))
+    along = p.base.cone.sine * rib.normal_radial + p.base.cone.cosine * rib.normal_axial
+    spin = k.rib_spin * along * speeds[0]
+    squared = with_spin(slip * slip, spin_reach(root * root, rib.drilling), spin, rib.drilling)
+    log2_film = rib_log2_film(load, entrainment, rib.film)
+    friction = rib_friction(load, root, squared, log2_film, rib, rib.film)
+    return friction * squared_over(squared, speeds[0])

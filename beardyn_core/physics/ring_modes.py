@@ -1,4 +1,18 @@
-"""Bending of the axlebox as kernel parameters: thin rings or the modes of a table, as one modal body."""
+"""Bending of the axlebox: thin rings or the modes of a table, as one modal body that the rollers bend.
+
+The modes have unit modal mass; ``flex`` [2, mode] holds their places [m sqrt(kg)] and speeds (positions at
+whole steps, velocities half a step later, like all bodies). Once a step they give the displacement around
+each raceway as a Fourier series of the azimuth; each roller walks through its waves.
+
+Seen from one roller, a bent raceway is to first order the round one moved by w outwards and by dw/dt along
+the orbit: that gives its gap, the slope of its normal and the shifted contact point in one go. On a cone of
+the angle alpha an axial displacement u counts in the gap as -u tan(alpha) outwards, so w is the radial
+displacement less that. The slope is what makes the normal force conservative, so the energy audit closes.
+
+Series stand as in a table of modes: mean, cosines, sines; of each row that of the opening w, then with fewer
+waves those of the slip: around, and along the cone, named by its axial part u towards the outer side of the
+row (radially it is u tan(alpha)). The normal force works on w alone, and only friction on the slip.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rolling resistance of a raceway contact: shear of the inlet against the entrainment, and its pressure.
+"""The couple of raceway contacts against rolling: parameters, held over some steps, torque on the shaft.
 
 The oil drawn into a contact holds back the surfaces of roller and ring alike, with a force F_R each against
 the entrainment speed, and the pressure of the inlet balances both. On the roller that is the couple
@@ -12,14 +12,178 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT
+from beardyn_core.bearing import rolling_resistance as laws
+from beardyn_core.bearing.film_thickness import LINE_FORMULAS, thermal_loading
+from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT, CoupleShares
+from beardyn_core.bearing.starvation import couple_shares
+from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
+from beardyn_core.effects import LineFilm
+from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.exchange import account_loss, react
 from beardyn_core.physics.bodies.held import held_couple, keep_couple
 from beardyn_core.physics.bodies.layout import LOSS_ROLLING
 from beardyn_core.physics.bodies.orbit import entrainment_speed
+from beardyn_core.physics.bodies.power import smooth_lever
+from beardyn_core.physics.film import layer_params
+from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
 from beardyn_core.physics.lanes.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
+from beardyn_core.scene.scene import Scene
+
+
+class PowerLawRollingParams(NamedTuple):
+    """Rolling couple as powers of speed and load."""
+
+    log2_couple: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    speed_exponent: float
+    load_exponent: float
+    log2_rigid: Any  # [ring], of rigid surfaces at 1 N and 1 m/s, the upper limit [log2 N m]
+
+
+class BibouletHoupertParams(NamedTuple):
+    """Rolling couple between the rigid and the elastic regime."""
+
+    log2_rigid: Any  # [ring], at 1 N and 1 m/s [log2 N m]
+    log2_elastic: Any  # [ring], at 1 m/s [log2 N m]
+
+
+class ThermalRollingParams(NamedTuple):
+    """Heating of the inlet."""
+
+    log2_loading: float  # thermal loading parameter at 1 m/s
+
+
+class HysteresisParams(NamedTuple):
+    """Elastic hysteresis."""
+
+    couple: Any  # [ring], at 1 N [N m]
+
+
+class StarvedRollingParams(NamedTuple):
+    """Flooded film of a whole contact over the layer of oil, which decides how much of the couple is left."""
+
+    log2_elastic: Any  # [ring], at 1 N and 1 m/s
+    elastic_speed: float
+    elastic_load: float
+    log2_rigid: Any  # [ring], at 1 N and 1 m/s
+    rigid_speed: float
+
+
+class RollingParams(NamedTuple):
+    """Couple of the raceway contacts against rolling."""
+
+    power_law: PowerLawRollingParams | None
+    biboulet_houpert: BibouletHoupertParams | None
+    thermal: ThermalRollingParams | None
+    hysteresis: HysteresisParams | None
+    starved: StarvedRollingParams | None
+    supply: float
+    smallest_speed: float  # of entrainment, below which the couple falls to zero [m/s]
+    regularisation: Any  # [ring], the same as a rotation against the ring, for rollers that only roll [rad/s]
+    force: Any  # [ring], around the ring on the roller, over the couple [1/m]
+    sense: Any  # [ring], of the couple on the roller about the generator, +1 or -1
+
+
+RINGS = ("cup", "cone")
+# Couple of a contact, and its exponents of speed and load.
+POWER_LAWS: dict[str, Any] = {
+    "aihara": (laws.aihara_line, laws.AIHARA_SPEED, laws.AIHARA_LOAD),
+    "zhou_hoeprich": (laws.zhou_hoeprich_line, laws.ZHOU_HOEPRICH_SPEED, laws.ZHOU_HOEPRICH_LOAD),
+}
+
+
+def rolling_params(scene: Scene) -> RollingParams | None:
+    """Work out the couples of cup and cone contacts at 1 N and 1 m/s, at the mid-length of the roller."""
+    effect = scene.effects.rolling_resistance
+    if effect is None:
+        return None
+    bearing, lubricant = scene.bearing, scene.lubricant
+    radii = np.array([equivalent_radius(bearing, np.zeros(1), ring)[0] for ring in RINGS])
+    viscosity = lubricant.dynamic_viscosity(scene.temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(scene.temperature)
+    length, modulus = bearing.effective_length, bearing.material.contact_modulus
+    units = [
+        laws.RollingContact(1.0, 1.0, float(radius), length, modulus, viscosity, pressure_viscosity)
+        for radius in radii
+    ]
+    power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
+    supply = oil_supply(scene.effects.film)
+    left = CoupleShares(1.0, 1.0) if supply.layer is not None else couple_shares(supply.film_share)
+    rigid, elastic = (
+        _log2(part) + math.log2(share)
+        for part, share in zip(_biboulet_houpert_limits(units), left, strict=True)
+    )
+    if effect.kind in POWER_LAWS:
+        line, speed_exponent, load_exponent = POWER_LAWS[effect.kind]
+        couple = _log2([line(unit) for unit in units]) + math.log2(left.elastic)
+        power_law = PowerLawRollingParams(couple, speed_exponent, load_exponent, rigid)
+    if effect.kind == "biboulet_houpert":
+        biboulet_houpert = BibouletHoupertParams(rigid, elastic)
+    if effect.kind != "hysteresis" and effect.thermal:
+        level = thermal_loading(
+            viscosity, lubricant.temperature_coefficient, 1.0, lubricant.thermal_conductivity
+        )
+        thermal = ThermalRollingParams(math.log2(level))
+    if effect.hysteresis > 0.0:
+        widths = [
+            laws.hertz_half_width(1.0 / unit.length, unit.radius, unit.contact_modulus) for unit in units
+        ]
+        hysteresis = HysteresisParams(
+            np.array([laws.hysteresis_line(1.0, width, effect.hysteresis) for width in widths])
+        )
+    return RollingParams(
+        power_law=power_law,
+        biboulet_houpert=biboulet_houpert,
+        thermal=thermal,
+        hysteresis=hysteresis,
+        starved=_starved(supply, units),
+        supply=effect.supply,
+        smallest_speed=effect.regularisation_speed,
+        regularisation=effect.regularisation_speed / radii,
+        force=2.0 * math.cos(bearing.half_angle) / bearing.roller_diameter - 0.5 / radii,
+        sense=np.array([-1.0, 1.0]),
+    )
+
+
+def oil_supply(film: LineFilm | None) -> OilSupply:
+    """Say how much oil the contacts find; enough where no film is modelled."""
+    if film is None:
+        return FLOODED
+    return OilSupply(film.formula, film.oil_layer, film.constant_share)
+
+
+def _starved(supply: OilSupply, units: list[laws.RollingContact]) -> StarvedRollingParams | None:
+    layer = layer_params(supply.layer, units[0].viscosity)
+    if layer is None:
+        return None
+    law = LINE_FORMULAS[supply.formula]
+    return StarvedRollingParams(
+        log2_elastic=_log2([flooded_film(unit, supply.formula) for unit in units]) - layer.log2_thickness,
+        elastic_speed=law.speed_exponent - layer.speed_exponent,
+        elastic_load=law.load_exponent,
+        log2_rigid=_log2([rigid_film(unit) for unit in units]) - layer.log2_thickness,
+        rigid_speed=1.0 - layer.speed_exponent,
+    )
+
+
+def _log2(values: Any) -> NDArray[np.float64]:
+    return np.log2(np.array(values, dtype=float))
+
+
+def _biboulet_houpert_limits(units: list[laws.RollingContact]) -> tuple[list[float], list[float]]:
+    """Work out couples at 1 N and 1 m/s in both regimes; M^-10 = M_r^-10 + M_e^-10."""
+    rigid, elastic = [], []
+    for unit in units:
+        speed, load = 2.0 * unit.speed_parameter, unit.line_load_parameter
+        scale = 2.0 * unit.contact_modulus * unit.radius**2 * unit.length * laws.BIBOULET_HOUPERT_FACTOR
+        rigid.append(scale * math.sqrt(speed * load))
+        elastic.append(scale / laws.BIBOULET_HOUPERT_REGIME * speed**0.75)
+    return rigid, elastic
+
 
 _THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
 _SMALLEST_SPEED = 1e-3
@@ -191,3 +355,21 @@ def settle_rolling(ring, contact, change, total, here, rolling, p):
     rolled = contact.couple * (contact.relative + 0.5 * dot(change.omega, contact.along))
     account_loss(here, LOSS_ROLLING, -p.step * (slid + rolled), p.effects.audit)
     return Wrench(add(total.force, wrench.force), add(total.moment, wrench.moment))
+
+
+@inline
+def rolling_torque(loads, speeds, k, rolling):
+    """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
+
+    References
+    ----------
+    Zhao et al. (2026), see `physics.statics.torque`: T = sum (R_o M_i + R_i M_o) / D.
+    """
+    if rolling is None:
+        return 0.0 * loads[0]
+    cup = rolling_couple(loads[0], speeds[1] * k.cup_radius, layout.CUP, rolling)
+    cone = rolling_couple(loads[1], (speeds[0] - speeds[1]) * k.cone_radius, layout.CONE, rolling)
+    on_cup = smooth_lever(k.rolling_on_cup, speeds[0], rolling.regularisation[layout.CUP])
+    return (
+        on_cup * cup + smooth_lever(k.rolling_on_cone, speeds[0], rolling.regularisation[layout.CONE]) * cone
+    )

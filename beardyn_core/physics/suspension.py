@@ -1,4 +1,8 @@
-"""Rings and the suspension as kernel parameters; the box may hang beside the centre."""
+"""What holds the box or both rings: parameters, forces and energy; the box may hang beside the centre.
+
+The springs act at seats that give way when the box bends: as much as the bearing centre would have to move
+for the same stretch, which `structure` and `kinematic_bending` write into the work space.
+"""
 
 from __future__ import annotations
 

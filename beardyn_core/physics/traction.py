@@ -1,4 +1,10 @@
-"""Traction of the raceway contacts as kernel parameters."""
+"""Traction of the raceway contacts: parameters and laws, from boundary friction to the limiting stress.
+
+Every law acts against the slip, so it dissipates; none sticks: below its slip speed a contact creeps. Full
+films are isothermal: shear heating between the flats is neglected, so traction at large slip is an upper
+estimate. Pressure is that of Hertz, of one lamina; the area is load over mean pressure. A law that is not
+chosen is ``None`` and adds nothing.
+"""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ _LONGEST = 10  # blocks: as often as temperatures are recorded
 class Warmth:
     """Temperatures at some moment, and the energy that was lost until then."""
 
-    temperature: Float  # [node], of `model.heat.NODES` [K]
+    temperature: Float  # [node], of `physics.thermal.NODES` [K]
     lost: Float  # [source], since the start of the run [J]
     film_temperature: float  # that the kernels work with now [K]
     end_play: float  # likewise [m]

@@ -1,7 +1,7 @@
 """States of missing rollers and rows, so that the observer always has two complete rows.
 
 Blocks always have two rows of all rollers, so that whatever reads them works with every bearing. The place of
-a missing roller shows the motion of the roller that stands in for it (`model.arrangement`), turned into its
+a missing roller shows the motion of the roller that stands in for it (`bodies.arrangement`), turned into its
 own pocket; a missing row shows the motion of the other as in a mirror. Neither touches anything: their
 contacts are zero.
 """

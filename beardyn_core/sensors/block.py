@@ -33,7 +33,7 @@ class EnergyAudit:
     stored: A[float, "change of kinetic and elastic energy"]
     losses: A[
         tuple[float, ...],
-        "the dissipated energy by source, in the order of ``model.layout.LOSS_NAMES``; empty when not known",
+        "the dissipated energy by source, in the order of ``bodies.layout.LOSS_NAMES``; empty when not known",
     ] = ()
 
     @classmethod
@@ -113,12 +113,12 @@ class Block:
     snapshot_sample: A[int, "running index of the first snapshot (200 Hz)"]
     snapshot_time_ns: A[Int, "shape [snapshot], [ns]"]
     pictures: A[Pictures, "bodies and contacts: see `body_pose`, `body_twist` and `contacts`"]
-    status: A[int, "bit flags of `integrate.status`"]
+    status: A[int, "bit flags of `physics.tiers.status`"]
     audit: EnergyAudit | None
     wall_s: A[float, "wall time the block took to compute, [s]"]
     temperature: A[
         Float | None,
-        "shape [node], of `model.heat.NODES` at the end of the block, with the thermal effect, [K]",
+        "shape [node], of `physics.thermal.NODES` at the end of the block, with the thermal effect, [K]",
     ] = None
 
     def __repr__(self) -> str:

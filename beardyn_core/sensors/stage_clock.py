@@ -29,7 +29,7 @@ class StageClock:
     """Gives every moment since `begin` to one stage, so that the stages add up to the whole.
 
     The kernel's wall time is shared out by the cycles that its stages took in the timed steps, see
-    `kernels.stage_timer`; a tier that times no steps has the one stage ``kernel``.
+    `physics.bodies.stage_timer`; a tier that times no steps has the one stage ``kernel``.
 
     Parameters
     ----------

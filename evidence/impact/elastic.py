@@ -1,6 +1,6 @@
 """How deep an elastic roller sinks over a narrow slot: plane contact of half-spaces, strip by strip.
 
-The slow reference of the twin's edges (`model.patch_path`).
+The slow reference of the twin's edges (`physics.patch_path`).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ import numba
 import numpy as np
 import pytest
 
-from beardyn_core import kernels
+from beardyn_core import physics
 from beardyn_core.base.jit import OPTIONS, inline
 from beardyn_core.physics.tiers import imex
 from test.effects.test_absent_effects import instruction_count
@@ -109,7 +109,7 @@ def step_without_hooks(monkeypatch: pytest.MonkeyPatch) -> Any:
     """`advance` of kernels that are all built anew, the hooks cut out."""
     modules = [
         importlib.import_module(found.name)
-        for found in pkgutil.iter_modules(kernels.__path__, f"{kernels.__name__}.")
+        for found in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}.")
     ]
     built: dict[int, Any] = {}
     cut = set()

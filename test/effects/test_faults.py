@@ -85,7 +85,7 @@ def test_a_patch_of_no_depth_changes_what_begins_and_ends_within_a_step_alone() 
     """While roller 0 leaves the flat patches it starts on (60 steps) and beyond.
 
     To 1e-12 of the load until a roller leaves the load zone: in a bearing with patches a contact that begins
-    or ends within a step has a part of its force (`kernels.laminae`); from then on to 1e-6.
+    or ends within a step has a part of its force (`physics.laminae`); from then on to 1e-6.
     """
     present, absent = Rig.at_equilibrium(faulty()), Rig.at_equilibrium(scene_with())
     with_patches, without = present.run(256)[0], absent.run(256)[0]

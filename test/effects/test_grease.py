@@ -21,7 +21,7 @@ from beardyn_core.effects.grease import (
     aged_fill,
     aged_layer,
 )
-from beardyn_core.physics.losses import drag_params
+from beardyn_core.physics.drag import drag_params
 from test.kernels.rig import standard_scene
 
 

@@ -74,7 +74,7 @@ def step_roller(
     p: Any,
     losses: tuple[tuple[int, Any], ...] = (),
 ) -> tuple[RollerState, list[Float]]:
-    """One step as `kernels.roller` documents it, in Cartesian coordinates with dense 6 x 6 algebra.
+    """One step as `physics.tiers.roller` documents it, in Cartesian coordinates with dense 6 x 6 algebra.
 
     Returns the new state and the wrenches (about the ring's origin) on cup, cone and cage. ``frictions`` make
     the friction law of cup and cone from the entrainment speed: ``frictions[ring](speed)(k, load, slip)``.

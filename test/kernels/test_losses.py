@@ -14,15 +14,9 @@ from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance
+from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
-from beardyn_core.physics.losses import (
-    AIR_DENSITY,
-    CYLINDER_EXPONENT,
-    CYLINDER_FRICTION,
-    drag_params,
-    oil_supply,
-    rolling_params,
-)
+from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.scene.scene import Scene
 from test.kernels.casting import through
 from test.kernels.loss_entries import couple_matrices, drags, rolling_couples

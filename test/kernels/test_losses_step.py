@@ -23,7 +23,8 @@ from beardyn_core.physics.bodies.layout import (
     TILT,
     TURN,
 )
-from beardyn_core.physics.losses import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, oil_supply
+from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION
+from beardyn_core.physics.rolling_resistance import oil_supply
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench

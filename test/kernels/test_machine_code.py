@@ -229,14 +229,14 @@ def digest_after(folder: Path, name: str, old: str, new: str) -> str:
 @pytest.mark.parametrize(
     ("name", "old", "new", "changes"),
     [
-        ("kernels/pocket.py", "0.5 * cage.stiffness", "0.6 * cage.stiffness", True),
-        ("kernels/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
-        ("model/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
-        ("kernels/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
+        ("physics/pocket.py", "0.5 * cage.stiffness", "0.6 * cage.stiffness", True),
+        ("physics/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
+        ("physics/bodies/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
+        ("physics/lanes/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
         ("base/jit.py", '"forceinline": True', '"forceinline": False', True),
-        ("model/layout.py", "# --- where energy is lost", "# --- where energy goes", False),
-        ("kernels/pocket.py", '"""', '"""Anew: ', False),
-        ("model/ribs.py", "return ", "return 1.0 * ", False),
+        ("physics/bodies/layout.py", "# --- where energy is lost", "# --- where energy goes", False),
+        ("physics/pocket.py", '"""', '"""Anew: ', False),
+        ("physics/rib.py", "return ", "return 1.0 * ", False),
     ],
 )
 def test_the_step_of_the_full_tier_follows_what_reaches_it(

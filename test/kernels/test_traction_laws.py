@@ -124,7 +124,7 @@ def test_rigid_film_rules_light_contacts_only() -> None:
 
 @pytest.mark.parametrize("law", LAWS)
 def test_dry_friction_follows_its_named_law(lanes: Any, law: CoulombTraction) -> None:
-    """exp2 is good to 1e-9, the series of small arguments to 1e-8 (`kernels/lane_math.py`)."""
+    """exp2 is good to 1e-9, the series of small arguments to 1e-8 (`physics/lanes/lane_math.py`)."""
     found = results(parameters(law, None), lanes, 1, 0, LOAD, SLIP, SPEED)[1] * SLIP
     exact = [naive_traction.dry_friction(q, s, law) for q, s in zip(LOAD, SLIP, strict=True)]
     np.testing.assert_allclose(found, exact, rtol=2e-8, atol=1e-12)

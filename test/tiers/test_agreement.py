@@ -12,7 +12,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies, roller_cone_spin
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage, Gravity
 from beardyn_core.physics.bodies.layout import CAGE_BODY, TURN
-from beardyn_core.physics.losses import oil_supply
+from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import running_torque
 from beardyn_core.scene.load import LoadHistory

@@ -42,7 +42,7 @@ def test_idle_rollers_rub_in_their_pockets() -> None:
     weight = 2.0 / np.pi * effects.gravity.acceleration * bearing.roller_mass
     drag = 0.0
     if effects.drag is not None:
-        from beardyn_core.physics.losses import drag_params
+        from beardyn_core.physics.drag import drag_params
 
         law = drag_params(scene)
         assert law is not None

@@ -1,4 +1,4 @@
-"""Rollers of the fast tiers against the slow exact equilibrium of `integrate.roller_equilibrium`."""
+"""Rollers of the fast tiers against the slow exact equilibrium of `physics.statics.roller_equilibrium`."""
 
 from __future__ import annotations
 

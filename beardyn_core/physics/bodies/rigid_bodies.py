@@ -282,27 +282,3 @@ def sum_lanes(sums, field):
         for lane in range(sums.shape[3]):
             total += sums[group, 0, field, lane]
     return total
-
-
-@inline
-def add_seals(bodies, wrenches, energy, step, seal):
-    """Add the torque of both seals to shaft and cup, equal and opposite, about the shaft's axis.
-
-    Dry friction, smooth through standstill, and a part that grows with speed. Neglects the radial and
-    axial force of the lips.
-    """
-    if seal is None:
-        return
-    ax, ay, az = ring_direction(bodies, layout.CONE_BODY)
-    axis = (ax, ay, az)
-    speed = bodies[layout.CONE_BODY, layout.RATE]
-    for i in range(3):
-        speed += axis[i] * (
-            bodies[layout.CONE_BODY, layout.ANGULAR + i] - bodies[layout.CUP_BODY, layout.ANGULAR + i]
-        )
-    dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
-    torque = (dry + seal.speed_coefficient) * speed
-    for i in range(3):
-        wrenches[layout.CONE_BODY, 3 + i] -= torque * axis[i]
-        wrenches[layout.CUP_BODY, 3 + i] += torque * axis[i]
-    energy[layout.ENERGY_LOST + layout.LOSS_SEAL] += step * torque * speed

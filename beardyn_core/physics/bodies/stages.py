@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 KERNEL_STAGES = (
     "contact", "film", "traction", "rib", "cage", "losses", "solve", "settle", "motion", "rings",
 )  # fmt: skip
-"""Stages of a time step of the full tier, see `kernels.stage_timer`."""
+"""Stages of a time step of the full tier, see `physics.bodies.stage_timer`."""
 CONTACT, FILM, TRACTION, RIB, CAGE, LOSS, SOLVE, SETTLE, MOTION, RINGS = range(len(KERNEL_STAGES))
 EMPTY = len(KERNEL_STAGES)  # an interval without work
 TIMER_SLOTS = EMPTY + 1

@@ -134,7 +134,7 @@ def rib_spring(centre, axis, ring_axis, motion, rib):
 
     References
     ----------
-    Sphere on cone; see `kernels.rib.rib_contact`.
+    Sphere on cone; see `physics.rib.rib_contact`.
     """
     sphere = scale(rib.sphere_place, axis)
     place = add(centre, sphere)

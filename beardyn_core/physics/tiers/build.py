@@ -23,14 +23,16 @@ from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.bodies.stages import new_timers
 from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
+from beardyn_core.physics.drag import drag_params
 from beardyn_core.physics.film import film_params
 from beardyn_core.physics.journal import journal_params
 from beardyn_core.physics.lamina_table import coupling_params, lamina_table
-from beardyn_core.physics.losses import drag_params, rolling_params, seal_params
 from beardyn_core.physics.pocket import cage_params
 from beardyn_core.physics.rib import rib_params, small_rib_params
 from beardyn_core.physics.ring_modes import body_of, structure_params
+from beardyn_core.physics.rolling_resistance import rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
+from beardyn_core.physics.seal import seal_params
 from beardyn_core.physics.suspension import mounting_params
 from beardyn_core.physics.tiers.parameters import (
     AuditParams,
@@ -45,7 +47,7 @@ from beardyn_core.physics.tiers.parameters import (
 from beardyn_core.physics.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
-# steps from one time that friction of the raceways is worked out to the next, see `kernels.held`
+# steps from one time that friction of the raceways is worked out to the next, see `physics.bodies.held`
 HELD_STEPS = 3.0
 LEAST_SHARE, MOST_SHARE = 1.0 / 12.0, 0.25
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]

@@ -1,6 +1,6 @@
 """The time step that friction asks for: a rule that needs no equilibrium and no compiled code.
 
-See `integrate.step_choice` for the runs that it was made from.
+See `physics.tiers.step_choice` for the runs that it was made from.
 """
 
 from __future__ import annotations

@@ -7,7 +7,6 @@ from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.exchange import clear_largest
 from beardyn_core.physics.bodies.held import is_fresh
 from beardyn_core.physics.bodies.rigid_bodies import (
-    add_seals,
     collect_energy,
     collect_reactions,
     drift_bodies,
@@ -20,6 +19,7 @@ from beardyn_core.physics.journal import add_bending, axle_energy, kick_journal
 from beardyn_core.physics.land import land_of, push_lands, settle_lands
 from beardyn_core.physics.lanes.lanes import align_stack
 from beardyn_core.physics.ring_modes import kick_structure, show_structure, structure_energy
+from beardyn_core.physics.seal import add_seals
 from beardyn_core.physics.suspension import box_energy, kick_box
 from beardyn_core.physics.tiers.cage_bodies import (
     cage_energy,

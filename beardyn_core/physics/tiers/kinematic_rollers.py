@@ -10,12 +10,11 @@ import math
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.exchange import ContactOutput, output_contact, store_vector, watch_largest
+from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.bodies.rigid_bodies import X, Y, Z
-from beardyn_core.physics.drag import churning_rate
+from beardyn_core.physics.drag import drag_torque
 from beardyn_core.physics.film import film_output, log2_entrainment
-from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
-from beardyn_core.physics.rib import rib_friction, rib_log2_film, spin_reach, with_spin
-from beardyn_core.physics.rolling_resistance import rolling_couple
+from beardyn_core.physics.seal import seal_torque
 
 # Sums of the cup forces along the cup's normal, in the cages' frame; axial force and moments times the side.
 LOAD_COSINE, LOAD_SINE, LOAD_AXIAL, MOMENT_COSINE, MOMENT_SINE, RIB_SUM = range(
@@ -27,7 +26,6 @@ KEPT_COSINE, KEPT_SINE, KEPT_AXIAL, KEPT_ABOUT_COSINE, KEPT_ABOUT_SINE = range(
     layout.REACTION + 18, layout.REACTION + 23
 )
 TORQUE_POCKET = layout.REACTION + 23  # part of TORQUE_ROLLING
-_SMALLEST_LOAD = 1e-3
 
 
 @inline
@@ -199,108 +197,11 @@ def show_rib(lanes, rollers, block, axis, load, slip, rib):
 
 
 @inline
-def rolling_torque(loads, speeds, k, rolling):
-    """Work out the rolling resistance's torque of a block of rollers, along the shaft's rotation, [N m].
-
-    References
-    ----------
-    Zhao et al. (2026), see `integrate.torque`: T = sum (R_o M_i + R_i M_o) / D.
-    """
-    if rolling is None:
-        return 0.0 * loads[0]
-    cup = rolling_couple(loads[0], speeds[1] * k.cup_radius, layout.CUP, rolling)
-    cone = rolling_couple(loads[1], (speeds[0] - speeds[1]) * k.cone_radius, layout.CONE, rolling)
-    on_cup = smooth_lever(k.rolling_on_cup, speeds[0], rolling.regularisation[layout.CUP])
-    return (
-        on_cup * cup + smooth_lever(k.rolling_on_cone, speeds[0], rolling.regularisation[layout.CONE]) * cone
-    )
-
-
-@inline
-def smooth_lever(lever, speed, floor):
-    """Smooth the lever of a couple against a rotation at `lever` times the shaft's speed at standstill."""
-    rate = lever * speed
-    return lever * rate / math.sqrt(rate * rate + floor * floor)
-
-
-@inline
-def sliding_torque(load, speeds, p, rib):
-    """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
-
-    The contact is taken in the roller's meridian plane at its nominal height.
-    """
-    if rib is None:
-        return 0.0 * load
-    k = p.kinematic
-    slip = k.rib_slip * speeds[0]
-    radius = k.radius + rib.sphere_place * k.axis_radial + rib.sphere_radius * rib.normal_radial
-    entrainment = (speeds[0] - speeds[1]) * radius - 0.5 * slip
-    # load = K depth^1.5
-    root = exp2((1.0 / 3.0) * log2(at_least(load, _SMALLEST_LOAD) * (1.0 / rib.stiffness)))
-    along = p.base.cone.sine * rib.normal_radial + p.base.cone.cosine * rib.normal_axial
-    spin = k.rib_spin * along * speeds[0]
-    squared = with_spin(slip * slip, spin_reach(root * root, rib.drilling), spin, rib.drilling)
-    log2_film = rib_log2_film(load, entrainment, rib.film)
-    friction = rib_friction(load, root, squared, log2_film, rib, rib.film)
-    return friction * squared_over(squared, speeds[0])
-
-
-@inline
-def pocket_torque(cone_load, speeds, k, drag, pocket):
-    """Work out the torque of the pockets of a block of rollers, along the shaft's rotation, [N m].
-
-    A roller that the cone does not press is pushed round by its bar, against the medium and its weight; what
-    it takes another roller in the load zone gives to its own bar. Neglects what ribs and rolling resistance
-    drive or brake idle rollers with, and the rattle of those that the load holds.
-    """
-    if pocket is None:
-        return 0.0 * cone_load
-    push = pocket.weight + drag_push(speeds, k, drag)
-    floor = pocket.regularisation
-    torque = pocket.lever * push * (speeds[0] / math.sqrt(speeds[0] * speeds[0] + floor * floor))
-    return where_greater(cone_load, _SMALLEST_LOAD, 0.0 * cone_load, torque + 0.0 * cone_load)
-
-
-@inline
-def drag_push(speeds, k, drag):
-    """Work out the force of the medium on the orbit of a roller, [N]."""
-    if drag is None:
-        return 0.0
-    flow = speeds[1] * k.radius
-    return drag.orbit * flow * flow
-
-
-@inline
-def squared_over(squared, speed):
-    """Divide squared slip by the shaft speed; zero at rest."""
-    return squared * (speed / (speed * speed + 1e-12))
-
-
-@inline
-def drag_torque(speeds, k, drag):
-    """Work out the torque of the drag on all rollers, along the shaft's rotation, [N m]."""
-    if drag is None:
-        return 0.0
-    flow, spin = speeds[1] * k.radius, speeds[1] * (k.spin_ratio + k.axis_axial)
-    power = drag.orbit * math.fabs(flow) * flow * flow + churning_rate(spin, drag) * spin * spin
-    return squared_over(k.rolling_count * power, speeds[0])
-
-
-@inline
-def seal_torque(speed, seal):
-    """Work out the torque of both seals, along the shaft's rotation, [N m]."""
-    if seal is None:
-        return 0.0
-    dry = seal.torque / math.sqrt(speed * speed + seal.regularisation * seal.regularisation)
-    return (dry + seal.speed_coefficient) * speed
-
-
-@inline
 def held_losses(sums, speeds, rib_load, p):
     """Work out the torque of all but the ribs [N m], and that of the ribs over the sum of their loads [m]."""
     effects, k = p.base.effects, p.kinematic
     steady = drag_torque(speeds, k, effects.drag) + seal_torque(speeds[0], effects.seal)
-    rib = lane_total(sums, TORQUE_RIB) / max(rib_load, _SMALLEST_LOAD)
+    rib = lane_total(sums, TORQUE_RIB) / max(rib_load, SMALLEST_LOAD)
     return steady + lane_total(sums, TORQUE_ROLLING), rib
 
 

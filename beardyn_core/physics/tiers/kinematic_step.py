@@ -75,7 +75,7 @@ def finish_step(
     ``box`` [BOX_FIELDS]: work space;
     ``load_before``, ``load`` [10]: rows at the beginning and at the end of the step; ``signal``
     [SIGNAL_CHANNELS]: written; ``energy``: not kept by these tiers, but a coupled box adds to it;
-    ``response``: the work space of `kernels.kinematic_rings`.
+    ``response``: the work space of `physics.tiers.kinematic_rings`.
 
     Arrays come one by one: the references to those of a tuple would be counted in every step.
     """
@@ -162,7 +162,7 @@ def _kick_journal(bodies, wrench, load, weight, step, motion):
 
 @inline
 def _prop_journal(bodies, step, motion, mounting):
-    """Push the journal by its axial prop, as `kernels.bodies.kick_cone` does."""
+    """Push the journal by its axial prop, as `physics.bodies.rigid_bodies.kick_cone` does."""
     speed = bodies[layout.CONE_BODY, layout.LINEAR + 1]
     push = (
         mounting.prop_stiffness * bodies[layout.CONE_BODY, layout.POSITION + 1]

@@ -115,7 +115,7 @@ def write_instants(rollers: Any, bodies: Any, loads: Any, stride: Any, count: An
 
 @inline
 def _place(rollers: Any, count: Any, row: Any, k: Any) -> Any:
-    """Find block and lane of a roller; see `model.arrangement`."""
+    """Find block and lane of a roller; see `physics.bodies.arrangement`."""
     half = rollers.shape[3] // 2
     if half == 0:
         return row * count + k, 0

@@ -106,7 +106,7 @@ def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
 
 
 class SpringTrend:
-    """Rollers at some instants, see `sensors.kinematics.Instants`.
+    """Rollers at some instants, see `physics.tiers.kinematics.Instants`.
 
     ``trends`` [time, 2 block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any
     more.

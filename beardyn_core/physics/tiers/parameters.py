@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:  # each of them imports this module
     from beardyn_core.physics.contact_damping import DampingParams
     from beardyn_core.physics.defect import FaultParams
+    from beardyn_core.physics.drag import DragParams
     from beardyn_core.physics.film import FilmParams
     from beardyn_core.physics.lamina_table import CouplingParams
-    from beardyn_core.physics.losses import DragParams, RollingParams, SealParams
     from beardyn_core.physics.pocket import CageParams
     from beardyn_core.physics.rib import RibParams, SmallRibParams
     from beardyn_core.physics.ring_modes import StructureParams
+    from beardyn_core.physics.rolling_resistance import RollingParams
+    from beardyn_core.physics.seal import SealParams
     from beardyn_core.physics.suspension import MountingParams
     from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
 
@@ -62,7 +64,7 @@ class ExplicitParams(NamedTuple):
 
 
 class HeldParams(NamedTuple):
-    """Friction of the raceways that is worked out in every few steps, see `kernels.held`."""
+    """Friction of the raceways that is worked out in every few steps, see `physics.bodies.held`."""
 
     steps: float  # from one time to the next
     memory: Any  # [2 x block + ring, HELD_COEFFICIENT + lamina, lane]
@@ -87,7 +89,7 @@ class EffectParams(NamedTuple):
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
-    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `model.stages`, None without
+    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `physics.bodies.stages`, None without
 
 
 class Parameters(NamedTuple):

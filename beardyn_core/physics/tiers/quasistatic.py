@@ -5,9 +5,13 @@ from __future__ import annotations
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.exchange import clear_largest, load_vector, store_vector
+from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.bodies.rigid_bodies import body_vector
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.physics.lanes.vectors import add_scaled
+from beardyn_core.physics.pocket import pocket_torque
+from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.tiers.balanced_roller import (
     balance,
     cone_view,
@@ -51,12 +55,9 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     keep_losses,
     kept_wrench,
     lane_total,
-    pocket_torque,
     relative_cone,
-    rolling_torque,
     show_contacts,
     show_roller,
-    sliding_torque,
     watch_loads,
 )
 from beardyn_core.physics.tiers.kinematic_step import (
@@ -84,14 +85,12 @@ from beardyn_core.physics.tiers.loose_rollers import (
     with_cages,
 )
 
-_SMALLEST_LOAD = 1e-3
-
 
 @inline
 def pressed_tangent(load, tangent):
     """Work out the stiffness of rollers that press on the cone with a load; 0 where they do not, [N/m]."""
-    stiffness = tangent * exp2(0.1 * log2(at_least(load, _SMALLEST_LOAD)))
-    return where_greater(load, _SMALLEST_LOAD, stiffness, 0.0 * load)
+    stiffness = tangent * exp2(0.1 * log2(at_least(load, SMALLEST_LOAD)))
+    return where_greater(load, SMALLEST_LOAD, stiffness, 0.0 * load)
 
 
 @inline
@@ -227,7 +226,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         if shown:
             orbit = lanes.load(rollers, block, layout.ANGLE)
             where = orbit, lanes.load(rollers, block, layout.VELOCITY + 1)
-            centres = (cup[1] / at_least(cup[0], _SMALLEST_LOAD), cone[1] / at_least(cone[0], _SMALLEST_LOAD))
+            centres = (cup[1] / at_least(cup[0], SMALLEST_LOAD), cone[1] / at_least(cone[0], SMALLEST_LOAD))
             show_roller(lanes, rollers, block, place, axis, moved, (turns[0], speeds[1]), angle, p)
             keep_loose(lanes, rollers, block, where, p.loose)
             show_contacts(lanes, rollers, block, axis, forces, centres, speeds, p)

@@ -27,6 +27,9 @@ from beardyn_core.physics.lanes.lane_math import (
 )
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import add_scaled
+from beardyn_core.physics.pocket import pocket_torque
+from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.tiers.kinematic_bending import (
     PLACE,
     SPEED,
@@ -44,12 +47,9 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     TORQUE_RIB,
     TORQUE_ROLLING,
     lane_total,
-    pocket_torque,
-    rolling_torque,
     row_totals,
     show_contacts,
     show_roller,
-    sliding_torque,
     watch_loads,
 )
 from beardyn_core.physics.tiers.rolling_waves import fetch_waves, wave_places, waved
@@ -77,7 +77,7 @@ def spring_load(approach, rate, spring, damping):
     References
     ----------
     Palmgren's line contact in the frictionless force triangle of cup, cone and rib; see
-    `integrate.roller_equilibrium`.
+    `physics.statics.roller_equilibrium`.
     """
     pressed = at_least(approach, _SMALLEST_APPROACH)
     root = quick_ninth_root(pressed)

@@ -44,7 +44,7 @@ class WorkSpace(NamedTuple):
     wrenches: Any  # float64 [2 + row, 6]
     box: Any  # float64 [BOX_FIELDS]
     bend: BendSpace
-    response: Any  # float64 [4, 5, 5], matrices of `kernels.kinematic_rings`
+    response: Any  # float64 [4, 5, 5], matrices of `physics.tiers.kinematic_rings`
 
 
 class Output(NamedTuple):

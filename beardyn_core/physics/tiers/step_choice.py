@@ -9,7 +9,7 @@ tier these limits were met in order as the step grew:
   as a line at the difference to the step rate, 25 dB above the level at 8 kHz. Without damping
   of the contacts nothing takes that energy away: at 3 steps a period, 2 or 3 laminae and skidding rollers,
   runs at 5 kN left the model's validity after 0.1 to 0.3 s; at 4.5 they did not, and with damping neither.
-- Friction: steep dry friction flips from step to step. The index of that (`integrate.status`) grows with
+- Friction: steep dry friction flips from step to step. The index of that (`physics.tiers.status`) grows with
   slope and step, hardly with the load.
 - Couplings that stay explicit: rollers in their pockets, and rings on all contacts. With an axle that bends
   at the journal (service_high_speed, 2 steps, 0.45 rad) the cone swings against damped contacts until
@@ -17,7 +17,7 @@ tier these limits were met in order as the step grew:
   service_freight) it does not. Without damping of the contacts nothing swings at 0.45 either.
 
 Mean torque and its scatter were within 0.5 % and 20 % wherever these limits hold. The limits of vibration are
-of damping in the middle of the step (`model.build`), the others were found with damping of its end and
+of damping in the middle of the step (`tiers.build`), the others were found with damping of its end and
 hold with less effort now.
 """
 

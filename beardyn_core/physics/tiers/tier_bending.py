@@ -29,7 +29,7 @@ _LEFT_OUT_WAVES = 2e-4  # likewise of the raceways, by the highest waves; 2e-3 c
 
 
 class JointParams(NamedTuple):
-    """Few modes and the motion of rigid rings together, and their work space; see `kernels.joint_bending`.
+    """Few modes and the motion of rigid rings together, and their work space; see `tiers.joint_bending`.
 
     Rows in blocks of lanes with zeros behind the last number: modes, then x, y, z and tilts about x and z.
     """
@@ -73,7 +73,7 @@ class BendingParams(NamedTuple):
     forces: Any  # work space [force], [N]
     vectors: Any  # work space [3, block of reads, lane]
     rows: Any  # the same memory [3, read]
-    response: Any  # work space [block of openings, opening, lane], see `kernels.kinematic_bending`
+    response: Any  # work space [block of openings, opening, lane], see `physics.tiers.kinematic_bending`
     pushed: Any  # work space [1, block of modes, lane]
     pushed_row: Any  # the same memory [mode]
     draw: Any  # work space [mode]

@@ -70,7 +70,7 @@ class RingMotionParams(NamedTuple):
 
 
 class RingResponseParams(NamedTuple):
-    """How a step takes stiffness and damping of the rollers; see `kernels.kinematic_rings`."""
+    """How a step takes stiffness and damping of the rollers; see `physics.tiers.kinematic_rings`."""
 
     lag: float  # h^2/12 and half a step of the dampers' time [s^2]
     damper_share: float  # of the dampers in that
@@ -95,7 +95,7 @@ class SpringParams(NamedTuple):
 
 
 class LooseParams(NamedTuple):
-    """Rollers that move in the pockets of their cages, see `kernels.loose_rollers`."""
+    """Rollers that move in the pockets of their cages, see `physics.tiers.loose_rollers`."""
 
     stiffness: float  # of both touches of a bar [N/m]
     damping: float  # [N s/m]
@@ -115,7 +115,7 @@ class LooseParams(NamedTuple):
 
 
 class SlideParams(NamedTuple):
-    """Creep of the rollers along the cup, see `kernels.kinematic_rings.hold_sliding`."""
+    """Creep of the rollers along the cup, see `physics.tiers.kinematic_rings.hold_sliding`."""
 
     grip: float  # force over load, and over slip per rolling speed
     slowest: float  # rolling speed below which it stays the same [m/s]

@@ -31,7 +31,7 @@ from beardyn_core.scene.scene import Scene
 class Tier:
     """How a tier turns loads into states.
 
-    All tiers share the arrays of the full one (`model.layout`), so that whatever reads a state or a block
+    All tiers share the arrays of the full one (`bodies.layout`), so that whatever reads a state or a block
     works with any of them; what a tier does not compute stays zero.
     """
 
