@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite, nan, pi
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 import numpy as np
@@ -13,8 +14,10 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
-from beardyn_core.physics.statics.rating_life import LoadClass, RatingLife, rating_life
 from beardyn_core.sensors.labels import HEALTHY
+
+if TYPE_CHECKING:
+    from beardyn_core.physics.statics.rating_life import LoadClass, RatingLife
 
 _DRAWS, _SEED = 4000, 1
 _QUANTILES = (0.05, 0.5, 0.95)
@@ -168,6 +171,8 @@ def _estimate(found: Estimates, name: str) -> Estimate | None:
 
 def _class_of(found: Estimates, which: int) -> LoadClass | None:
     """Take the load at the low end, the middle or the high end of its interval; `None`: not known."""
+    from beardyn_core.physics.statics.rating_life import LoadClass  # brings the compiler along
+
     vertical, lateral = _estimate(found, "vertical_load"), _estimate(found, "lateral_load")
     if vertical is None or not isfinite(vertical.value):
         return None
@@ -179,6 +184,8 @@ def _class_of(found: Estimates, which: int) -> LoadClass | None:
 
 def _life_of(load: LoadClass, found: Estimates, bearing: Bearing, lubricant: Lubricant) -> RatingLife | None:
     """Compute the rating life at a load, temperature and end play as estimated where they are."""
+    from beardyn_core.physics.statics.rating_life import rating_life
+
     warm, play = _estimate(found, "temperature"), _estimate(found, "end_play")
     return rating_life(
         bearing, (load,), lubricant,

@@ -10,7 +10,6 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.physics.bodies.layout import LOSS_NAMES
-from beardyn_core.physics.statics.rating_life import RatingLife, scene_life
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -27,6 +26,7 @@ from beardyn_core.sensors.summary import (
 )
 
 if TYPE_CHECKING:
+    from beardyn_core.physics.statics.rating_life import RatingLife
     from beardyn_core.record.run import Run
 
 
@@ -94,6 +94,8 @@ def life_of(scene: Scene, load: LoadHistory) -> RatingLife | None:
     """
     if scene.rows != 2 or scene.missing_rollers:
         return None
+    from beardyn_core.physics.statics.rating_life import scene_life  # brings the compiler along
+
     try:
         return scene_life(scene, load)
     except ValidityError:

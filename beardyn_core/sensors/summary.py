@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.physics.bodies.layout import LOSS_NAMES
-from beardyn_core.physics.statics.rating_life import RatingLife
 from beardyn_core.sensors.stage_clock import StageTime
+
+if TYPE_CHECKING:
+    from beardyn_core.physics.statics.rating_life import RatingLife
 
 NUMERICAL = "time_step"
 

@@ -109,7 +109,7 @@ def _overload_mark(timers, stage, _result):
 def time_step(timers, step):
     """Begin a step of the block: decide whether it is timed.
 
-    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `bodies.stages`; without them (``None``)
+    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `bodies.stages`; without (``None``)
     this and the marks compile to nothing.
     """
     if timers is None:
