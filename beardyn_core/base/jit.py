@@ -129,6 +129,11 @@ def inline(function: Callable[..., Any]) -> Any:
     return _with_set_flags(part)
 
 
+def plain(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a kernel function in plain Python, for a few numbers that need no compiler."""
+    return getattr(function, "py_func", function)
+
+
 def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH, allocates: bool = False) -> Any:
     """Compile an entry point and keep it in the disk cache.
 

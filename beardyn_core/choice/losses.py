@@ -9,6 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import plain
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
@@ -26,10 +27,10 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
-from beardyn_core.physics.drag import drag_params
+from beardyn_core.physics.drag import churning_rate, drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply
-from beardyn_core.physics.seal import SEALS
+from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
 from beardyn_core.scene.scene import Scene
@@ -127,16 +128,12 @@ class Losses:
         bearing = self.scene.bearing
         flow = cage_speed(bearing, self.speed) * 0.5 * bearing.pitch_diameter
         spin = roller_spin(bearing, self.speed)
-        return law.orbit * flow**2, law.cylinder * spin**law.cylinder_exponent * spin + law.disc * spin**1.5
+        return law.orbit * flow**2, float(plain(churning_rate)(spin, law)) * spin
 
     @property
     def seal(self) -> float:
         """Torque of both seals, [N m]."""
-        seal = self.scene.effects.seal
-        if seal is None or self.speed == 0.0:
-            return 0.0
-        both = SEALS * seal.stiffening(self.scene.lubricant.kinematic_viscosity(self.scene.temperature))
-        return both * (seal.torque + seal.speed_coefficient * self.speed)
+        return float(plain(seal_torque)(self.speed, seal_params(self.scene)))
 
     def rib(self, rib: Rib | None) -> float:
         """Compute the torque of the sliding ribs with some options, [N m]."""

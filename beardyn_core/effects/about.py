@@ -16,6 +16,7 @@ class About:
     """One entry of the catalogue."""
 
     adds: A[str, "what the effect adds to the model"]
+    loss: A[str, "source of loss that its work counts as, of ``LOSS_NAMES``; empty when it loses nothing"]
     states: A[str, "states it adds, ``none`` for a force alone"]
     cost: A[str, "cost class in the step: ``none``, ``low`` (below 3 %), ``medium`` (below 15 %) or ``high``"]
     validity: A[str, "where it holds"]

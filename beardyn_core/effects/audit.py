@@ -13,6 +13,7 @@ class Audit:
     """Energy balance kept while the model runs."""
 
     about: ClassVar[About] = About(
+        loss="",
         adds="Energy balance kept while the model runs.",
         states="none",
         cost="medium",

@@ -24,6 +24,7 @@ class PocketFilm:
     """
 
     about: ClassVar[About] = About(
+        loss="pocket",
         adds="Films between rollers and cage bars: wedge, squeeze and shear, elastic below a thickness.",
         states="none",
         cost="low",
@@ -43,6 +44,7 @@ class LandGuidance:
     """Land of each cage in a cylinder of cup or cone."""
 
     about: ClassVar[About] = About(
+        loss="cage_land",
         adds="Guidance of each cage by a land: short journal bearing, solid contact of both land edges.",
         states="none",
         cost="low",
@@ -72,6 +74,7 @@ class Cage:
 
     kind: ClassVar[str] = "six_dof"
     about: ClassVar[About] = About(
+        loss="pocket",
         adds="Cage of each row in six degrees of freedom, touched by every roller in its pocket.",
         states="12 positions and 12 velocities",
         cost="high",
@@ -99,6 +102,7 @@ class RotatingCage:
 
     kind: ClassVar[str] = "rotating"
     about: ClassVar[About] = About(
+        loss="pocket",
         adds="Cage of each row with its spin as the only freedom, touched by the rollers at the bars.",
         states="2 angles and 2 speeds",
         cost="medium",
@@ -122,6 +126,7 @@ class KinematicCage:
 
     kind: ClassVar[str] = "kinematic"
     about: ClassVar[About] = About(
+        loss="pocket",
         adds="Rollers held by weak springs at the pockets of a cage of prescribed speed.",
         states="none",
         cost="medium",

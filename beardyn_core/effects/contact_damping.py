@@ -15,6 +15,7 @@ class ContactDamping:
     """Velocity-proportional loss of raceway and rib contacts, against gaps that move under a roller too."""
 
     about: ClassVar[About] = About(
+        loss="contact_damping",
         adds="Velocity-proportional normal loss in raceway and rib contacts.",
         states="none",
         cost="low",

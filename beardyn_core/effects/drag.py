@@ -16,6 +16,7 @@ class Drag:
     """Drag on the orbit and churning on the spin of the rollers; the medium rests on the cup."""
 
     about: ClassVar[About] = About(
+        loss="drag",
         adds="Drag on the orbit and churning on the spin of the rollers.",
         states="none",
         cost="low",

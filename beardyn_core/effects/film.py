@@ -26,6 +26,7 @@ class LineFilm:
     """
 
     about: ClassVar[About] = About(
+        loss="",
         adds="Film thickness of the raceway contacts.",
         states="none",
         cost="high",

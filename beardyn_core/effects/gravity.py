@@ -15,6 +15,7 @@ class Gravity:
     """Weight of rollers, cages and axlebox."""
 
     about: ClassVar[About] = About(
+        loss="",
         adds="Weight of rollers, cages and axlebox.",
         states="none",
         cost="low",

@@ -15,6 +15,7 @@ class LaminaCoupling:
     """Laminae coupled through the half-space, so that the ends of a contact are stiffer than its middle."""
 
     about: ClassVar[About] = About(
+        loss="",
         adds="A loaded lamina sinks its neighbours: edge load, stiffer ends; Palmgren's total is kept.",
         states="none",
         cost="high",

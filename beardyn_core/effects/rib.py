@@ -16,6 +16,7 @@ class RibMixedFilm:
 
     kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
+        loss="rib",
         adds="Film of the rib contact; its friction falls from boundary to film with the film parameter.",
         states="none",
         cost="low",
@@ -34,6 +35,7 @@ class RibShearedFilm:
 
     kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
+        loss="rib",
         adds="Film of the rib contact with a friction that follows from its viscosity.",
         states="none",
         cost="low",
@@ -56,6 +58,7 @@ class Rib:
     """Contact of the spherical large roller end with the conical cone rib."""
 
     about: ClassVar[About] = About(
+        loss="rib",
         adds="Sphere-on-cone contact of the large roller end with the cone rib, its edges and its film.",
         states="none",
         cost="medium",

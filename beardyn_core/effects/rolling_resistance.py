@@ -18,6 +18,7 @@ class RollingResistance:
     """Couple on roller and ring against their relative rotation about the contact line."""
 
     about: ClassVar[About] = About(
+        loss="rolling_resistance",
         adds="Rolling couple of the raceway contacts: hydrodynamic inlet, elastic hysteresis.",
         states="none",
         cost="low",

@@ -15,6 +15,7 @@ class Seal:
     """Friction of the two seals, one at each end of the cup, on the shaft."""
 
     about: ClassVar[About] = About(
+        loss="seal",
         adds="Torque of both seals on the shaft, the larger the stiffer the oil is.",
         states="none",
         cost="none",

@@ -18,6 +18,7 @@ class SmallRib:
     """
 
     about: ClassVar[About] = About(
+        loss="small_rib",
         adds="Stop of the small roller end: holds a roller that the load does not press to the large rib.",
         states="none",
         cost="low",

@@ -15,6 +15,7 @@ class Thermal:
     """Temperatures of cup, cone, rollers, cages, grease and axlebox, fed by what friction loses."""
 
     about: ClassVar[About] = About(
+        loss="",
         adds="Temperatures of the parts; they change the lubricant's viscosity and the end play.",
         states="6 temperatures, advanced every 0.2 s",
         cost="medium",

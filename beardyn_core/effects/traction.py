@@ -30,6 +30,7 @@ class CoulombTraction:
 
     kind: ClassVar[str] = "coulomb"
     about: ClassVar[About] = About(
+        loss="raceway_sliding",
         adds="Dry friction between rollers and raceways, smooth through zero slip.",
         states="none",
         cost="low",
@@ -53,6 +54,7 @@ class MixedTraction:
 
     kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
+        loss="raceway_sliding",
         adds="Raceway friction blended from boundary to full film over the film parameter.",
         states="none",
         cost="high",
@@ -82,6 +84,7 @@ class ShearedFilmTraction:
 
     kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
+        loss="raceway_sliding",
         adds="The blend with a film that shears up to a limiting stress.",
         states="none",
         cost="high",
@@ -110,6 +113,7 @@ class LoadSharingTraction:
 
     kind: ClassVar[str] = "load_sharing"
     about: ClassVar[About] = About(
+        loss="raceway_sliding",
         adds="Raceway friction as a load-weighted sum of asperity friction and traction of a sheared film.",
         states="none",
         cost="high",

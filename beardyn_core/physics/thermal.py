@@ -41,13 +41,10 @@ _AIR_PRANDTL = 0.71
 
 
 def heat_shares() -> Float:
-    """Compute the share of each source of loss that warms each node, shape [source, node].
-
-    A source without a row of its own warms the grease.
-    """
+    """Compute the share of each source of loss that warms each node, shape [source, node]."""
     shares = np.zeros((len(LOSS_NAMES), len(NODES)))
     for source, name in enumerate(LOSS_NAMES):
-        for node, share in _SHARES.get(name, {"grease": 1.0}).items():
+        for node, share in _SHARES[name].items():
             shares[source, NODES.index(node)] = share
     return shares
 
