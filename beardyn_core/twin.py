@@ -18,11 +18,12 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.physics.bodies.arrangement import BOTH_ROWS, Arrangement
 from beardyn_core.physics.bodies.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.physics.bodies.rates import BLOCK_NS
-from beardyn_core.physics.bodies.stages import stage_cycles
+from beardyn_core.physics.bodies.step_stages import stage_cycles
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.ring_modes import body_of
-from beardyn_core.physics.statics.rest import rest_under, weight_on_cone
+from beardyn_core.physics.slow_thermal import blocks_between, cold_start, scene_at, warmed
+from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.cage_watch import CageWatch
 from beardyn_core.physics.tiers.snapshot import Snapshot
@@ -30,17 +31,16 @@ from beardyn_core.physics.tiers.start import at_rest, initial_state
 from beardyn_core.physics.tiers.state import Output, State, work_space
 from beardyn_core.physics.tiers.status import assess, describe, is_fatal
 from beardyn_core.physics.tiers.tiers import TIERS
-from beardyn_core.physics.warming import blocks_between, cold_start, scene_at, warmed
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.scene.defect import Patch, truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
-from beardyn_core.sensors.absence import absence_of
 from beardyn_core.sensors.block import Block, EnergyAudit, body_names
 from beardyn_core.sensors.channels import TRENDS_PER_BLOCK, Observer
 from beardyn_core.sensors.labels import scene_labels
+from beardyn_core.sensors.missing_rollers import absence_of
 from beardyn_core.sensors.stage_clock import LOAD, OBSERVE, REST, StageClock
 
 STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slowly, and counting costs

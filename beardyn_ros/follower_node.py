@@ -22,13 +22,13 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import describe
+from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.following import SOUND, WAITING, Followed
 from beardyn_core.follow.forecast import Service
-from beardyn_core.follow.intake import StretchIntake
-from beardyn_core.follow.listening import doubt_of
+from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.residual import Residual
-from beardyn_core.follow.told import residual_object, step_object
+from beardyn_core.follow.windowing import StretchIntake
 from beardyn_core.record.messages import (
     Diagnostic,
     encode_diagnostics,

@@ -1,6 +1,6 @@
 """What it costs in accuracy to hold the friction of raceways: every few steps against every step.
 
-``python -m benchmarks.held_friction`` runs the full tier's right answers with `bodies.held` at several
+``python -m benchmarks.held_friction`` runs the full tier's right answers with `friction_substeps` at several
 spacings, each from the same few beginnings a nanometre apart, for the bearing is chaotic: what the runs of
 every step differ by among themselves is what a difference has to be seen beside. Runs of one scene take
 turns, block by block, and their processor time is compared too.

@@ -26,7 +26,7 @@ from beardyn_core.calibration.writing import scene_keys, scene_text
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.folders import find
 from beardyn_core.follow.descriptors import AXES
-from beardyn_core.follow.listening import FEWEST_TURNS, alike, sizes_text
+from beardyn_core.follow.inference import FEWEST_TURNS, alike, sizes_text
 from beardyn_core.record.run import Run
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene

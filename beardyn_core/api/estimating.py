@@ -17,7 +17,7 @@ from beardyn_core.follow import training
 from beardyn_core.follow.estimator import Estimates, Estimator, read_estimator
 from beardyn_core.follow.forecast import Forecast, Service
 from beardyn_core.follow.growth import GrowthLaw
-from beardyn_core.follow.listening import estimates_of
+from beardyn_core.follow.inference import estimates_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.record.run import Run

@@ -26,7 +26,7 @@ from beardyn_core.follow.estimator import Estimates, Estimator, read_estimator
 from beardyn_core.follow.following import Followed, Follower
 from beardyn_core.follow.forecast import Service
 from beardyn_core.follow.growth import GrowthLaw
-from beardyn_core.follow.listening import doubt_of, stretches_of
+from beardyn_core.follow.inference import doubt_of, stretches_of
 from beardyn_core.follow.residual import Residual, residual_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.population.batch import simulated

@@ -11,7 +11,7 @@ from scipy.ndimage import uniform_filter1d
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.follow.descriptors import band_levels
-from beardyn_core.follow.listening import stretches_of
+from beardyn_core.follow.inference import stretches_of
 from beardyn_core.record.run import Run
 from beardyn_core.scene.sensor import PASSBAND
 
@@ -25,7 +25,7 @@ _SMOOTH = 7  # bands whose scatter is put together, as few seeds tell it badly
 
 
 class Hearing(NamedTuple):
-    """What is heard at once; see `beardyn_core.follow.listening.Ear`."""
+    """What is heard at once; see `beardyn_core.follow.inference.Ear`."""
 
     axes: tuple[str, ...]
     rate: float  # [Hz]

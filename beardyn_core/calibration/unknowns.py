@@ -10,7 +10,7 @@ from typing import Any
 
 from beardyn_core.base.edge import written
 from beardyn_core.effects import ModalStructure
-from beardyn_core.population.places import Place, with_value
+from beardyn_core.population.key_paths import Place, with_value
 from beardyn_core.scene.scene import Scene
 
 _DIGITS = 4  # that a value is written with

@@ -1,30 +1,30 @@
 """The choice room: the cheapest tier, effects, laminae and step for an accuracy, from rules with reasons.
 
-============= =================================================================
-module        responsibility, in the order of the data
-============= =================================================================
-circumstances load cases of the operation
-statics       equilibria of the load cases
-losses        torque by source, slip of the raceways
-steady_heat   steady temperatures, where losses and heat carried off agree
-costs         measured cost of tiers, effects, laminae (`costs.json`)
-evidence      all of these for one scene, each worked out once
-rule          alternatives with influence and cost, decisions, the choice with reasons and errors
-friction      rules: traction and film, rolling resistance, drag, seal, thermal
-guidance      rules: rib, small rib, cage
-motion        rules: gravity, contact damping, lamina coupling, audit
-ringing       third octaves of the sensors with modes of the box, linear
-bending       rule: structure; where sensors and modes do not reach equally far
-fast_step     the step of the fast tiers
-usual_step    the step of a scene that names none
-sampling      the rate that holds the third octaves that are asked for
-numerics      what a tier or a lamina count leaves out; the step
-choose        scene in, the cheapest alternatives within the limits out
-kept          choices made before, beside the compiled kernels
-source_hash   hash of the sources that a choice may come from
-load          scenes ready to run: read by `config`, what they leave open closed
-trial         the scenes of a trial
-============= =================================================================
+===================== ===================================================================================
+module                responsibility
+===================== ===================================================================================
+load_cases            load cases of the operation
+statics               equilibria of the load cases
+losses                torque by source, slip of the raceways
+steady_heat           steady temperatures, where losses and heat carried off agree
+costs                 measured cost of tiers, effects, laminae (`costs.json`)
+reference_solution    all of these for one scene, each worked out once
+rule                  alternatives with influence and cost, decisions, the choice with reasons and errors
+friction              rules: traction and film, rolling resistance, drag, seal, thermal
+guidance              rules: rib, small rib, cage
+gravity_damping_rules rules: gravity, contact damping, lamina coupling, audit
+ringing               third octaves of the sensors with modes of the box, linear
+bending               rule: structure; where sensors and modes do not reach equally far
+fast_step             the step of the fast tiers
+usual_step            the step of a scene that names none
+sampling              the rate that holds the third octaves that are asked for
+discretisation_error  what a tier or a lamina count leaves out; the step
+choose                scene in, the cheapest alternatives within the limits out
+choice_cache          choices made before, beside the compiled kernels
+source_hash           hash of the sources that a choice may come from
+load                  scenes ready to run: read by `config`, what they leave open closed
+trial                 the scenes of a trial
+===================== ===================================================================================
 
 Importing `choose` or `kept` brings the compiler along; the room itself, and a scene without `auto`, do not.
 """

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.choice.evidence import MOST_DB, Evidence
+from beardyn_core.choice.reference_solution import MOST_DB, Evidence
 from beardyn_core.choice.ringing import band_centres, levels
 from beardyn_core.choice.rule import VIBRATION_TOLERANCE_DB, Alternative, Influence, Rule, absent, percent
 from beardyn_core.effects import ModalStructure

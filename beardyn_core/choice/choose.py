@@ -14,9 +14,9 @@ from itertools import product
 from typing import Any
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.choice import bending, friction, guidance, motion, numerics
+from beardyn_core.choice import bending, discretisation_error, friction, gravity_damping_rules, guidance
 from beardyn_core.choice.costs import Costs, measured_costs
-from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.rule import Alternative, Choice, Decision, Rule, tolerance
 from beardyn_core.choice.sampling import rate_for
 from beardyn_core.effects import Audit, EffectSet
@@ -32,8 +32,8 @@ _OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (
     friction.traction,
-    motion.contact_damping,
-    motion.lamina_coupling,
+    gravity_damping_rules.contact_damping,
+    gravity_damping_rules.lamina_coupling,
     friction.rolling_resistance,
     friction.drag,
     guidance.rib,
@@ -41,9 +41,9 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
     guidance.cage,
     friction.seal,
     bending.structure,
-    motion.gravity,
+    gravity_damping_rules.gravity,
     friction.thermal,
-    motion.audit,
+    gravity_damping_rules.audit,
 )
 
 
@@ -143,7 +143,9 @@ class _Clock:
         effects = replace(scene.effects, **{name: decided[name] for name in _OF_STEP}, lamina_coupling=None)
         key = (tier_name, laminae, effects)
         if key not in self._known:
-            self._known[key] = numerics.steps(self._evidence, effects, tier_name, laminae, self._vibration)
+            self._known[key] = discretisation_error.steps(
+                self._evidence, effects, tier_name, laminae, self._vibration
+            )
         return self._known[key]
 
 
@@ -156,7 +158,7 @@ def _least_errors(
     evidence: Evidence, name: str, offered: list[list[Alternative]], asked: tuple[str, ...]
 ) -> tuple[float, ...]:
     """Add up the errors that a tier has at least, whatever its laminae and springs are."""
-    of_tier = numerics.least_errors(evidence, name)
+    of_tier = discretisation_error.least_errors(evidence, name)
     return tuple(
         of_tier.get(quantity, 0.0)
         + sum(min(option.influence.get(quantity, 0.0) for option in options) for options in offered)
@@ -169,7 +171,7 @@ def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:
     limits = TIERS[name]
     if limits.needs_rib and given.rib is None:
         return []
-    counts = numerics.LAMINAE if free.laminae else (scene.numerics.laminae,)
+    counts = discretisation_error.LAMINAE if free.laminae else (scene.numerics.laminae,)
     return [count for count in counts if count >= limits.smallest_laminae]
 
 
@@ -184,8 +186,8 @@ def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count
 
 def _stage(evidence: Evidence, name: str, count: int, asked: tuple[str, ...]) -> Stage | None:
     """Judge a tier with a lamina count before any effect; ``None`` where no spring fits."""
-    lamina = numerics.laminae(evidence, count)
-    verdict = numerics.tier(evidence, name, count)
+    lamina = discretisation_error.laminae(evidence, count)
+    verdict = discretisation_error.tier(evidence, name, count)
     if verdict is None:
         return None
     total = tuple(
@@ -322,7 +324,9 @@ def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: 
     name = "full" if free.tier else scene.tier
     usual = scene.numerics.steps_per_sample
     if free.steps:
-        usual = numerics.served(StepChoice(TIERS[name].steps_per_sample, ""), scene.sensors).steps_per_sample
+        usual = discretisation_error.served(
+            StepChoice(TIERS[name].steps_per_sample, ""), scene.sensors
+        ).steps_per_sample
     total = measured_costs().ratios["full"]
     effects = replace(given, **{member: getattr(scene.effects, member) for member in free.effects})
     return Choice(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.choice.evidence import Evidence
 from beardyn_core.choice.losses import Drive
+from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.rule import FAST, FRICTION_DB, FULL, Alternative, Rule, absent, on_or_off, percent
 from beardyn_core.effects import (
     CoulombTraction,

@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
-from beardyn_core.choice.numerics import edge_time
+from beardyn_core.choice.discretisation_error import edge_time
+from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import (
     FAST,
     FRICTION_DB,

@@ -164,7 +164,7 @@ def choice_for(found: OpenScene) -> Choice:
 
 
 def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
-    from beardyn_core.choice.kept import kept, typical  # brings the compiler along
+    from beardyn_core.choice.choice_cache import kept, typical  # brings the compiler along
 
     def work_out() -> Choice:
         from beardyn_core.choice.choose import choose

@@ -15,7 +15,7 @@ from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
-from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
     KinematicCage,

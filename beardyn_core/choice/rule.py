@@ -144,7 +144,7 @@ class Choice:
         None
     )
     rate_reason: str = ""
-    kept: A[bool, "whether it was made before and kept, see `beardyn_core.choice.kept`"] = False
+    kept: A[bool, "whether it was made before and kept, see `beardyn_core.choice.choice_cache`"] = False
 
     @property
     def judged(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.choice.evidence import third_octave_end
+from beardyn_core.choice.reference_solution import third_octave_end
 from beardyn_core.scene.scene import Free, Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES, SLOW_RATES
 

@@ -7,11 +7,11 @@ import numpy as np
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.ring_modes import body_of
-from beardyn_core.physics.statics.rest import rest_under
+from beardyn_core.physics.statics.initial_equilibrium import rest_under
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.scene.scene import Scene

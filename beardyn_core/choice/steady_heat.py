@@ -14,11 +14,12 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
-from beardyn_core.choice.circumstances import LoadCase, circumstances
+from beardyn_core.choice.load_cases import LoadCase, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Thermal
 from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.slow_thermal import cold_start, film_temperature
 from beardyn_core.physics.thermal import (
     BOX_NODE,
     CONE_NODE,
@@ -28,7 +29,6 @@ from beardyn_core.physics.thermal import (
     heat_shares,
     thermal_network,
 )
-from beardyn_core.physics.warming import cold_start, film_temperature
 from beardyn_core.scene.scene import Scene
 
 HOTTEST: A[float, "above which grease, cage and seals fail and nothing settles, [K]"] = 473.15

@@ -76,7 +76,7 @@ def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> No
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.api.estimating import estimate
-    from beardyn_core.follow.told import estimates_object, forecast_object
+    from beardyn_core.follow.estimate_json import estimates_object, forecast_object
     from beardyn_core.record.reading import read_run
 
     service, law = service_of(args, args.mileage_km or 0.0)

@@ -70,7 +70,7 @@ def text(found: Explanation) -> str:
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
     parts += _heard(found)
     if (found.automatic or found.current).kept:
-        from beardyn_core.choice.kept import folder
+        from beardyn_core.choice.choice_cache import folder
 
         parts += ["", f"This choice was made before and kept in {folder()}."]
     parts += ["", f"Cost shares and real-time factor as measured on {costs.machine}, {costs.date}."]

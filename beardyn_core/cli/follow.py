@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     from itertools import pairwise
 
     from beardyn_core.api.following import follow
-    from beardyn_core.follow.told import residual_object, step_object
+    from beardyn_core.follow.estimate_json import residual_object, step_object
     from beardyn_core.record.reading import read_run
 
     at_km = args.at_km or []

@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
     from beardyn_core.api.sweeping import Lines, cluster_of
     from beardyn_core.engine import EngineError
-    from beardyn_core.population.asked import asked
+    from beardyn_core.population.request import asked
     from beardyn_core.population.sweeping import conduct
 
     tls = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
@@ -155,7 +155,7 @@ def told(swept: Swept) -> str:
 
 
 def _verify(args: argparse.Namespace) -> int:
-    from beardyn_core.population.closing import verify
+    from beardyn_core.population.finalizing import verify
 
     problems = verify(args.output)
     if args.json:

@@ -1,35 +1,35 @@
 """Estimates of what no sensor measures: load, end play, width of a spall, each with an interval.
 
-================ ====================================================================
-module           responsibility, in the order of the data
-================ ====================================================================
-passages         what repeats with the passages of a fault
-passage_profile  the mean envelope over a passage, and its correlations
-event_order      which of the two events of a passage is entry and which exit, by the motion of the box
-descriptors      what is worked out of a stretch of signal
-quantities       what is estimated, on which scale, and by which label of a run it is learnt
-learnt           numbers with intervals that hold their promise
-wide_spall       whether a spall is wider than half of the distance of two rollers
-regression       numbers from descriptors by kernel ridge regression
-forest           numbers from descriptors by trees
-part             which part is spalled, with sets of parts that hold their promise
-familiarity      whether runs are of the kind learnt from: another box lies far from them
-estimator        the numbers that make an estimator, its card, and the file that keeps them
-listening        what an estimator makes of a run
-shipped          estimators that are shipped, found by the bearing
-growth           how a spall grows with mileage, with its scatter
-forecast         mileage until a spall is too wide, share of the rating life that is used
-labelled         runs of a set of labelled runs as an estimator sees them
-belief           means and covariances, carried on and corrected
-condition        which part is spalled, believed over many stretches
-following        the filter of one bearing: load, end play, spall as they change
-residual         what is heard beside a twin at the state that is known
-told             estimates, steps and residuals for JSON
-intake           stretches out of blocks as they come
-learning         numbers and condition from labelled runs, intervals from runs not learnt from
-judging          errors and coverage on runs that were neither learnt from nor calibrated with
-training         an estimator of a set of runs, with its card
-================ ====================================================================
+=================== ======================================================================================
+module              responsibility
+=================== ======================================================================================
+entry_exit_features what repeats with the passages of a fault
+passage_profile     the mean envelope over a passage, and its correlations
+event_order         which of the two events of a passage is entry and which exit, by the motion of the box
+descriptors         what is worked out of a stretch of signal
+quantities          what is estimated, on which scale, and by which label of a run it is learnt
+conformal           numbers with intervals that hold their promise
+wide_spall          whether a spall is wider than half of the distance of two rollers
+regression          numbers from descriptors by kernel ridge regression
+forest              numbers from descriptors by trees
+fault_location      which part is spalled, with sets of parts that hold their promise
+familiarity         whether runs are of the kind learnt from: another box lies far from them
+estimator           the numbers that make an estimator, its card, and the file that keeps them
+inference           what an estimator makes of a run
+shipped             estimators that are shipped, found by the bearing
+growth              how a spall grows with mileage, with its scatter
+forecast            mileage until a spall is too wide, share of the rating life that is used
+labelled            runs of a set of labelled runs as an estimator sees them
+cubature_filter     means and covariances, carried on and corrected
+condition           which part is spalled, believed over many stretches
+following           the filter of one bearing: load, end play, spall as they change
+residual            what is heard beside a twin at the state that is known
+estimate_json       estimates, steps and residuals for JSON
+windowing           stretches out of blocks as they come
+learning            numbers and condition from labelled runs, intervals from runs not learnt from
+judging             errors and coverage on runs that were neither learnt from nor calibrated with
+training            an estimator of a set of runs, with its card
+=================== ======================================================================================
 
 scikit-learn is imported by `learning` and `familiarity` alone and when it is needed; an estimate needs NumPy.
 """

@@ -9,8 +9,8 @@ from math import log
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.follow.learnt import LEVELS
-from beardyn_core.follow.part import PartEstimate
+from beardyn_core.follow.conformal import LEVELS
+from beardyn_core.follow.fault_location import PartEstimate
 
 _WEIGHT = 0.5  # of a stretch: stretches of one axlebox are not independent of each other
 _SURE = 0.98  # that a single stretch counts as at most

@@ -10,7 +10,7 @@ from scipy.fft import rfft
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow import event_order, passage_profile, passages
+from beardyn_core.follow import entry_exit_features, event_order, passage_profile
 from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from beardyn_core.monitor.passage_order import find_passage_order
 from beardyn_core.monitor.severity import narrow_width
@@ -28,7 +28,7 @@ _BESIDE = 0.35  # of an order: how far the lines lie that a line is compared wit
 LEVELS_OF_BOX = ("band_", "fine_")
 """Beginnings of the names of levels, which box and sensor place change most."""
 _LINES_OF_BOX = ("passing_", "turn_", "strongest_level")
-_OF_PASSAGES = (*passages.NAMES, *passage_profile.NAMES)
+_OF_PASSAGES = (*entry_exit_features.NAMES, *passage_profile.NAMES)
 _PROFILE = (*passage_profile.NAMES, *event_order.NAMES)
 
 
@@ -56,7 +56,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *(f"score_{part}" for part in FAULTS),
         *("score", "kurtosis", "crest", "strongest_level"),
         *(f"way_{part}" for part in RACEWAYS),
-        *("louder", "way", *passages.NAMES, *passage_profile.NAMES, *event_order.NAMES),
+        *("louder", "way", *entry_exit_features.NAMES, *passage_profile.NAMES, *event_order.NAMES),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
         *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
@@ -93,7 +93,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     }
     louder = RACEWAYS[int(found["score_cone"] > found["score_cup"])]
     found |= {"louder": float(RACEWAYS.index(louder)), "way": found[f"way_{louder}"]}
-    found |= passages.of_passages(stretch, louder, passed[louder], plate)
+    found |= entry_exit_features.of_passages(stretch, louder, passed[louder], plate)
     found |= passage_profile.profile_of(stretch, louder, passed[louder], plate)
     found |= event_order.order_of_events(stretch, louder, passed[louder], plate, axes)
     for k, axis in enumerate(axes):

@@ -20,11 +20,11 @@ from beardyn_core.base.inputs import size_of_file
 from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.follow.conformal import LEVELS, Learnt, Way
 from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.familiarity import Familiarity
+from beardyn_core.follow.fault_location import PartEstimate, PartRule
 from beardyn_core.follow.forest import EventForest, Forest
-from beardyn_core.follow.learnt import LEVELS, Learnt, Way
-from beardyn_core.follow.part import PartEstimate, PartRule
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule

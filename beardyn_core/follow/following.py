@@ -11,8 +11,8 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.follow.belief import Belief, carried, corrected
 from beardyn_core.follow.condition import ConditionBelief
+from beardyn_core.follow.cubature_filter import Belief, carried, corrected
 from beardyn_core.follow.estimator import (
     AS_WIDE,
     ELSEWHERE,

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
+from beardyn_core.follow.conformal import Guess
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described, taken
 from beardyn_core.follow.learning import calibrated, known, widened
-from beardyn_core.follow.learnt import Guess
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 
 CROSSWISE = 10  # parts of a calibration set, each judged by the others

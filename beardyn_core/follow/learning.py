@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.optional import library
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.follow.conformal import LEVELS, Learnt, Way, reach_of
 from beardyn_core.follow.descriptors import names_of, places_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.event_order import CONTRASTS, LEAST_WAY, WAY
 from beardyn_core.follow.familiarity import familiarity_of
+from beardyn_core.follow.fault_location import PartRule, least_of
 from beardyn_core.follow.forest import EventForest, Forest, forest_of
 from beardyn_core.follow.labelled import Described
-from beardyn_core.follow.learnt import LEVELS, Learnt, Way, reach_of
-from beardyn_core.follow.part import PartRule, least_of
 from beardyn_core.follow.quantities import BY_NAME, QUANTITIES, Quantity
 from beardyn_core.follow.regression import LEAST_DOUBT, Regression
 from beardyn_core.follow.wide_spall import FEWEST as FEWEST_OF_KIND

@@ -9,7 +9,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.folders import config_folder
 from beardyn_core.follow.estimator import Estimator, read_estimator
-from beardyn_core.follow.listening import doubt_of
+from beardyn_core.follow.inference import doubt_of
 
 
 def shipped() -> list[Path]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.judging import judged_by, judged_crosswise
@@ -20,7 +21,6 @@ from beardyn_core.follow.labelled import (
     sampling_of,
 )
 from beardyn_core.follow.learning import FEWEST, calibrated, trained, widened
-from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
 

@@ -12,7 +12,7 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor import chain
 from beardyn_core.monitor.chain.levels import Levels
-from beardyn_core.monitor.legs import turning_legs
+from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.sensors.block import Block
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend

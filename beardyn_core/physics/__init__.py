@@ -27,7 +27,7 @@ In the fast tiers, whose rollers stay in their meridian planes:
 ================== ================================================================================
 module             responsibility
 ================== ================================================================================
-warming            slow warming next to the fast motion
+slow_thermal       slow warming next to the fast motion
 scatter            scatter as numbers of each roller
 lamina_table       table of the laminae, and their coupling
 laminae            the springs of a raceway contact and their sums

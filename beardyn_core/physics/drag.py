@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.physics.bodies.exchange import account, account_loss, react
+from beardyn_core.physics.bodies.contact_output import account, account_loss, react
 from beardyn_core.physics.bodies.layout import CUP, LOSS_DRAG
 from beardyn_core.physics.bodies.power import squared_over
 from beardyn_core.physics.lanes import vectors

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.held import forget, held_friction, keep_friction, remember
+from beardyn_core.physics.bodies.friction_substeps import forget, held_friction, keep_friction, remember
 from beardyn_core.physics.bodies.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 from beardyn_core.physics.bodies.stage_timer import mark_result
-from beardyn_core.physics.bodies.stages import CONTACT, FILM, TRACTION
+from beardyn_core.physics.bodies.step_stages import CONTACT, FILM, TRACTION
 from beardyn_core.physics.defect import soften, spring_damage, spring_slopes, springs_of
 from beardyn_core.physics.film import log2_film_thickness, log2_load
 from beardyn_core.physics.lamina_coupling import (

@@ -15,7 +15,7 @@ from beardyn_core.base.jit import inline
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage, KinematicCage, RotatingCage
-from beardyn_core.physics.bodies.exchange import (
+from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     account,
     account_loss,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.exchange import account, account_loss, implicit_time, react
+from beardyn_core.physics.bodies.contact_output import account, account_loss, implicit_time, react
 from beardyn_core.physics.bodies.layout import CONE, LOSS_DAMPING, LOSS_SMALL_RIB
 from beardyn_core.physics.lanes.lane_math import at_least, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies import exchange
-from beardyn_core.physics.bodies.held import hold_contact
+from beardyn_core.physics.bodies import contact_output as exchange
+from beardyn_core.physics.bodies.friction_substeps import hold_contact
 from beardyn_core.physics.bodies.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 from beardyn_core.physics.bodies.orbit import Body, entrainment_speed
 from beardyn_core.physics.defect import find_damage

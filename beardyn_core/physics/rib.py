@@ -12,7 +12,7 @@ from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, l
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
 from beardyn_core.physics import point_contact
-from beardyn_core.physics.bodies.exchange import (
+from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     damper_time,
     load_vector,

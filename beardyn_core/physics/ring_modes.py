@@ -32,7 +32,7 @@ from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.config.structure import modes_of_effects, require_cup, seat_of
 from beardyn_core.effects import RingStructure, Structure
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
-from beardyn_core.physics.bodies.exchange import accumulate
+from beardyn_core.physics.bodies.contact_output import accumulate
 from beardyn_core.physics.bodies.layout import (
     ENERGY_LOST,
     LOSS_STRUCTURE,

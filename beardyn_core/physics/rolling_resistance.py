@@ -23,8 +23,8 @@ from beardyn_core.bearing.starvation import couple_shares
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
 from beardyn_core.effects import LineFilm
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import account_loss, react
-from beardyn_core.physics.bodies.held import held_couple, keep_couple
+from beardyn_core.physics.bodies.contact_output import account_loss, react
+from beardyn_core.physics.bodies.friction_substeps import held_couple, keep_couple
 from beardyn_core.physics.bodies.layout import LOSS_ROLLING
 from beardyn_core.physics.bodies.orbit import entrainment_speed
 from beardyn_core.physics.bodies.power import smooth_lever

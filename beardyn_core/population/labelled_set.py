@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
-from beardyn_core.population.closing import verify
+from beardyn_core.population.finalizing import verify
 from beardyn_core.population.folder import read_about
 from beardyn_core.population.store import RUN, SIGNALS, zarr_library
 from beardyn_core.population.table import FEATURES, RUNS, units_of

@@ -19,7 +19,7 @@ from beardyn_core.config.load import OpenScene, read_scene_mapping
 from beardyn_core.config.problems import Origin
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.population.draw import Row, rows_of, scaled_value
-from beardyn_core.population.places import AbsentError, Place, is_place, place_of, with_value
+from beardyn_core.population.key_paths import AbsentError, Place, is_place, place_of, with_value
 from beardyn_core.record.tables import SIGNALS, VIBRATION
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sweep import Choice, Scaled, Sweep, Variable

@@ -14,9 +14,9 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.engine import Cluster, Ended, Engine
 from beardyn_core.population.batch import FAILED, Batch, Made, checked_batch, run_batch
-from beardyn_core.population.closing import close_set
 from beardyn_core.population.draw import Row, rows_of
 from beardyn_core.population.features import NAMES
+from beardyn_core.population.finalizing import close_set
 from beardyn_core.population.folder import (
     ABOUT,
     Journal,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.features import OrderSpectrum
-from beardyn_core.record.envelope import envelope_order_spectrum
+from beardyn_core.record.envelope_spectrum import envelope_order_spectrum
 from beardyn_core.record.rerun_bearing import roller_loads, send
 from beardyn_core.record.rerun_scale import nice_ticks, round_range
 from beardyn_core.record.run import Run

@@ -18,7 +18,7 @@ from beardyn_core.record.topics import NAMESPACE, vibration_topic
 from beardyn_core.sensors.labels import flat_labels, load_labels
 
 if TYPE_CHECKING:
-    from beardyn_core.record.collecting import BlockSource
+    from beardyn_core.record.block_source import BlockSource
     from beardyn_core.record.description import RunDescription
     from beardyn_core.record.message_source import MessageSource
     from beardyn_core.sensors.block import Block
@@ -125,7 +125,7 @@ class Run:
         boxes, box : optional
             See `Run`.
         """
-        from beardyn_core.record.collecting import BlockSource
+        from beardyn_core.record.block_source import BlockSource
         from beardyn_core.record.message_source import MessageSource
 
         given = tuple(blocks)

@@ -10,7 +10,7 @@ from typing import Annotated as A
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.physics.bodies.stages import KERNEL_STAGES
+from beardyn_core.physics.bodies.step_stages import KERNEL_STAGES
 
 KERNEL, LOAD, OBSERVE, SINKS, REST = "kernel", "load", "observe", "sinks", "rest"
 STAGES = (*KERNEL_STAGES, KERNEL, LOAD, OBSERVE, SINKS, REST)

@@ -15,7 +15,7 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import folder_problems
-from beardyn_core.record.envelope import envelope_order_spectrum
+from beardyn_core.record.envelope_spectrum import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
 from beardyn_core.scene.defect import Defect

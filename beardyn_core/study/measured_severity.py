@@ -6,8 +6,8 @@ import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.monitor.legs import turning_legs
 from beardyn_core.monitor.passage_order import find_passage_order
+from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.monitor.severity import Severity, severity_of
 from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.record.run import Run

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.choice import load_scene, numerics
+from beardyn_core.choice import discretisation_error, load_scene
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
@@ -125,7 +125,7 @@ def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
     assert len(rows) == len(bands.SCENES) * len(bands.TIERS)
     for name, tier, *cells in rows:
         low, quiet, middle, high, beyond = (abs(float(cell.split()[0])) for cell in cells)
-        assert max(low, quiet, middle, high) <= numerics.IN_MIDDLE_BAND[tier.strip("`")], name
-        assert beyond <= numerics.BEYOND[tier.strip("`")], name
+        assert max(low, quiet, middle, high) <= discretisation_error.IN_MIDDLE_BAND[tier.strip("`")], name
+        assert beyond <= discretisation_error.BEYOND[tier.strip("`")], name
         if not load_scene(name.strip("`"), effects="standard").faults:
-            assert max(low, quiet) <= numerics.IN_QUIET_BAND, name
+            assert max(low, quiet) <= discretisation_error.IN_QUIET_BAND, name

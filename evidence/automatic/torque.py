@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import beardyn_core as bd
-from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.config import load_effects
 from beardyn_core.sensors.summary import RunSummary
 from evidence.pages import DOCS, with_section

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config.folders import config_folder
+from beardyn_core.follow.estimate_json import Estimates
 from beardyn_core.follow.estimator import read_estimator
 from beardyn_core.follow.labelled import Described, described
-from beardyn_core.follow.told import Estimates
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.pages import DOCS, with_section
 

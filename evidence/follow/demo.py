@@ -17,7 +17,7 @@ import beardyn_core as bd
 from beardyn_core.api.following import Following
 from beardyn_core.base.edge import written
 from beardyn_core.base.outputs import file_problems
-from beardyn_core.follow.learnt import LEVELS
+from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
 
 TRAIN = "service_high_speed_cup"  # a spalled cup, full tier, a box that rings, drive, track and knocks

@@ -26,7 +26,7 @@ from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import SOUND, WAITING, Followed
 from beardyn_core.follow.growth import GrowthLaw
-from beardyn_core.follow.listening import stretches_of
+from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
 from beardyn_core.study.code_digest import simulator_digest

@@ -19,6 +19,7 @@ from scipy.stats import binom
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config.folders import config_folder
+from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.judging import CROSSWISE, Guessed, judged_crosswise, score_of
 from beardyn_core.follow.labelled import (
@@ -30,7 +31,6 @@ from beardyn_core.follow.labelled import (
     sampling_of,
 )
 from beardyn_core.follow.learning import trained
-from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.population.labelled_set import TRAIN, VALIDATION, LabelledSet
 from evidence.pages import DOCS, with_section

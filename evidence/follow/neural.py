@@ -27,10 +27,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.follow.conformal import LEVELS, Guess
 from beardyn_core.follow.judging import Guessed, crosswise_parts, score_of
 from beardyn_core.follow.labelled import Described, described, joined, taken
 from beardyn_core.follow.learning import known
-from beardyn_core.follow.learnt import LEVELS, Guess
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.follow.judged import SHOWN, judged

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
+from beardyn_core.follow.conformal import Guess
 from beardyn_core.follow.judging import Guessed
-from beardyn_core.follow.learnt import Guess
 from evidence.follow import judged
 from evidence.follow.page import PAGE
 from evidence.pages import with_section

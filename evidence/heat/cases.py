@@ -10,7 +10,7 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.choice.steady_heat import SteadyHeat, steady_heat, torque_by_source
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import Drag, LineFilm, Rib, Seal, Thermal

@@ -28,10 +28,10 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene, with_choices
 from beardyn_core.monitor.chain import FaultLines, MonitorSettings, Stretch
+from beardyn_core.monitor.chain.competing_orders import Rival
+from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, threshold
 from beardyn_core.monitor.chain.fault_lines import Candidate, Pattern
-from beardyn_core.monitor.chain.rivals import Rival
-from beardyn_core.monitor.chain.strikes import with_strikes
-from beardyn_core.monitor.chain.surprise import PLACES_PER_RESOLUTION, evidence, threshold
+from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.tracking import logarithm_by_angle
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.monitor.features import order_spectrum

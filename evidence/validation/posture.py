@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.steady_heat import steady_heat
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RingStructure, Thermal
-from beardyn_core.physics.warming import film_temperature
+from beardyn_core.physics.slow_thermal import film_temperature
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation

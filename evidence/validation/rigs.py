@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.circumstances import circumstances
+from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.steady_heat import torque_by_source
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import LineFilm, Rib, RibMixedFilm

@@ -15,7 +15,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from beardyn_core.choice.circumstances import circumstances
+from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.statics import Statics
 from evidence.validation.anchor import Anchor
 from evidence.validation.posture import Condition, scene_of

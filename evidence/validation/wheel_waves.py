@@ -16,7 +16,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.circumstances import circumstances
+from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.statics import Statics
 from beardyn_core.run import blocks
 from beardyn_core.scene.excitation import WheelPolygon

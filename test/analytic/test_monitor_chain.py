@@ -13,10 +13,10 @@ from scipy.stats import binomtest
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.monitor.chain import REFERENCE, Band, Chain, MonitorSettings, Stretch, algorithm_named
+from beardyn_core.monitor.chain.false_alarm_rate import evidence, trimmed_tail
 from beardyn_core.monitor.chain.fault_lines import FaultLines, comb_score
 from beardyn_core.monitor.chain.kurtogram import by_kurtogram, fast_kurtogram
 from beardyn_core.monitor.chain.levels import levels_of, rise
-from beardyn_core.monitor.chain.surprise import evidence, trimmed_tail
 from beardyn_core.monitor.chain.verdict import Verdict, strongest_pattern, temperature_state
 from beardyn_core.monitor.chain.wheel import SECTORS, struck_sectors, without_wheel
 from beardyn_core.monitor.chain.whitening import by_cepstrum, not_whitened

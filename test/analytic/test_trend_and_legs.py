@@ -8,7 +8,7 @@ import pytest
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
 from beardyn_core.measured.trending import remember, remembered
-from beardyn_core.monitor.legs import turning_legs
+from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.monitor.trend import ALARM, LEARNING, STEADY, Trend, record_levels
 from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, _feed, _signal

@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.bending import rates_told, structure
-from beardyn_core.choice.evidence import Evidence
+from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.ringing import levels
 from beardyn_core.effects import ModalStructure
 from beardyn_core.physics.ring_modes import body_of

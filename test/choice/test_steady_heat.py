@@ -10,7 +10,7 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.circumstances import circumstances
+from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.steady_heat import HOTTEST, SteadyHeat, steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
 from beardyn_core.physics.bodies.layout import LOSS_NAMES

@@ -21,7 +21,7 @@ from beardyn_core.cli import main as command
 from beardyn_core.cli import simulate
 from beardyn_core.config import config_folder, load_bearing
 from beardyn_core.monitor.chain import MonitorResult
-from beardyn_core.monitor.chain.patience import WAITED_FOR, NoAnswerError, within
+from beardyn_core.monitor.chain.timeout import WAITED_FOR, NoAnswerError, within
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.record.mcap_scanning import McapScan
@@ -235,7 +235,7 @@ def test_a_monitor_of_one_s_own_that_goes_wrong_is_a_sentence(
 ) -> None:
     from beardyn_core.bearing.kinematics import fault_frequencies
 
-    monkeypatch.setattr("beardyn_core.monitor.chain.named.PATIENCE_S", 0.5)
+    monkeypatch.setattr("beardyn_core.monitor.chain.algorithm_by_name.PATIENCE_S", 0.5)
 
     monitor = Monitor(fault_frequencies(BEARING), BEARING.roller_count, algorithm=algorithm)
     time_ns = np.arange(0, 4 * 25_600, dtype=np.int64) * 1_000_000_000 // 25_600

@@ -38,7 +38,7 @@ def where(*names: str) -> set[str]:
 
 
 def test_pickles_are_read_from_the_cache_alone() -> None:
-    assert where("pickle.loads", "pickle.load") == {"beardyn_core/choice/kept.py"}
+    assert where("pickle.loads", "pickle.load") == {"beardyn_core/choice/choice_cache.py"}
     assert "allow_pickle=True" not in "".join(SOURCES.values())
 
 
@@ -64,7 +64,7 @@ def test_modules_by_a_name_that_a_user_gives_are_monitors_alone() -> None:
                 if not re.match(r"""f?['"]|f'\{__name__\}""", first):
                     computed.add((place, first))
     assert computed == {
-        ("beardyn_core/monitor/chain/named.py", "module_name"),  # --monitor, algorithm
+        ("beardyn_core/monitor/chain/algorithm_by_name.py", "module_name"),  # --monitor, algorithm
         ("beardyn_core/study/code_digest.py", "name"),  # the same module again, for its digest
         ("beardyn_core/base/optional.py", "name"),  # libraries of an extra
         ("beardyn_core/cli/main.py", "module_of(name)"),  # the commands
@@ -72,7 +72,7 @@ def test_modules_by_a_name_that_a_user_gives_are_monitors_alone() -> None:
 
 
 def test_a_monitor_comes_from_the_working_folder_or_the_path_and_by_name_only(tmp_path: Path) -> None:
-    from beardyn_core.monitor.chain.named import algorithm_named
+    from beardyn_core.monitor.chain.algorithm_by_name import algorithm_named
 
     with pytest.raises(InputError, match="module:function"):
         algorithm_named(str(tmp_path / "monitor.py"))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.choice.circumstances import LoadCase
+from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.choice.statics import Statics
 from beardyn_core.cli.structure import zone_yield
 from beardyn_core.config.load import read_scene_mapping, read_scene_text
@@ -20,9 +20,9 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.physics import ring_modes as structure
 from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS
 from beardyn_core.physics.ring_modes import ModalBody, _bend, _kick, body_of, structure_params
-from beardyn_core.physics.statics import rest
+from beardyn_core.physics.statics import initial_equilibrium
 from beardyn_core.physics.statics.equilibria import equilibrium
-from beardyn_core.physics.statics.rest import rest_under, springs_under
+from beardyn_core.physics.statics.initial_equilibrium import rest_under, springs_under
 from beardyn_core.physics.suspension import mounting_params
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
@@ -230,7 +230,7 @@ def test_rest_in_a_bent_box_settles_by_moments(
         solved.append(1.0)
         return equilibrium(*words, **more)
 
-    monkeypatch.setattr(rest, "equilibrium", solve)
+    monkeypatch.setattr(initial_equilibrium, "equilibrium", solve)
     scene = modal_scene(cup="suspended", journal_tilt="locked")
     rest_under(scene, body(), [0.0, 0.0, force, moment, 0.0, 0.0], 0.0, laminae=6, coupling=None)
     assert len(solved) <= 3

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import judged_by
 from beardyn_core.follow.learning import known, widened
-from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
 from test.follow.synthetic import NAMES, drawn, taught
 

@@ -9,8 +9,8 @@ import pytest
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.follow.belief import Belief, carried, corrected
 from beardyn_core.follow.condition import ConditionBelief
+from beardyn_core.follow.cubature_filter import Belief, carried, corrected
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import (
     SOUND,

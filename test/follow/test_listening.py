@@ -16,8 +16,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.intake import StretchIntake
-from beardyn_core.follow.listening import estimates_of, stretches_of
+from beardyn_core.follow.inference import estimates_of, stretches_of
+from beardyn_core.follow.windowing import StretchIntake
 from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check

@@ -7,7 +7,7 @@ import pytest
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.follow.passages import NAMES, WAYS, of_passages
+from beardyn_core.follow.entry_exit_features import NAMES, WAYS, of_passages
 from beardyn_core.monitor.chain import Stretch
 from beardyn_core.monitor.severity import spacing_of
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry, inline
-from beardyn_core.physics.bodies.exchange import load_vector, store_vector
-from beardyn_core.physics.bodies.held import Held
+from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
+from beardyn_core.physics.bodies.friction_substeps import Held
 from beardyn_core.physics.bodies.orbit import Body, View
 from beardyn_core.physics.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.physics.generator_line import generator_line, line_slip

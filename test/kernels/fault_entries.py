@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry, inline
-from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, View
 from beardyn_core.physics.defect import (
     find_damage,
@@ -20,9 +20,9 @@ from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
 from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
-from beardyn_core.physics.tiers.balanced_roller import cone_waves
+from beardyn_core.physics.tiers.massless_roller import over_patches
+from beardyn_core.physics.tiers.planar_roller import cone_waves
 from beardyn_core.physics.tiers.rolling_waves import fetch_waves, wave_places, waved
-from beardyn_core.physics.tiers.spring_roller import over_patches
 from beardyn_core.physics.waviness import wave_gap
 from test.kernels.entries import pocket_of
 

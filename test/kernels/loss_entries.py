@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry
-from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, View
 from beardyn_core.physics.drag import prepare_drag, push_drag
 from beardyn_core.physics.lanes.solve import add_couple

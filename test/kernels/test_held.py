@@ -11,8 +11,8 @@ import pytest
 from beardyn_core.base.jit import entry
 from beardyn_core.effects import CoulombTraction, LoadSharingTraction
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.bodies.exchange import store_vector
-from beardyn_core.physics.bodies.held import Held, hold_contact, is_fresh, remember
+from beardyn_core.physics.bodies.contact_output import store_vector
+from beardyn_core.physics.bodies.friction_substeps import Held, hold_contact, is_fresh, remember
 from beardyn_core.physics.film import log2_entrainment
 from beardyn_core.physics.generator_line import generator_line, line_slip
 from beardyn_core.physics.laminae import Raceway, lamina_sums

@@ -15,7 +15,7 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS, entry, inline
 from beardyn_core.physics.bodies.stage_timer import PERIOD, mark, time_step
-from beardyn_core.physics.bodies.stages import (
+from beardyn_core.physics.bodies.step_stages import (
     CAGE,
     CONTACT,
     CYCLES,
@@ -150,7 +150,7 @@ import numpy as np
 from beardyn_core.base.jit import entry
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.bodies.stage_timer import mark_result
-from beardyn_core.physics.bodies.stages import FILM, new_timers
+from beardyn_core.physics.bodies.step_stages import FILM, new_timers
 
 @entry
 def marked(lanes, values, timers):

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from beardyn_core.base.jit import entry
-from beardyn_core.physics.bodies.exchange import store_vector
+from beardyn_core.physics.bodies.contact_output import store_vector
 from beardyn_core.physics.bodies.layout import SUM_FIELDS
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.spring_roller import (
+from beardyn_core.physics.tiers.massless_roller import (
     _LENGTH_CC,
     _in_cages_frame,
     add_length,

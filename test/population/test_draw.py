@@ -13,7 +13,7 @@ from scipy.stats import spearmanr
 from beardyn_core.base.errors import InputError
 from beardyn_core.config import json_schema, read_sweep, shipped_names
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.places import AbsentError, place_of, with_value
+from beardyn_core.population.key_paths import AbsentError, place_of, with_value
 from beardyn_core.population.table import splits_of, unit_in
 from beardyn_core.scene.sweep import BEARING, Normal, Split, Sweep, Uniform, per_of
 from test.population.sweeps import tiny

@@ -18,9 +18,9 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.population.batch import Array, Batch, Made
-from beardyn_core.population.closing import verify
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.features import NAMES
+from beardyn_core.population.finalizing import verify
 from beardyn_core.population.store import SignalStore
 from beardyn_core.population.sweeping import Progress
 from beardyn_core.population.table import write_table

@@ -10,9 +10,9 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep, scene_text
-from beardyn_core.population.asked import asked
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.plan import plan_of
+from beardyn_core.population.request import asked
 from test.population.sweeps import TINY, planned, tiny
 
 

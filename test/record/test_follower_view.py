@@ -13,10 +13,10 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, THIRDS
+from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.residual import residual_of
 from beardyn_core.follow.shipped import shipped_for
-from beardyn_core.follow.told import residual_object, step_object
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import encode_string, encode_told
 from beardyn_core.record.reading import read_run

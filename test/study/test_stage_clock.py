@@ -10,7 +10,7 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.simulate import json_object, text
-from beardyn_core.physics.bodies.stages import KERNEL_STAGES
+from beardyn_core.physics.bodies.step_stages import KERNEL_STAGES
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.scene import Scene

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.circumstances import circumstances
+from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.steady_heat import steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
 from beardyn_core.physics.bodies.layout import LOSS_NAMES, SIGNAL_TORQUE

@@ -1,34 +1,34 @@
 """The reference monitoring chain: plain functions, each of which can be replaced.
 
-============ ========================================================================
-module       responsibility
-============ ========================================================================
-inputs       what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
-diagnosable  tells what no fault can be heard in
-kurtogram    another select_band: where the spectral kurtosis is largest
-whitening    select_band and whiten: all that is usable, every frequency with the same weight
-wheel        takes out what turns with the wheel (flats, polygons)
-tracking     track: over the angle of the shaft, as logarithm
-surprise     how often noise has such lines: evidence, and the threshold of a stated rate
-rivals       evenly spaced lines that no pattern explains
-explanations what would explain such lines: another speed, another bearing
-fault_lines  score: power on the lines of each fault against noise
-strikes      how much of the power as measured comes in short strikes
-levels       RMS, kurtosis, crest factor and their trend
-verdict      decide: which fault is called, and why; the temperature rule
-result       what an algorithm answers
-chain        `Chain`: the steps put together, each replaceable
-patience     waits for a function, but not for ever
-named        finds an algorithm by its name ``module:function``, and checks its answer
-============ ========================================================================
+================= ========================================================================================
+module            responsibility
+================= ========================================================================================
+inputs            what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
+diagnosable       tells what no fault can be heard in
+kurtogram         another select_band: where the spectral kurtosis is largest
+whitening         select_band and whiten: all that is usable, every frequency with the same weight
+wheel             takes out what turns with the wheel (flats, polygons)
+tracking          track: over the angle of the shaft, as logarithm
+false_alarm_rate  how often noise has such lines: evidence, and the threshold of a stated rate
+competing_orders  evenly spaced lines that no pattern explains
+explanations      what would explain such lines: another speed, another bearing
+fault_lines       score: power on the lines of each fault against noise
+impulsiveness     how much of the power as measured comes in short strikes
+levels            RMS, kurtosis, crest factor and their trend
+verdict           decide: which fault is called, and why; the temperature rule
+result            what an algorithm answers
+chain             `Chain`: the steps put together, each replaceable
+timeout           waits for a function, but not for ever
+algorithm_by_name finds an algorithm by its name ``module:function``, and checks its answer
+================= ========================================================================================
 """
 
+from beardyn_core.monitor.chain.algorithm_by_name import algorithm_named, answer_of
 from beardyn_core.monitor.chain.chain import REFERENCE, Algorithm, Chain
 from beardyn_core.monitor.chain.explanations import Explanation
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, Line
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
-from beardyn_core.monitor.chain.named import algorithm_named, answer_of
 from beardyn_core.monitor.chain.result import VERDICTS, MonitorResult
 from beardyn_core.monitor.chain.verdict import Verdict
 

@@ -12,11 +12,11 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
+from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
 from beardyn_core.monitor.chain.levels import levels_of, rise
 from beardyn_core.monitor.chain.result import MonitorResult
-from beardyn_core.monitor.chain.strikes import with_strikes
 from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band

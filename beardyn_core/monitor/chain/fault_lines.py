@@ -19,9 +19,16 @@ import numpy as np
 
 from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.monitor.chain.competing_orders import (
+    LOWEST_COMB,
+    Rival,
+    explained,
+    reach,
+    shaft_of,
+    strongest_rival,
+)
+from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, threshold
 from beardyn_core.monitor.chain.inputs import MonitorSettings
-from beardyn_core.monitor.chain.rivals import LOWEST_COMB, Rival, explained, reach, shaft_of, strongest_rival
-from beardyn_core.monitor.chain.surprise import PLACES_PER_RESOLUTION, evidence, threshold
 from beardyn_core.monitor.features import OrderSpectrum, line_at, order_spectrum
 
 CUP, CONE, ROLLER = FAULTS = ("cup", "cone", "roller")

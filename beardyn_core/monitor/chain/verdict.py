@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from math import isnan, log
 from typing import Annotated as A
 
+from beardyn_core.monitor.chain.competing_orders import related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
 from beardyn_core.monitor.chain.explanations import Explanation, explanations
 from beardyn_core.monitor.chain.fault_lines import COMB, FAULTS, ROLLER, Candidate, FaultLines
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.monitor.chain.rivals import related
 
 HEALTHY, UNEXPLAINED, HOT_BOX = "healthy", "unexplained", "hot_box"
 UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"

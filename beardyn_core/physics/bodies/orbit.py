@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import load_vector
+from beardyn_core.physics.bodies.contact_output import load_vector
 from beardyn_core.physics.lanes.lane_math import cos_sin, sqrt
 from beardyn_core.physics.lanes.vectors import Vector, add, add_scaled, cross, dot, scale, subtract, turn_in
 

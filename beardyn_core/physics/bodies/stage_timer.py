@@ -25,7 +25,16 @@ from numba.core import cgutils
 from numba.extending import intrinsic, overload
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.stages import CYCLES, EMPTY, LAST, MARKS, OWN, ROW, TIMED_STEPS, TIMER_SLOTS
+from beardyn_core.physics.bodies.step_stages import (
+    CYCLES,
+    EMPTY,
+    LAST,
+    MARKS,
+    OWN,
+    ROW,
+    TIMED_STEPS,
+    TIMER_SLOTS,
+)
 from beardyn_core.physics.lanes.lanes import VectorType
 
 # No multiple of the steps that hold friction, so that steps timed one after the other take turns.
@@ -109,7 +118,7 @@ def _overload_mark(timers, stage, _result):
 def time_step(timers, step):
     """Begin a step of the block: decide whether it is timed.
 
-    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `bodies.stages`; without (``None``)
+    ``timers`` [CYCLES + TIMED_STEPS, TIMER_SLOTS] are the counters of `bodies.step_stages`; without
     this and the marks compile to nothing.
     """
     if timers is None:

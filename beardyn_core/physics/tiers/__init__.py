@@ -16,8 +16,8 @@ friction_steps    the step that friction asks for, without an equilibrium
 tiers             what each tier computes with
 cage_watch        speeds of the cages over those of pure rolling
 cage_bodies       cages as bodies: free, following the rings, or prescribed
-balanced_roller   a roller between cup, cone and rib, implicit (quasistatic tier)
-spring_roller     a roller as one spring (lumped tier)
+planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
+massless_roller   a roller as one spring (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_bending bending of the axlebox in the fast tiers
@@ -28,7 +28,7 @@ parameters        named tuples of kernel parameters; an absent effect is None
 tier_parameters   parameters of the tiers without roller dynamics
 tier_bending      bending of the axlebox in these tiers
 tier_waves        waviness as the rollers of the lumped tier meet it
-loose_rollers     rollers in the pockets of cages that turn and hang (quasistatic tier)
+pocket_play       rollers in the pockets of cages that turn and hang (quasistatic tier)
 rolling_waves     waviness under rollers that orbit kinematically (lumped tier)
 kinematics        world poses, twists and contact forces from the kernel's state
 ================= =====================================================================

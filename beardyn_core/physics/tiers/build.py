@@ -20,7 +20,7 @@ from beardyn_core.physics.bodies.layout import (
     ROLLER_CONSTANTS,
 )
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
-from beardyn_core.physics.bodies.stages import new_timers
+from beardyn_core.physics.bodies.step_stages import new_timers
 from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params
@@ -47,7 +47,7 @@ from beardyn_core.physics.tiers.parameters import (
 from beardyn_core.physics.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
-# steps from one time that friction of the raceways is worked out to the next, see `physics.bodies.held`
+# steps from one time that friction of the raceways is worked out to the next, see `bodies.friction_substeps`
 HELD_STEPS = 3.0
 LEAST_SHARE, MOST_SHARE = 1.0 / 12.0, 0.25
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]

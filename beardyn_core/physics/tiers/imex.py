@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import clear_largest
-from beardyn_core.physics.bodies.held import is_fresh
+from beardyn_core.physics.bodies.contact_output import clear_largest
+from beardyn_core.physics.bodies.friction_substeps import is_fresh
 from beardyn_core.physics.bodies.rigid_bodies import (
     collect_energy,
     collect_reactions,
@@ -14,7 +14,7 @@ from beardyn_core.physics.bodies.rigid_bodies import (
     sum_lanes,
 )
 from beardyn_core.physics.bodies.stage_timer import mark, time_step
-from beardyn_core.physics.bodies.stages import CAGE, LOSS, RINGS
+from beardyn_core.physics.bodies.step_stages import CAGE, LOSS, RINGS
 from beardyn_core.physics.journal import add_bending, axle_energy, kick_journal
 from beardyn_core.physics.land import land_of, push_lands, settle_lands
 from beardyn_core.physics.lanes.lanes import align_stack

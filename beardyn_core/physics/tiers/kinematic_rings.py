@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import store_vector
+from beardyn_core.physics.bodies.contact_output import store_vector
 from beardyn_core.physics.bodies.rigid_bodies import body_vector
 from beardyn_core.physics.journal import hold_axle
 from beardyn_core.physics.tiers.kinematic_bending import hold_bending, kick_modes

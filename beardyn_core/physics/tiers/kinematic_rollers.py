@@ -9,7 +9,12 @@ import math
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import ContactOutput, output_contact, store_vector, watch_largest
+from beardyn_core.physics.bodies.contact_output import (
+    ContactOutput,
+    output_contact,
+    store_vector,
+    watch_largest,
+)
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.bodies.rigid_bodies import X, Y, Z
 from beardyn_core.physics.drag import drag_torque

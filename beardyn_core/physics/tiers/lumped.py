@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.jit import entry
-from beardyn_core.physics.bodies.exchange import clear_largest
+from beardyn_core.physics.bodies.contact_output import clear_largest
 from beardyn_core.physics.bodies.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
 from beardyn_core.physics.tiers.kinematic_bending import show_openings, turn_reaction
 from beardyn_core.physics.tiers.kinematic_rings import add_sliding, hold_sliding, hold_stiffness
@@ -25,7 +25,7 @@ from beardyn_core.physics.tiers.kinematic_step import (
     copy_table,
     finish_step,
 )
-from beardyn_core.physics.tiers.spring_roller import (
+from beardyn_core.physics.tiers.massless_roller import (
     TREND_EXTRAS,
     add_tilt,
     begin_largest,

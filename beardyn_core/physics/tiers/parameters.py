@@ -64,7 +64,7 @@ class ExplicitParams(NamedTuple):
 
 
 class HeldParams(NamedTuple):
-    """Friction of the raceways that is worked out in every few steps, see `physics.bodies.held`."""
+    """Friction of the raceways that is worked out in every few steps, see `bodies.friction_substeps`."""
 
     steps: float  # from one time to the next
     memory: Any  # [2 x block + ring, HELD_COEFFICIENT + lamina, lane]
@@ -89,7 +89,7 @@ class EffectParams(NamedTuple):
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None
-    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `physics.bodies.stages`, None without
+    timers: Any  # [CYCLES + TIMED_STEPS, TIMER_SLOTS], see `physics.bodies.step_stages`, None without
 
 
 class Parameters(NamedTuple):

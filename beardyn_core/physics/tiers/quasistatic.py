@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import clear_largest, load_vector, store_vector
+from beardyn_core.physics.bodies.contact_output import clear_largest, load_vector, store_vector
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.bodies.rigid_bodies import body_vector
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
@@ -12,13 +12,6 @@ from beardyn_core.physics.lanes.vectors import add_scaled
 from beardyn_core.physics.pocket import pocket_torque
 from beardyn_core.physics.rib import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
-from beardyn_core.physics.tiers.balanced_roller import (
-    balance,
-    cone_view,
-    free_flight,
-    less_turned,
-    turned_axis,
-)
 from beardyn_core.physics.tiers.kinematic_bending import (
     PLACE,
     SPEED,
@@ -69,7 +62,14 @@ from beardyn_core.physics.tiers.kinematic_step import (
     copy_table,
     finish_step,
 )
-from beardyn_core.physics.tiers.loose_rollers import (
+from beardyn_core.physics.tiers.planar_roller import (
+    balance,
+    cone_view,
+    free_flight,
+    less_turned,
+    turned_axis,
+)
+from beardyn_core.physics.tiers.pocket_play import (
     ahead_of,
     begin_block,
     cage_rates,

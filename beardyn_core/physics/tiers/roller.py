@@ -14,10 +14,10 @@ from __future__ import annotations
 from beardyn_core.base.jit import inline
 from beardyn_core.physics import raceway
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.exchange import Here, account_gravity, load_vector, store_vector
+from beardyn_core.physics.bodies.contact_output import Here, account_gravity, load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, angular_velocity, drift, ring_view, weight
 from beardyn_core.physics.bodies.stage_timer import mark
-from beardyn_core.physics.bodies.stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
+from beardyn_core.physics.bodies.step_stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
 from beardyn_core.physics.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.physics.lanes.solve import inertia_matrix, solve
 from beardyn_core.physics.lanes.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.physics.slow_thermal import Warmth
 from beardyn_core.physics.tiers.cage_watch import CageWatch
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.state import State
-from beardyn_core.physics.warming import Warmth
 from beardyn_core.rail.load_buffer import LoadBuffer
 
 

@@ -171,7 +171,7 @@ def settle_lumped(
         tangent = 10.0 / 9.0 * pressed / np.maximum(approach, 1e-12) * (pressed > 0.5 * idle)
         force = np.maximum(pressed + 0.5 * idle, idle)
         stiffness = (normal * tangent[:, None]).T @ normal + np.diag(1e3 * scale**2 + springs)
-        # what the lengths of the rollers hold of the tilt, `physics.tiers.spring_roller.add_length`
+        # what the lengths of the rollers hold of the tilt, `physics.tiers.massless_roller.add_length`
         turned, depth = tilts @ place[3:held], np.maximum(approach, 1e-12)
         lifted = np.maximum(np.abs(turned) * spring.reach / depth, 1.0)
         share = (1.0 - 17.0 / 27.0 / np.sqrt(lifted)) / lifted

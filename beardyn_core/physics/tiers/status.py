@@ -94,7 +94,7 @@ def is_fatal(status: int) -> bool:
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     """Work out the chatter index of the last block for each raceway contact, shape [raceway, block, lane].
 
-    The rms of what flips in the friction force (`physics.bodies.exchange.watch_chatter`) over the rms of the
+    The rms of what flips in the friction force (`bodies.contact_output.watch_chatter`) over the rms of the
     friction capacity. Full friction that flips every step has the index 2, every second step 0.7; smooth
     friction has nearly 0, and a strike what it is beside its own load.
     """

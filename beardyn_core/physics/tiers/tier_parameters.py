@@ -95,7 +95,7 @@ class SpringParams(NamedTuple):
 
 
 class LooseParams(NamedTuple):
-    """Rollers that move in the pockets of their cages, see `physics.tiers.loose_rollers`."""
+    """Rollers that move in the pockets of their cages, see `physics.tiers.pocket_play`."""
 
     stiffness: float  # of both touches of a bar [N/m]
     damping: float  # [N s/m]

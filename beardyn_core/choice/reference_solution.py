@@ -11,8 +11,8 @@ import numpy as np
 
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.choice.circumstances import Circumstances, circumstances
 from beardyn_core.choice.costs import Costs, measured_costs
+from beardyn_core.choice.load_cases import Circumstances, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.ringing import Bounce, bounce
 from beardyn_core.choice.statics import Statics

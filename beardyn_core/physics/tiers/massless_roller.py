@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.exchange import load_vector, store_vector
+from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.layout import (
     COUNTED,
     OVERSIZE,

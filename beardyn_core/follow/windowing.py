@@ -11,7 +11,7 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.listening import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured
+from beardyn_core.follow.inference import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured
 from beardyn_core.monitor.chain import Stretch
 
 _SAME_RATE = 1e-3

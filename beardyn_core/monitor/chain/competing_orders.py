@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Bool, Float
-from beardyn_core.monitor.chain.surprise import PLACES_PER_RESOLUTION, evidence
+from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence
 from beardyn_core.monitor.features import OrderSpectrum
 
 LOWEST_COMB = 1.2  # fundamental of a rival: below are the cage's own orders and the wheel's, [-]

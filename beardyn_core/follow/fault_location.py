@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.follow.learnt import LEVELS
+from beardyn_core.follow.conformal import LEVELS
 
 
 @dataclass(frozen=True)

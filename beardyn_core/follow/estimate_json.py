@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
+from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
-from beardyn_core.follow.learnt import LEVELS
 from beardyn_core.follow.residual import Residual
 
 

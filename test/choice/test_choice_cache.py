@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.choice import kept as keeping
-from beardyn_core.choice import load
-from beardyn_core.choice.kept import folder, kept, typical
+from beardyn_core.choice import choice_cache, load
+from beardyn_core.choice.choice_cache import folder, kept, typical
 from beardyn_core.choice.rule import Choice
 from beardyn_core.config import read_scene
 from beardyn_core.config.load import OpenScene
@@ -22,7 +21,7 @@ from beardyn_core.scene.scene import Free
 @pytest.fixture(autouse=True)
 def _empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BEARDYN_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(keeping, "_known", {})
+    monkeypatch.setattr(choice_cache, "_known", {})
 
 
 @pytest.fixture
@@ -52,7 +51,7 @@ def counted(choice: Choice) -> tuple[Callable[[], Choice], list[int]]:
 
 def asked(scene: object, work_out: Callable[[], Choice], free: Free | None = None) -> Choice:
     """Ask as a new process would, which remembers nothing."""
-    keeping._known.clear()
+    choice_cache._known.clear()
     return kept(scene, free or Free(), None, work_out)  # type: ignore[arg-type]
 
 
@@ -77,7 +76,7 @@ def test_the_seconds_of_a_choice_are_announced_once(
     load.choice_for(replace(found, scene=replace(found.scene, duration=7.0)))
     assert said == [load.CHOOSING]
     load._announce.cache_clear()
-    keeping._known.clear()
+    choice_cache._known.clear()
     load.choice_for(found)
     assert said == [load.CHOOSING], "it was kept, and took no seconds"
 
@@ -112,7 +111,7 @@ def test_name_and_purpose_make_no_other_choice(found: OpenScene) -> None:
 def test_other_rules_or_costs_make_another(found: OpenScene, monkeypatch: pytest.MonkeyPatch) -> None:
     work_out, calls = counted(made())
     asked(found.scene, work_out)
-    monkeypatch.setattr(keeping, "_rules", lambda: "of another version")
+    monkeypatch.setattr(choice_cache, "_rules", lambda: "of another version")
     asked(found.scene, work_out)
     assert len(calls) == 2
 
@@ -169,5 +168,5 @@ def test_chance_decides_nothing(found: OpenScene) -> None:
 def test_every_shipped_scene_has_a_key() -> None:
     from beardyn_core.config.folders import shipped_names
 
-    keys = {keeping._key(read_scene(name).scene, Free(), None) for name in shipped_names("scenes")}
+    keys = {choice_cache._key(read_scene(name).scene, Free(), None) for name in shipped_names("scenes")}
     assert len(keys) > 1

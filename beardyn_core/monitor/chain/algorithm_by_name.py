@@ -13,8 +13,8 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.chain import REFERENCE, Algorithm
 from beardyn_core.monitor.chain.fault_lines import FAULTS
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
-from beardyn_core.monitor.chain.patience import NoAnswerError, within
 from beardyn_core.monitor.chain.result import VERDICTS, MonitorResult
+from beardyn_core.monitor.chain.timeout import NoAnswerError, within
 
 _CORE = Path(__file__).resolve().parents[2]
 _STANDARD_LIBRARY = Path(traceback.__file__).parent

@@ -12,8 +12,8 @@ from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
-from beardyn_core.choice.evidence import MOST_DB, Evidence, decibels
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
+from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
