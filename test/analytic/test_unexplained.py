@@ -16,7 +16,7 @@ from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorResult, Stretch
 from beardyn_core.monitor.chain.chain import squared_envelope
 from beardyn_core.monitor.chain.explanations import explanations
 from beardyn_core.monitor.chain.fault_lines import comb_score, fault_patterns
-from beardyn_core.monitor.chain.strikes import with_strikes
+from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.tracking import logarithm_by_angle
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.study.monitored_recording import EXIT_CODES, Finding, conclude, worst
