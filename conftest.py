@@ -41,7 +41,7 @@ LONG_FILES = (
     "test/ros/test_several_axleboxes.py",
     "test/ros/test_nothing_lost.py",
     "test/population/test_sweeping.py",
-    "test/engine/test_engine.py",
+    "test/experiments/test_engine.py",
     "test/analytic/test_dynamics_steady.py",
     "test/analytic/test_missing_rollers.py",
     "evidence/hard/test_hard.py",

@@ -14,7 +14,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 
 if TYPE_CHECKING:
-    from beardyn_core.engine import Cluster
+    from beardyn_core.experiments import Cluster
     from beardyn_core.population.sweeping import Swept
 
 DONE, DIFFERS, INTERRUPTED = 0, 3, 130
@@ -76,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     if args.sweep is None:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
     from beardyn_core.api.sweeping import Lines, cluster_of
-    from beardyn_core.engine import EngineError
+    from beardyn_core.experiments import EngineError
     from beardyn_core.population.request import asked
     from beardyn_core.population.sweeping import conduct
 

@@ -76,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import load_trial
     from beardyn_core.choice.trial import leaves_open
-    from beardyn_core.engine.cluster import core_count
+    from beardyn_core.experiments.cluster import core_count
     from beardyn_core.study.trial import conduct, plan_of, warm
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult

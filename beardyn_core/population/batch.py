@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.population.draw import Row
 from beardyn_core.population.features import NAMES, features_of
 from beardyn_core.population.plan import Plan, bearing_name, check_rows
@@ -25,7 +26,6 @@ from beardyn_core.record.tables import parts_of, signal_of
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
-from beardyn_core.study.code_digest import simulator_digest
 from beardyn_core.study.compiling import warm_once
 
 try:

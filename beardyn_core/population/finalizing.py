@@ -10,7 +10,7 @@ from typing import Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import write_whole
-from beardyn_core.engine import Cluster
+from beardyn_core.experiments import Cluster
 from beardyn_core.population.data_card import card_text
 from beardyn_core.population.features import UNITS as FEATURE_UNITS
 from beardyn_core.population.folder import CARD, SUMS, read_about, write_about

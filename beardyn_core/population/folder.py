@@ -13,11 +13,11 @@ from typing import Any, BinaryIO
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import is_being_written, open_to_append, write_whole
 from beardyn_core.base.versions import versions
+from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.population.batch import Batch
 from beardyn_core.population.plan import Plan
 from beardyn_core.population.store import SIGNALS, forget
 from beardyn_core.population.table import FEATURES, RUNS
-from beardyn_core.study.code_digest import simulator_digest
 
 ABOUT, JOURNAL, CARD, SUMS = "set.json", "journal.jsonl", "README.md", "SHA256SUMS"
 FILES = (ABOUT, JOURNAL, CARD, SUMS, RUNS, FEATURES)

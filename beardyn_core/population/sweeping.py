@@ -12,7 +12,8 @@ from typing import Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import held_back, whole
-from beardyn_core.engine import Cluster, Ended, Engine
+from beardyn_core.experiments import Cluster, Ended, Engine
+from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.population.batch import FAILED, Batch, Made, checked_batch, run_batch
 from beardyn_core.population.draw import Row, rows_of
 from beardyn_core.population.features import NAMES
@@ -28,7 +29,6 @@ from beardyn_core.population.folder import (
 )
 from beardyn_core.population.plan import CHECKED_HERE, Plan
 from beardyn_core.population.store import SignalStore
-from beardyn_core.study.code_digest import simulator_digest
 from beardyn_core.study.compiling import is_compiled
 
 _CHECKED_AT_ONCE = 256

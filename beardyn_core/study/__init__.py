@@ -1,8 +1,8 @@
 """Studies with a twin at the desk: runs, ladders, trials, demonstrations, and their reports.
 
-=================== =========================================================================
+=================== =============================================================================
 module              responsibility
-=================== =========================================================================
+=================== =============================================================================
 desk_run            a scene from start to end, with its means
 train_run           several axleboxes at once, in a few threads
 monitored_recording a monitor beside a recording, or over one; its results in words and messages
@@ -11,7 +11,6 @@ summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 measured_severity   how wide the spall is that a monitor found in a run
-code_digest         hashes of the code of a monitor and of the simulator
 compiling           kernels compiled once on a machine, whatever processes want them
 trial               its runs with a monitor beside each, kept and taken up again
 trial_result        rates with intervals, smallest sizes
@@ -26,5 +25,5 @@ ladder_picture      accuracy against wall time in one picture
 table               tables for the terminal and for pages, numbers in few digits
 contacts_report     results of the contact laboratory as tables and as JSON
 contacts_picture    pictures of the contact laboratory
-=================== =========================================================================
+=================== =============================================================================
 """

@@ -20,7 +20,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history, load_of_run
 from beardyn_core.scene.load import LoadHistory

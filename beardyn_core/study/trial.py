@@ -19,13 +19,13 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import trial_scene, with_choices
 from beardyn_core.config import scene_text
 from beardyn_core.config.content import files_of
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments.code_digest import monitor_digest, simulator_digest
 from beardyn_core.monitor.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import Cell, Trial
-from beardyn_core.study.code_digest import monitor_digest, simulator_digest
 from beardyn_core.study.monitored_recording import WAITING, Finding, conclude
 from beardyn_core.twin import Twin
 

@@ -22,6 +22,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import written
 from beardyn_core.config import load_bearing
 from beardyn_core.config.yaml_text import scene_text
+from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import SOUND, WAITING, Followed
@@ -29,7 +30,6 @@ from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
-from beardyn_core.study.code_digest import simulator_digest
 from evidence.pages import DOCS, with_section
 
 PAGE = DOCS / "estimate.md"

@@ -21,7 +21,7 @@ import numpy as np
 import beardyn_core
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.tiers import TIERS

@@ -15,7 +15,7 @@ import psutil
 
 from beardyn_core.base.optional import library
 from beardyn_core.config import read_sweep
-from beardyn_core.engine import Cluster, Engine, core_count
+from beardyn_core.experiments import Cluster, Engine, core_count
 from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.folder import done_rows, size_of

@@ -12,7 +12,7 @@ from scipy.io import savemat
 
 from beardyn_core.config import read_sweep
 from beardyn_core.effects import ModalStructure
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.plan import plan_of
 from evidence.population import page as page_module

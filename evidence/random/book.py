@@ -10,7 +10,7 @@ from dataclasses import asdict, fields
 from importlib.metadata import version
 from pathlib import Path
 
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from evidence.random.trial import FAILED, Tried, tried
 
 AT_ONCE = 20  # scenes of a task: a result is on disk at the latest after some seconds

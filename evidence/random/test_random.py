@@ -15,7 +15,7 @@ import pytest
 
 from beardyn_core.base.edge import At
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.engine import Ended
+from beardyn_core.experiments import Ended
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block

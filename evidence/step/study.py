@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX
 from beardyn_core.study.measures import NOMINAL_BANDS

@@ -15,7 +15,8 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.config.structure import modes_of_effects, mounting_of, table_path
 from beardyn_core.effects import ModalStructure
-from beardyn_core.engine import all_of, core_count
+from beardyn_core.experiments import core_count
+from beardyn_core.experiments.loop import all_of
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.build import load_zone

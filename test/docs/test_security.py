@@ -65,7 +65,7 @@ def test_modules_by_a_name_that_a_user_gives_are_monitors_alone() -> None:
                     computed.add((place, first))
     assert computed == {
         ("beardyn_core/monitor/chain/algorithm_by_name.py", "module_name"),  # --monitor, algorithm
-        ("beardyn_core/study/code_digest.py", "name"),  # the same module again, for its digest
+        ("beardyn_core/experiments/code_digest.py", "name"),  # the same module again, for its digest
         ("beardyn_core/base/optional.py", "name"),  # libraries of an extra
         ("beardyn_core/cli/main.py", "module_of(name)"),  # the commands
     }
@@ -152,7 +152,9 @@ def test_a_live_view_starts_the_viewer_by_these_alone() -> None:
 
 def test_dask_of_this_machine_listens_on_this_machine_only() -> None:
     (made,) = (
-        node for node in CALLS["beardyn_core/engine/local.py"] if ast.unparse(node.func) == "LocalCluster"
+        node
+        for node in CALLS["beardyn_core/experiments/local.py"]
+        if ast.unparse(node.func) == "LocalCluster"
     )
     said = {keyword.arg: ast.unparse(keyword.value) for keyword in made.keywords}
     assert said["host"] == "'127.0.0.1'"

@@ -40,7 +40,7 @@ from beardyn_core.config import (
 )
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.engine import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.sensors.block import Block

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.engine import Cluster
-from beardyn_core.engine.cluster import LocalCluster
+from beardyn_core.experiments import Cluster
+from beardyn_core.experiments.cluster import LocalCluster
 from beardyn_core.population.sweeping import Progress, conduct
 from test.population.sweeps import planned
 

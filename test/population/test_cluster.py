@@ -20,11 +20,11 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.config import read_sweep
-from beardyn_core.engine import Cluster, Engine, EngineError, Tls
+from beardyn_core.experiments import Cluster, Engine, EngineError, Tls
 from beardyn_core.population.folder import done_rows
 from beardyn_core.population.plan import plan_of
 from beardyn_core.population.sweeping import conduct
-from test.engine.work import squared
+from test.experiments.work import squared
 from test.population.sweeps import tiny
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -13,8 +13,8 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
-from beardyn_core.engine import Cluster
-from beardyn_core.engine.cluster import LocalCluster
+from beardyn_core.experiments import Cluster
+from beardyn_core.experiments.cluster import LocalCluster
 from beardyn_core.population import sweeping
 from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of

@@ -1,4 +1,4 @@
-"""The process that holds a scheduler and its workers: ``python -m beardyn_core.engine.local SETTINGS``.
+"""The process that holds a scheduler and its workers: ``python -m beardyn_core.experiments.local SETTINGS``.
 
 It writes its address as a line of JSON, and ends when its standard input does.
 """

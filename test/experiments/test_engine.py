@@ -16,8 +16,9 @@ from typing import Any
 import psutil
 import pytest
 
-from beardyn_core.engine import Cluster, Engine, EngineError, Tls, all_of
-from test.engine.work import fatal, held_for, hungry, slow, squared, wrong
+from beardyn_core.experiments import Cluster, Engine, EngineError, Tls
+from beardyn_core.experiments.loop import all_of
+from test.experiments.work import fatal, held_for, hungry, slow, squared, wrong
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -147,8 +148,8 @@ def test_nothing_is_left_behind(tmp_path: Path) -> None:
 def test_a_script_without_a_main_guard_may_use_it(tmp_path: Path) -> None:
     """Processes of ``multiprocessing`` would run the script again in each of them."""
     (tmp_path / "script.py").write_text(
-        "from beardyn_core.engine import Cluster, Engine\n"
-        "from test.engine.work import squared\n"
+        "from beardyn_core.experiments import Cluster, Engine\n"
+        "from test.experiments.work import squared\n"
         "with Engine(Cluster(workers=1)) as engine:\n"
         "    print([each.value[0] for each in engine.run(squared, [5])])\n"
     )

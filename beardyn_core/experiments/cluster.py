@@ -114,7 +114,7 @@ class LocalCluster:
 
     def __init__(self, workers: int, memory: float | None) -> None:
         settings = {"workers": workers, "memory": memory}
-        command = [sys.executable, "-m", "beardyn_core.engine.local", json.dumps(settings)]
+        command = [sys.executable, "-m", "beardyn_core.experiments.local", json.dumps(settings)]
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 (its processes write there to their end)
         self._process = subprocess.Popen(
             command,

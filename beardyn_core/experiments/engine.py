@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import queue
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from types import TracebackType
@@ -18,7 +18,7 @@ from typing import Annotated as A
 from typing import Any, Generic, TypeVar
 
 from beardyn_core.base.optional import library
-from beardyn_core.engine.cluster import Cluster, LocalCluster, wait_until
+from beardyn_core.experiments.cluster import Cluster, LocalCluster, wait_until
 
 Task = TypeVar("Task")
 # tasks that wait at the scheduler for each worker: enough that none is idle, few enough to be forgotten soon
@@ -246,27 +246,21 @@ class Engine:
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
-def all_of(
-    function: Callable[..., Any], tasks: Sequence[Task], *arguments: Any, workers: int = 1
-) -> list[Any]:
-    """Call ``function(task, *arguments)`` for every task on processes of this machine; give values in order.
+class ThisProcess:
+    """Runs functions here, one after the other, as an `Engine` does on its workers."""
 
-    Raises
-    ------
-    EngineError
-        A task has killed its processes.
-    """
-    found: dict[int, Any] = {}
-    with Engine(Cluster(workers=workers)) as engine:
-        for ended in engine.run(_numbered, list(enumerate(tasks)), function, *arguments):
-            if ended.killed:
-                raise EngineError(f"{ended.task[1]}: {ended.killed} processes died while they computed it")
-            found[ended.task[0]] = ended.value
-    return [found[number] for number in range(len(tasks))]
+    dashboard = ""
 
+    def worker_count(self) -> int:
+        """Count this process."""
+        return 1
 
-def _numbered(task: tuple[int, Any], function: Callable[..., Any], *arguments: Any) -> Any:
-    return function(task[1], *arguments)
+    def run(
+        self, function: Callable[..., Any], tasks: Iterable[Task], *arguments: Any
+    ) -> Iterator[Ended[Task]]:
+        """Call ``function(task, *arguments)`` for every task, in their order."""
+        for task in tasks:
+            yield Ended(task, function(task, *arguments))
 
 
 class _LostError(Exception):

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.study.code_digest import simulator_digest
+from beardyn_core.experiments.code_digest import simulator_digest
 
 SCRIPT = (
     "import sys; sys.path.insert(0, '')\n"
-    "from beardyn_core.study.code_digest import modules_of, monitor_digest\n"
+    "from beardyn_core.experiments.code_digest import modules_of, monitor_digest\n"
     "files, packages = modules_of('watcher')\n"
     "print(monitor_digest('watcher:look'), sorted(files), sorted(packages))\n"
 )
@@ -69,7 +69,7 @@ def test_every_module_of_a_monitor_counts_and_no_other(project: Path) -> None:
 def test_the_simulator_has_one_digest_of_all_its_sources(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from beardyn_core.study import code_digest
+    from beardyn_core.experiments import code_digest
 
     (tmp_path / "room").mkdir()
     (tmp_path / "room" / "force.py").write_text("A = 1\n")
