@@ -111,7 +111,7 @@ def run(args: argparse.Namespace) -> int:
     interrupted = False
     if plan.missing:
         with last_words(kept):
-            warm(plan.trial)
+            warm(plan.request.trial)
     try:
         with last_words(kept):
             runs = conduct(plan, folder, jobs, progress)

@@ -5,22 +5,23 @@ from __future__ import annotations
 import hashlib
 import json
 import time
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Annotated as A
-from typing import Any, BinaryIO
+from typing import Any
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.base.outputs import is_being_written, open_to_append, write_whole
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import trial_scene, with_choices
 from beardyn_core.config import scene_text
 from beardyn_core.config.content import files_of
-from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine, ThisProcess, loop
 from beardyn_core.experiments.code_digest import monitor_digest, simulator_digest
+from beardyn_core.experiments.plan import Plan
+from beardyn_core.experiments.store import Entry, Layout, Store, differing
 from beardyn_core.monitor.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
 from beardyn_core.run import blocks
@@ -119,27 +120,24 @@ RUNS_FILE = "runs.jsonl"
 _NOT_OF_THE_RUNS = ("purpose", "folder", "choices")  # fields of a trial that no run depends on
 
 Progress = Callable[[TrialRun], None]
+LINES = Layout[TrialRun](
+    lambda each: asdict(each.result),
+    lambda row: Entry(row["key"], row["digest"], TrialRun.from_json(row)),
+)
 
 
 @dataclass(frozen=True)
-class Plan:
-    """Runs of a trial that are done, outdated or still to do."""
+class TrialRequest:
+    """What all runs of a trial have in common."""
 
     trial: A[Trial, "with what its runs are computed with"]
     algorithm: A[str, "``module:function``, '' for ours"]
     digests: A[dict[str, str], "of every run, by the key of its cell"]
-    kept: A[dict[str, TrialRun], "runs of an earlier go whose digest is still the same, by key"]
-    outdated: A[int, "runs of an earlier go, of other code or files; kept until they are run again"] = 0
-    fresh: A[bool, "whether the folder starts over"] = False
-
-    @property
-    def missing(self) -> tuple[Cell, ...]:
-        """Cells still to be run, long ones first so that all processes end at about the same time."""
-        cells = [cell for cell in self.trial.cells() if cell.key not in self.kept]
-        return tuple(sorted(cells, key=lambda cell: (not cell.checks, cell.speed)))
 
 
-def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False) -> Plan:
+def plan_of(
+    trial: Trial, algorithm: str, folder: Path | None, *, force: bool = False
+) -> Plan[Cell, TrialRun]:
     """Plan the runs that a folder does not hold yet; ``force``: it starts over, whatever it holds.
 
     The algorithm is ``module:function``, '' for ours.
@@ -152,16 +150,32 @@ def plan_of(trial: Trial, algorithm: str, folder: Path | None, *, force: bool = 
     algorithm_named(algorithm)
     trial = with_choices(trial)
     code = f"{simulator_digest()} {monitor_digest(algorithm)}"
-    digests = {cell.key: run_digest(trial_scene(trial, cell), trial, code) for cell in trial.cells()}
-    if folder is None or force:
-        return Plan(trial, algorithm, digests, {}, fresh=True)
-    path = folder / RUNS_FILE
-    earlier = read_runs(path)
-    if problems := _other_trial(path, earlier, identity(trial, algorithm), digests):
+    cells = {cell.key: cell for cell in trial.cells()}
+    digests = {key: run_digest(trial_scene(trial, cell), trial, code) for key, cell in cells.items()}
+    # long ones first, so that all processes end at about the same time
+    order = sorted(cells, key=lambda key: (not cells[key].checks, cells[key].speed))
+    plan = Plan[Cell, TrialRun](
+        cells,
+        conduct_cells,
+        TrialRequest(trial, algorithm, digests),
+        digests,
+        tuple(order),
+        lost=_refuse_loss,
+        has_failed=lambda run: not run.complete,
+        fresh=folder is None or force,
+    )
+    if plan.fresh:
+        return plan
+    store = store_of(plan, folder)
+    if problems := _other_trial(store, plan):
         raise InputError(problems)
-    kept = {run.key: run for run in earlier if digests.get(run.key) == run.digest}
-    outdated = {run.key for run in earlier} - set(kept)
-    return Plan(trial, algorithm, digests, kept, len(outdated))
+    return store.resume(plan)
+
+
+def store_of(plan: Plan[Cell, TrialRun], folder: Path | None) -> Store[TrialRun]:
+    """Give the store of a trial's runs; its first line identifies the trial."""
+    about = identity(plan.request.trial, plan.request.algorithm)
+    return Store(None if folder is None else folder / RUNS_FILE, LINES, about)
 
 
 def identity(trial: Trial, algorithm: str) -> dict[str, Any]:
@@ -173,41 +187,29 @@ def identity(trial: Trial, algorithm: str) -> dict[str, Any]:
 
 def read_runs(path: Path) -> list[TrialRun]:
     """Read the runs in a file of JSON lines, if it exists; a line that was cut off is ignored."""
-    found = []
-    for content in _lines(path):
-        with suppress(ValueError, TypeError, KeyError):
-            found.append(TrialRun.from_json(content))
-    return found
+    return [each.result for each in Store(path, LINES).entries()]
 
 
-def _lines(path: Path) -> list[dict[str, Any]]:
-    if not path.is_file():
-        return []
-    found = []
-    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-        with suppress(ValueError):
-            found.append(json.loads(line))
-    return [content for content in found if isinstance(content, dict)]
-
-
-def _other_trial(
-    path: Path, earlier: Sequence[TrialRun], mine: dict[str, Any], digests: dict[str, str]
-) -> list[str]:
+def _other_trial(store: Store[TrialRun], plan: Plan[Cell, TrialRun]) -> list[str]:
     """Say why the runs in a folder cannot be continued: another trial, or being written."""
-    if is_being_written(path):
+    path = store.path
+    assert path is not None
+    if store.is_busy:
         return [f"{path}: another trial is writing this file; wait for its end or give another folder"]
-    about = next((line["of"] for line in _lines(path) if isinstance(line.get("of"), dict)), None)
+    mine, about, earlier = (
+        identity(plan.request.trial, plan.request.algorithm),
+        store.described,
+        store.entries(),
+    )
     if about is not None:
-        names = dict.fromkeys([*mine, *about])
-        different = [name for name in names if mine.get(name) != about.get(name)]
         what = "; ".join(
             f"{name} is {json.dumps(about.get(name))} there and {json.dumps(mine.get(name))} here"
-            for name in different
+            for name in differing(mine, about)
         )
     elif not earlier and path.is_file() and path.stat().st_size:
         return [f"{path}: holds no runs of a trial; give another folder, or --force to replace the file"]
     else:  # a folder of an earlier version says nothing about itself
-        strange = next((run.key for run in earlier if run.key not in digests), None)
+        strange = next((each.key for each in earlier if each.key not in plan.items), None)
         what = "" if strange is None else f"it has a run {strange!r} that this trial has not"
     if not what:
         return []
@@ -217,13 +219,20 @@ def _other_trial(
     ]
 
 
+def _refuse_loss(cell: Cell, killed: int) -> TrialRun:
+    raise InputError(
+        f"{cell.key}: {killed} processes died while they computed this run, out of memory or by a crash; "
+        "the runs before are kept"
+    )
+
+
 def warm(trial: Trial) -> None:
     """Compile the kernels of the runs one after the other, so that all processes find them in the cache."""
     for cell in {(cell.tier, cell.fault): cell for cell in trial.cells()}.values():
         Twin(trial_scene(trial, cell)).warm()
 
 
-def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> list[TrialRun]:
+def conduct(plan: Plan[Cell, TrialRun], folder: Path | None, jobs: int, progress: Progress) -> list[TrialRun]:
     """Simulate the missing runs, save each as it ends; return all in the order of the matrix.
 
     Parameters
@@ -236,90 +245,21 @@ def conduct(plan: Plan, folder: Path | None, jobs: int, progress: Progress) -> l
     progress : callable
         Told of every run that ends.
     """
-    runs = dict(plan.kept)
-    if plan.missing or plan.fresh:
-        keep = _Keeper(plan, folder)
-        try:
-            with closing(_in_turn(plan) if jobs == 1 else _at_once(plan, jobs)) as ended:
-                for run in ended:
-                    runs[run.key] = keep(run)
-                    progress(run)
-            keep.tidy(runs)
-        finally:
-            keep.close()
-    return [runs[cell.key] for cell in plan.trial.cells() if cell.key in runs]
+    if not plan.missing and not plan.fresh:
+        return [plan.kept[key] for key in plan.items]
+
+    def report(now: loop.Progress[TrialRun]) -> None:
+        for run in now.latest.values():
+            progress(run)
+
+    store = store_of(plan, folder)
+    here = jobs == 1 or not plan.missing
+    with store.opened(plan), nullcontext(ThisProcess()) if here else Engine(Cluster(workers=jobs)) as engine:
+        runs = loop.run_plan(plan, engine, store, report)
+        store.tidy(plan, runs)
+    return list(runs.values())
 
 
-def _in_turn(plan: Plan) -> Generator[TrialRun, None, None]:
-    for cell in plan.missing:
-        yield conduct_run(plan.trial, cell, plan.algorithm, plan.digests[cell.key])
-
-
-def _at_once(plan: Plan, jobs: int) -> Generator[TrialRun, None, None]:
-    """Conduct runs on several processes, which end with the first failure or interrupt."""
-    if not plan.missing:
-        return
-    with Engine(Cluster(workers=jobs)) as engine:
-        for ended in engine.run(_conducted, plan.missing, plan.trial, plan.algorithm, plan.digests):
-            if ended.killed:
-                raise InputError(
-                    f"{ended.task.key}: {ended.killed} processes died while they computed this run, out of "
-                    "memory or by a crash; the runs before are kept"
-                )
-            yield ended.value
-
-
-def _conducted(cell: Cell, trial: Trial, algorithm: str, digests: dict[str, str]) -> TrialRun:
-    """Conduct a run in a process of the engine."""
-    return conduct_run(trial, cell, algorithm, digests[cell.key])
-
-
-class _Keeper:
-    """Appends runs to the file in the folder as they end; its first line identifies the trial."""
-
-    def __init__(self, plan: Plan, folder: Path | None) -> None:
-        self._plan = plan
-        self._about = json.dumps({"of": identity(plan.trial, plan.algorithm)}) + "\n"
-        self._path = None if folder is None else folder / RUNS_FILE
-        self._kept = len(plan.kept)
-        self._file: BinaryIO | None = None
-        if self._path is not None:
-            with self._disk():
-                self._file = open_to_append(self._path, empty=plan.fresh)
-                if self._file.tell() == 0 or not any("of" in line for line in _lines(self._path)):
-                    self._write(self._about)
-
-    def __call__(self, run: TrialRun) -> TrialRun:
-        if self._file is not None:
-            with self._disk():
-                self._write(json.dumps(asdict(run)) + "\n")
-        self._kept += 1
-        return run
-
-    def tidy(self, runs: dict[str, TrialRun]) -> None:
-        """Drop the outdated runs, now that each of them has been run again."""
-        if self._path is not None and self._plan.outdated:
-            lines = [json.dumps(asdict(runs[cell.key])) + "\n" for cell in self._plan.trial.cells()]
-            with self._disk():
-                write_whole(self._path, "".join([self._about, *lines]))
-
-    def close(self) -> None:
-        """Close the file, which unlocks it."""
-        if self._file is not None:
-            self._file.close()
-
-    def _write(self, line: str) -> None:
-        assert self._file is not None
-        rest = line.encode()
-        while rest:  # a disk that is nearly full takes a part
-            rest = rest[self._file.write(rest) :]
-
-    @contextmanager
-    def _disk(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise InputError(
-                f"{self._path}: cannot be written: {error.strerror or error}; the {self._kept} runs before "
-                "are kept, and the same command goes on from there"
-            ) from error
+def conduct_cells(cells: Sequence[Cell], request: TrialRequest) -> list[TrialRun]:
+    """Conduct some runs in this process."""
+    return [conduct_run(request.trial, cell, request.algorithm, request.digests[cell.key]) for cell in cells]
