@@ -75,14 +75,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice.load import scene_with_all
-    from beardyn_core.study.ladder import climb, compile_levels, expected_wall, plan_of
+    from beardyn_core.study.ladder import climb, comparison_of, compile_levels, expected_wall
     from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
 
     with checked(lambda inputs: option_problems(args, inputs)):
         scene = scene_with_all(args.scene)
 
-    plan = plan_of(scene, args.duration, args.settling)
+    plan = comparison_of(scene, args.duration, args.settling)
     asked = tuple(names(args.quantities) or scene.quantities)
     _refuse_what_it_cannot_compare(scene, asked, plan.fault_line is not None)
     accuracy = 0.01 * args.accuracy if args.accuracy else scene.accuracy or 0.01 * _USUAL_ACCURACY

@@ -1,16 +1,18 @@
 """The ladder: a scene over tiers, effects, laminae and steps against a converged reference of itself.
 
 All levels get the same load history and sensor noise, one after the other in one process of the engine, for
-they are timed. Repeated runs begin a hair apart: `varied`.
+they are timed; nothing is kept, for times of another go are those of another state of the machine. Repeated
+runs begin a hair apart: `varied`.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated as A
 from typing import Any
 
@@ -20,9 +22,11 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
-from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments import Cluster, Engine, ThisProcess, loop
+from beardyn_core.experiments.plan import Plan
 from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history, load_of_run
+from beardyn_core.run import start
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
 from beardyn_core.study.ladder_levels import Level, LevelList, expected_cost
@@ -43,7 +47,7 @@ _VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
 
 
 @dataclass(frozen=True)
-class Plan:
+class Comparison:
     """Load of every run of a ladder, and the windows in which runs are compared."""
 
     scene: Scene
@@ -74,10 +78,10 @@ class Attempt:
 
 
 Progress = Callable[[str, float], None]
-Runner = Callable[[Scene, Plan], Run]
+Runner = Callable[[Scene, Comparison], Run]
 
 
-def plan_of(scene: Scene, duration: float | None = None, settling: float | None = None) -> Plan:
+def comparison_of(scene: Scene, duration: float | None = None, settling: float | None = None) -> Comparison:
     """Make the load and place the windows.
 
     Parameters
@@ -104,7 +108,7 @@ def plan_of(scene: Scene, duration: float | None = None, settling: float | None 
         settling,
         settling + duration,
     )
-    return Plan(scene, load, settling, edges, revolutions, block_count, fault_line_of(scene))
+    return Comparison(scene, load, settling, edges, revolutions, block_count, fault_line_of(scene))
 
 
 def _usual_duration(scene: Scene, longest: float) -> float:
@@ -146,30 +150,32 @@ def varied(scene: Scene, number: int) -> Scene:
     return replace(scene, end_play=scene.end_play + _VARIED_END_PLAY * number)
 
 
-def simulate(scene: Scene, plan: Plan) -> Run:
+def simulate(scene: Scene, comparison: Comparison) -> Run:
     """Run a scene of a level; compiling and starting are not timed."""
-    twin, collector = Twin(scene), SignalCollector()
+    collector = SignalCollector()
     walls: list[float] = []
-    warnings, block = 0, None
-    twin.warm()
+    warnings, block_s = 0, 1e-9 * Twin.block_ns
+    clock = time.perf_counter
     try:
-        twin.start(plan.load)
-        for first in range(0, plan.block_count, twin.blocks_at_once):
-            count = min(twin.blocks_at_once, plan.block_count - first)
-            began = time.perf_counter()
-            block = twin.advance(count)
-            walls += count * [(time.perf_counter() - began) / (count * 1e-9 * twin.block_ns)]
+        simulation = start(scene, comparison.block_count * block_s, comparison.load)
+        began = clock()
+        for block in simulation.blocks(simulation.twin.blocks_at_once):
+            count = round((block.end_ns - block.start_ns) / Twin.block_ns)
+            walls += count * [(clock() - began) / (count * block_s)]
             warnings |= block.status
             collector.add(block)
+            began = clock()
     except ValidityError as error:
         return Run(None, np.array(walls), str(error))
-    settled = math.ceil(plan.settling / (1e-9 * twin.block_ns))
+    settled = math.ceil(comparison.settling / block_s)
     status = f"{COMPLETE}, but {describe(warnings)}" if warnings else COMPLETE
-    found = outcome(collector.signals(), plan.edges, plan.fault_line)
+    found = outcome(collector.signals(), comparison.edges, comparison.fault_line)
     return Run(found, np.array(walls[min(settled, len(walls) - 1) :]), status)
 
 
-def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _name, _count: None) -> None:
+def compile_levels(
+    comparison: Comparison, levels: LevelList, progress: Progress = lambda _name, _count: None
+) -> None:
     """Compile the kernels of all levels, or load them from the cache, before anything is timed.
 
     Before every level ``progress`` is told which one is next, and that one more (0 at first) is ready.
@@ -179,7 +185,7 @@ def compile_levels(plan: Plan, levels: LevelList, progress: Progress = lambda _n
         progress(level.name, min(number, 1))
         kernels = (level.tier, level.effects)
         if kernels not in ready:
-            Twin(level.applied(plan.scene)).warm()
+            Twin(level.applied(comparison.scene)).warm()
             ready.add(kernels)
 
 
@@ -188,9 +194,9 @@ def repeats_of(level: Level, least: int = 1) -> int:
     return max(CHEAP_RUNS if expected_cost(level) <= CHEAP else 1, least)
 
 
-def expected_wall(levels: LevelList, plan: Plan) -> float:
+def expected_wall(levels: LevelList, comparison: Comparison) -> float:
     """Return the wall time to expect of a ladder, for the time left, [s]."""
-    return sum(_expected(attempt, plan) for attempt in attempts(levels))
+    return sum(_expected(attempt, comparison) for attempt in attempts(levels))
 
 
 def attempts(levels: LevelList, reference_runs: int = REFERENCE_RUNS, least: int = 1) -> list[Attempt]:
@@ -206,12 +212,12 @@ def attempts(levels: LevelList, reference_runs: int = REFERENCE_RUNS, least: int
     ]
 
 
-def _expected(attempt: Attempt, plan: Plan) -> float:
-    return expected_cost(attempt.level) * plan.block_count * Twin.block_ns * 1e-9
+def _expected(attempt: Attempt, comparison: Comparison) -> float:
+    return expected_cost(attempt.level) * comparison.block_count * Twin.block_ns * 1e-9
 
 
 def climb(
-    plan: Plan,
+    comparison: Comparison,
     levels: LevelList,
     accuracy: float,
     asked: tuple[str, ...] = USUAL_QUANTITIES,
@@ -224,7 +230,7 @@ def climb(
 
     Parameters
     ----------
-    plan : Plan
+    comparison : Comparison
     levels : LevelList
     accuracy : float
         A share; what levels are judged by.
@@ -252,16 +258,28 @@ def climb(
         When the reference leaves the model's validity.
     """
     todo = attempts(levels, reference_runs, least_runs)
+    plan = Plan[Attempt, Run](
+        {f"{each.place}, run {each.number}": each for each in todo},
+        partial(_run_attempts, runner=simulate if runner is None else runner),
+        comparison,
+        lost=lambda _, killed: Run(None, np.empty(0), f"{killed} processes died of it"),
+        has_failed=lambda run: run.outcome is None,
+    )
     done: list[list[Run]] = [[] for _ in (levels.reference, *levels.levels)]
     interrupted = False
+
+    def report(now: loop.Progress[Run]) -> None:
+        for key, run in now.latest.items():
+            attempt = plan.items[key]
+            if attempt.place == 0 and run.outcome is None:
+                raise ValidityError(f"the reference cannot be computed: {run.status}")
+            done[attempt.place].append(run)
+        before = sum((_expected(plan.items[key], comparison) for key in now.latest), 0.0)
+        progress(todo[min(now.here, len(todo) - 1)].level.name, before)
+
     try:
-        with _runs(plan, todo, runner) as runs:
-            progress(todo[0].level.name, 0.0)
-            for count, (attempt, run) in enumerate(runs, start=1):
-                if attempt.place == 0 and run.outcome is None:
-                    raise ValidityError(f"the reference cannot be computed: {run.status}")
-                done[attempt.place].append(run)
-                progress(todo[min(count, len(todo) - 1)].level.name, _expected(attempt, plan))
+        with Engine(Cluster(workers=1)) if runner is None else nullcontext(ThisProcess()) as engine:
+            loop.run_plan(plan, engine, report=report)
     except KeyboardInterrupt:
         if len(done[0]) < 2:
             raise
@@ -274,14 +292,14 @@ def climb(
     ]
     reference = _result(levels.reference, truth, truth)
     return Ladder(
-        scene=plan.scene.name,
-        purpose=plan.scene.purpose,
+        scene=comparison.scene.name,
+        purpose=comparison.scene.purpose,
         accuracy=accuracy,
         asked=asked,
-        settling=plan.settling,
-        edges=plan.edges,
-        revolutions=plan.revolutions,
-        fault_line=plan.fault_line,
+        settling=comparison.settling,
+        edges=comparison.edges,
+        revolutions=comparison.revolutions,
+        fault_line=comparison.fault_line,
         reference=replace(reference, errors=_result(levels.reference, truth[:1], truth).errors),
         neighbour=next((row for row in rows if row.level == levels.neighbour), None),
         rows=tuple(rows),
@@ -289,24 +307,9 @@ def climb(
     )
 
 
-@contextmanager
-def _runs(
-    plan: Plan, todo: Sequence[Attempt], runner: Runner | None
-) -> Iterator[Iterator[tuple[Attempt, Run]]]:
-    """Give what comes of runs: of one process of the engine, or of a runner in this one."""
-    if runner is not None:
-        yield ((each, runner(varied(each.level.applied(plan.scene), each.number), plan)) for each in todo)
-        return
-    with Engine(Cluster(workers=1)) as engine:
-        yield (
-            (ended.task, ended.value or Run(None, np.empty(0), f"{ended.killed} processes died of it"))
-            for ended in engine.run(_run_of, todo, plan)
-        )
-
-
-def _run_of(attempt: Attempt, plan: Plan) -> Run:
-    """Do a run in a process of the engine."""
-    return simulate(varied(attempt.level.applied(plan.scene), attempt.number), plan)
+def _run_attempts(items: Sequence[Attempt], comparison: Comparison, runner: Runner) -> list[Run]:
+    """Do some runs in this process."""
+    return [runner(varied(each.level.applied(comparison.scene), each.number), comparison) for each in items]
 
 
 def _result(level: Level, runs: list[Run], truth: list[Run]) -> LevelResult:

@@ -24,7 +24,7 @@ from beardyn_core.choice.rule import Choice, percent
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, plan_of
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, comparison_of, compile_levels
 from beardyn_core.study.ladder_levels import (
     AUTO,
     REFERENCE_LAMINAE,
@@ -106,16 +106,20 @@ def tried(
 
     What is run longer is also run more often: two runs may stay as far apart as they began to be.
     """
-    plan = plan_of(scene)
+    comparison = comparison_of(scene)
     if longer > 1:
-        plan = plan_of(scene, duration=longer * (plan.edges[-1] - plan.settling), settling=plan.settling)
+        comparison = comparison_of(
+            scene,
+            duration=longer * (comparison.edges[-1] - comparison.settling),
+            settling=comparison.settling,
+        )
     levels = tuple(level_of(choices[k].applied(scene), AUTO, name=f"case {k}") for k in chosen)
     few = replace(levels_of(scene, quick=True), levels=levels)
-    compile_levels(plan, few)
+    compile_levels(comparison, few)
     if longer > 1:
-        ladder = climb(plan, few, 0.05, reference_runs=MORE_REFERENCE_RUNS, least_runs=MORE_RUNS)
+        ladder = climb(comparison, few, 0.05, reference_runs=MORE_REFERENCE_RUNS, least_runs=MORE_RUNS)
     else:
-        ladder = climb(plan, few, 0.05)
+        ladder = climb(comparison, few, 0.05)
     if ladder.interrupted:
         raise KeyboardInterrupt
     rows = [next(row for row in ladder.rows if row.level == level) for level in levels]

@@ -19,7 +19,7 @@ from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.load import scene_with_all
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
-from beardyn_core.study.ladder import REFERENCE_RUNS, climb, compile_levels, expected_wall, plan_of
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, comparison_of, compile_levels, expected_wall
 from beardyn_core.study.ladder_levels import REFERENCE_LAMINAE, REFERENCE_STEPS, automatic, levels_of
 from beardyn_core.study.ladder_picture import ladder_picture
 from beardyn_core.study.ladder_report import (
@@ -96,7 +96,7 @@ a tenth. A single column may well be better in a cheaper level.
 def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
     """Climb the ladder of a scene, with progress on standard error."""
     scene = scene_with_all(name)
-    plan, levels = plan_of(scene, duration), levels_of(scene, quick=quick)
+    comparison, levels = comparison_of(scene, duration), levels_of(scene, quick=quick)
     levels = levels.including(automatic(scene, ACCURACY, scene.quantities))
 
     def told(bar: tqdm) -> Callable[[str, float], None]:
@@ -107,10 +107,12 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
         return progress
 
     with tqdm(total=len(levels.levels), desc=f"{name}: compiled") as bar:
-        compile_levels(plan, levels, told(bar))
+        compile_levels(comparison, levels, told(bar))
     shown = "{desc} {percentage:.0f} % {bar} {postfix} [{elapsed}<{remaining}]"
-    with tqdm(total=expected_wall(levels, plan), desc=f"{name}: run", bar_format=shown, miniters=0) as bar:
-        return climb(plan, levels, ACCURACY, progress=told(bar))
+    with tqdm(
+        total=expected_wall(levels, comparison), desc=f"{name}: run", bar_format=shown, miniters=0
+    ) as bar:
+        return climb(comparison, levels, ACCURACY, progress=told(bar))
 
 
 def section(ladder: Ladder, picture: Path) -> list[str]:

@@ -8,7 +8,7 @@ import pytest
 
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.choice import load_scene
-from beardyn_core.study.ladder import plan_of
+from beardyn_core.study.ladder import comparison_of
 from beardyn_core.twin import Twin
 from evidence.ladder import front
 from evidence.ladder.page import section, summary
@@ -18,7 +18,7 @@ from test.study.test_ladder import FakeRuns, climbed
 
 
 def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> None:
-    ladder = climbed(plan_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
+    ladder = climbed(comparison_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
     lines = section(ladder, Path("somewhere/static.png"))
     assert lines[0] == "## static_80kN"
     assert "![Accuracy against wall time of static_80kN](pictures/static.png)" in lines
@@ -38,7 +38,7 @@ def test_the_front_on_the_first_page_is_that_of_the_ladder() -> None:
 def test_levels_that_take_turns_have_costs_of_their_own_and_the_same_errors() -> None:
     """A level that failed keeps what the climb had found."""
     scene = load_scene("static_80kN", effects="standard")
-    ladder = climbed(plan_of(scene, 0.5, 0.1), FakeRuns(invalid=7))
+    ladder = climbed(comparison_of(scene, 0.5, 0.1), FakeRuns(invalid=7))
     found = in_turns(ladder, scene, turns=3)
     assert [row.errors for row in found.rows] == [row.errors for row in ladder.rows]
     costs = {row.level.steps_per_sample: row.cost for row in found.rows}
@@ -54,7 +54,7 @@ def test_a_level_that_breaks_down_in_a_turn_keeps_the_cost_of_its_climb(
 ) -> None:
     """It must not end the page, and the others go on with their turns."""
     scene = load_scene("static_80kN", effects="standard")
-    ladder = climbed(plan_of(scene, 0.5, 0.1), FakeRuns())
+    ladder = climbed(comparison_of(scene, 0.5, 0.1), FakeRuns())
 
     def advance(twin: Twin, count: int = 1) -> None:
         if twin.scene.tier == "lumped":

@@ -305,14 +305,15 @@ if __name__ == "__main__":
 CLIMBS = """
 from dataclasses import replace
 from beardyn_core.choice import load_scene
-from beardyn_core.study.ladder import climb, plan_of
+from beardyn_core.study.ladder import climb, comparison_of
 from beardyn_core.study.ladder_levels import levels_of
 
 scene = load_scene("static_5kN", tier="lumped")
 levels = levels_of(scene, quick=True)
 lumped = next(level for level in levels.levels if level.tier == "lumped")
-plan = plan_of(scene, 600.0, 1.0)
-climb(plan, replace(levels, reference=lumped), 0.05, progress=lambda name, wall: print("begun", flush=True))
+comparison = comparison_of(scene, 600.0, 1.0)
+levels = replace(levels, reference=lumped)
+climb(comparison, levels, 0.05, progress=lambda name, wall: print("begun", flush=True))
 """
 
 

@@ -27,7 +27,7 @@ from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError,
 from beardyn_core.sensors.stage_clock import StageTime
 from beardyn_core.sensors.summary import torque_budget
 from beardyn_core.study.desk_run import RunSummary
-from beardyn_core.study.ladder import plan_of
+from beardyn_core.study.ladder import comparison_of
 from beardyn_core.study.ladder_report import json_object as ladder_object
 from beardyn_core.study.measures import FaultLine
 from beardyn_core.study.monitored_recording import EXIT_CODES
@@ -180,7 +180,7 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_ladder() -> None:
-    ladder = climbed(plan_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
+    ladder = climbed(comparison_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
     check(
         "ladder", read(json_text("ladder", ladder_object(replace(ladder, fault_line=FaultLine("BPFO", 7.3)))))
     )

@@ -14,13 +14,13 @@ from beardyn_core.cli import main as command
 from beardyn_core.scene.scene import USUAL_QUANTITIES
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study import ladder
-from beardyn_core.study.ladder import Plan, Run, climb
+from beardyn_core.study.ladder import Comparison, Run, climb
 from beardyn_core.study.measures import MEASURES, Outcome
 
 FAST = tuple((name, TIERS[name].steps_per_sample) for name in ("lumped", "quasistatic"))
 
 
-def one_run(scene: Any, plan: Plan) -> Run:
+def one_run(scene: Any, comparison: Comparison) -> Run:
     """Stands in for a run: torque and cost by step, nothing scatters but the last digit."""
     steps = scene.numerics.steps_per_sample
     values = tuple(
@@ -38,9 +38,9 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Levels that were run, with stand-ins for compiling and running, in this process."""
     seen: list[Any] = []
 
-    def runner(scene: Any, plan: Plan) -> Run:
+    def runner(scene: Any, comparison: Comparison) -> Run:
         seen.append(scene)
-        return one_run(scene, plan)
+        return one_run(scene, comparison)
 
     monkeypatch.setattr(ladder, "climb", partial(climb, runner=runner))
     monkeypatch.setattr(ladder.Twin, "warm", lambda _twin: 0.0)
@@ -109,10 +109,10 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
 def test_an_interrupt_keeps_the_levels_done_so_far(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, runs: list[Any]
 ) -> None:
-    def impatient(scene: Any, plan: Plan) -> Run:
+    def impatient(scene: Any, comparison: Comparison) -> Run:
         if scene.tier == "full" and scene.numerics.steps_per_sample == 4:
             raise KeyboardInterrupt
-        return one_run(scene, plan)
+        return one_run(scene, comparison)
 
     monkeypatch.setattr(ladder, "climb", partial(climb, runner=impatient))
     words = ["ladder", "static_80kN", "--quick", "--duration", "0.3", "-o", str(tmp_path / "out")]

@@ -19,7 +19,15 @@ from beardyn_core.config import load_effects
 from beardyn_core.effects import KinematicCage
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
-from beardyn_core.study.ladder import REFERENCE_RUNS, Plan, Run, climb, plan_of, repeats_of, varied
+from beardyn_core.study.ladder import (
+    REFERENCE_RUNS,
+    Comparison,
+    Run,
+    climb,
+    comparison_of,
+    repeats_of,
+    varied,
+)
 from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expected_cost, level_of, levels_of
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
@@ -60,7 +68,7 @@ class FakeRuns:
         self._scatter, self._invalid, self._interrupted = scatter, invalid, interrupted
         self.scenes: list[Scene] = []
 
-    def __call__(self, scene: Scene, plan: Plan) -> Run:
+    def __call__(self, scene: Scene, comparison: Comparison) -> Run:
         steps = round(scene.numerics.steps_per_sample)
         self.scenes.append(scene)
         if steps == self._interrupted:
@@ -82,16 +90,16 @@ class FakeRuns:
 
 
 @pytest.fixture(scope="module")
-def plan() -> Plan:
-    return plan_of(load_scene("static_80kN"), 0.5, 0.1)
+def comparison() -> Comparison:
+    return comparison_of(load_scene("static_80kN"), 0.5, 0.1)
 
 
-def climbed(plan: Plan, runs: FakeRuns, accuracy: float = 0.05) -> Ladder:
-    return climb(plan, LEVELS, accuracy, ASKED, runner=runs)
+def climbed(comparison: Comparison, runs: FakeRuns, accuracy: float = 0.05) -> Ladder:
+    return climb(comparison, LEVELS, accuracy, ASKED, runner=runs)
 
 
-def test_efficient_levels_and_the_cheapest_good_one(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns())
+def test_efficient_levels_and_the_cheapest_good_one(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns())
     verdicts = {row.level.name: ladder.verdict(row) for row in ladder.rows}
     assert verdicts == {"fast": "no", "middle": "yes", "exact": "yes", "slow": "yes"}
     # `slow` costs more than `exact` and is not better
@@ -100,8 +108,8 @@ def test_efficient_levels_and_the_cheapest_good_one(plan: Plan) -> None:
     assert ladder.cheapest.level.name == "middle"
 
 
-def test_what_is_good_enough_depends_on_the_accuracy_asked_for(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns(), accuracy=0.01)
+def test_what_is_good_enough_depends_on_the_accuracy_asked_for(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns(), accuracy=0.01)
     assert ladder.cheapest is not None
     assert ladder.cheapest.level.name == "exact"
     score = ladder.score(ladder.rows[1])
@@ -154,8 +162,8 @@ def test_a_level_that_fails_in_one_band_passes_with_five_percent_at_most() -> No
     assert sum(verdict(0.2 * off) == "yes" for _ in range(50)) > 25
 
 
-def test_only_a_level_that_is_surely_within_is_the_cheapest_within(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns())
+def test_only_a_level_that_is_surely_within_is_the_cheapest_within(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns())
     middle = ladder.rows[1]
     torque = middle.of("torque")
     assert torque is not None
@@ -169,14 +177,14 @@ def test_only_a_level_that_is_surely_within_is_the_cheapest_within(plan: Plan) -
     assert unsure.cheapest.level.name == "exact"
 
 
-def test_the_choices_of_the_automatic_level_stand_below_the_table(plan: Plan) -> None:
+def test_the_choices_of_the_automatic_level_stand_below_the_table(comparison: Comparison) -> None:
     """By what it holds when that is less, else by what it leaves out of the reference."""
     every = load_effects("full")
     levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="full", effects=every))
     less = replace(every, drag=None, seal=None)
     auto = Level("auto 5 %", "full", "auto", less, 6, 7)
     own = Level("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
-    ladder = climb(plan, replace(levels, levels=(auto, own)), 0.05, ASKED, runner=FakeRuns())
+    ladder = climb(comparison, replace(levels, levels=(auto, own)), 0.05, ASKED, runner=FakeRuns())
     text = table(ladder)
     assert "auto 5 %: full tier, 6 laminae x 7, effects: full less drag, seal" in text
     assert f"own: full tier, 6 laminae x 8, effects: {', '.join(own.effects.names())}" in text
@@ -201,14 +209,14 @@ def test_tiers_are_judged_with_the_steps_that_they_take_unasked() -> None:
         assert {(tier.name, tier.steps_per_sample) for tier in TIERS.values()} <= found
 
 
-def test_a_quantity_that_is_not_asked_for_does_not_count(plan: Plan) -> None:
-    ladder = climb(plan, LEVELS, 0.01, ("force",), runner=FakeRuns())
+def test_a_quantity_that_is_not_asked_for_does_not_count(comparison: Comparison) -> None:
+    ladder = climb(comparison, LEVELS, 0.01, ("force",), runner=FakeRuns())
     assert ladder.cheapest is not None
     assert ladder.cheapest.level.name == "fast"
 
 
-def test_an_error_inside_the_band_is_not_resolved_and_nothing_is_claimed(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns(scatter=0.2))
+def test_an_error_inside_the_band_is_not_resolved_and_nothing_is_claimed(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns(scatter=0.2))
     middle = next(row for row in ladder.rows if row.level.name == "middle")
     torque = middle.of("torque")
     assert torque is not None
@@ -223,8 +231,10 @@ def test_an_error_inside_the_band_is_not_resolved_and_nothing_is_claimed(plan: P
     assert "cheapest level within 5 %: none; open: " in text
 
 
-def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns())
+def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(
+    comparison: Comparison,
+) -> None:
+    ladder = climbed(comparison, FakeRuns())
     found = json.loads(json_text("ladder", json_object(ladder)), parse_constant=pytest.fail)
     assert [row["name"] for row in found["levels"]] == ["fast", "middle", "exact", "slow"]
     assert found["efficient"] == ["fast", "middle", "exact"]
@@ -240,23 +250,23 @@ def test_every_error_and_band_is_in_the_json_and_the_table_names_all_quantities(
     text = table(ladder)
     for name in ("fast", "middle", *QUANTITIES):
         assert name in text
-    assert plan.revolutions == 4
+    assert comparison.revolutions == 4
     assert ", 4 whole cage revolutions, in 4 windows from " in text
     assert ", 1 whole cage revolution, in 1 window from " in table(
         replace(ladder, revolutions=1, edges=ladder.edges[:2])
     )
 
 
-def test_a_reference_that_is_not_converged_is_said_to_be_so(plan: Plan) -> None:
-    assert climbed(plan, FakeRuns()).unconverged == ()
-    ladder = climb(plan, replace(LEVELS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
+def test_a_reference_that_is_not_converged_is_said_to_be_so(comparison: Comparison) -> None:
+    assert climbed(comparison, FakeRuns()).unconverged == ()
+    ladder = climb(comparison, replace(LEVELS, neighbour=FAST), 0.05, ASKED, runner=FakeRuns())
     assert ladder.unconverged == ("torque", "vibration")
     assert "not converged within 5 %: torque, vibration" in table(ladder)
     assert json_object(ladder)["unconverged"] == ("torque", "vibration")
 
 
-def test_a_level_that_leaves_its_validity_is_reported_and_never_good(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns(invalid=4))
+def test_a_level_that_leaves_its_validity_is_reported_and_never_good(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns(invalid=4))
     middle = next(row for row in ladder.rows if row.level.name == "middle")
     assert ladder.verdict(middle) == "no"
     assert ladder.score(middle) is None
@@ -265,46 +275,46 @@ def test_a_level_that_leaves_its_validity_is_reported_and_never_good(plan: Plan)
     json.loads(json_text("ladder", json_object(ladder)), parse_constant=pytest.fail)
 
 
-def test_a_reference_that_leaves_its_validity_ends_the_ladder(plan: Plan) -> None:
+def test_a_reference_that_leaves_its_validity_ends_the_ladder(comparison: Comparison) -> None:
     with pytest.raises(ValidityError, match="reference cannot be computed"):
-        climbed(plan, FakeRuns(invalid=16))
+        climbed(comparison, FakeRuns(invalid=16))
 
 
-def test_an_interrupt_keeps_what_was_done(plan: Plan) -> None:
-    ladder = climbed(plan, FakeRuns(interrupted=7))
+def test_an_interrupt_keeps_what_was_done(comparison: Comparison) -> None:
+    ladder = climbed(comparison, FakeRuns(interrupted=7))
     assert ladder.interrupted
     assert [row.level.name for row in ladder.rows] == ["fast", "middle"]
     assert ladder.neighbour is None
     assert "some levels are missing" in table(ladder)
     with pytest.raises(KeyboardInterrupt):
-        climbed(plan, FakeRuns(interrupted=16))
+        climbed(comparison, FakeRuns(interrupted=16))
 
 
-def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(plan: Plan) -> None:
+def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(comparison: Comparison) -> None:
     runs = FakeRuns()
-    climbed(plan, runs)
+    climbed(comparison, runs)
     reference = runs.scenes[:REFERENCE_RUNS]
     assert len({scene.end_play for scene in reference}) == REFERENCE_RUNS
-    assert all(scene.seed == plan.scene.seed for scene in runs.scenes)
-    assert max(abs(scene.end_play - plan.scene.end_play) for scene in runs.scenes) < 1e-8
-    assert varied(plan.scene, 0) is plan.scene
-    other = varied(plan.scene, 1)
+    assert all(scene.seed == comparison.scene.seed for scene in runs.scenes)
+    assert max(abs(scene.end_play - comparison.scene.end_play) for scene in runs.scenes) < 1e-8
+    assert varied(comparison.scene, 0) is comparison.scene
+    other = varied(comparison.scene, 1)
     assert other.effects.cage is not None
-    assert plan.scene.effects.cage is not None
+    assert comparison.scene.effects.cage is not None
     assert other.effects.cage.initial_speed_ratio == pytest.approx(1.0001)
     assert len(runs.scenes) == REFERENCE_RUNS + sum(repeats_of(level) for level in LEVELS.levels)
 
 
-def test_levels_run_as_often_as_is_asked_each_a_hair_apart(plan: Plan) -> None:
+def test_levels_run_as_often_as_is_asked_each_a_hair_apart(comparison: Comparison) -> None:
     runs = FakeRuns()
-    ladder = climb(plan, LEVELS, 0.05, runner=runs, reference_runs=4, least_runs=5)
+    ladder = climb(comparison, LEVELS, 0.05, runner=runs, reference_runs=4, least_runs=5)
     assert [row.runs for row in ladder.rows] == [5] * len(LEVELS.levels)
     assert ladder.reference.runs == 4
     assert len(runs.scenes) == 4 + 5 * len(LEVELS.levels)
 
 
-def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(plan: Plan) -> None:
-    kinematic = replace(plan.scene, effects=replace(plan.scene.effects, cage=KinematicCage()))
+def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(comparison: Comparison) -> None:
+    kinematic = replace(comparison.scene, effects=replace(comparison.scene.effects, cage=KinematicCage()))
     other = varied(kinematic, 1)
     assert other.effects.cage == kinematic.effects.cage
     assert other.end_play != kinematic.end_play
@@ -350,19 +360,19 @@ def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
     assert {"dry", "standard", "full"} <= {level.effects_name for level in levels.levels}
 
 
-def test_effects_of_the_scene_itself_are_a_level(plan: Plan) -> None:
-    scene = replace(plan.scene, effects=replace(STANDARD, cage=None))
+def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None:
+    scene = replace(comparison.scene, effects=replace(STANDARD, cage=None))
     levels = levels_of(scene)
     assert "of the scene" in {level.effects_name for level in levels.levels}
     # the scene's own choice may be the neighbour itself
-    usual = levels.neighbour.applied(plan.scene)
-    assert len(levels_of(usual).levels) == len(levels_of(plan.scene).levels)
+    usual = levels.neighbour.applied(comparison.scene)
+    assert len(levels_of(usual).levels) == len(levels_of(comparison.scene).levels)
     assert level_of(usual, "full") == levels.neighbour
     assert level_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
 
 
-def test_another_level_takes_its_place_by_cost(plan: Plan) -> None:
-    levels = levels_of(plan.scene, quick=True)
+def test_another_level_takes_its_place_by_cost(comparison: Comparison) -> None:
+    levels = levels_of(comparison.scene, quick=True)
     more = level("auto 5 %", "quasistatic", laminae=4, steps=2)
     found = levels.including(more)
     assert more in found.levels
@@ -370,8 +380,8 @@ def test_another_level_takes_its_place_by_cost(plan: Plan) -> None:
     assert [expected_cost(r) for r in found.levels] == sorted(expected_cost(r) for r in found.levels)
 
 
-def test_the_picture_names_the_efficient_levels(plan: Plan, tmp_path: Path) -> None:
-    ladder = climbed(plan, FakeRuns())
+def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path: Path) -> None:
+    ladder = climbed(comparison, FakeRuns())
     axes = ladder_figure(ladder).axes[0]
     written = [text.get_text() for text in axes.texts]
     assert {"fast: torque", "middle: vibration"} <= set(written)
@@ -382,18 +392,18 @@ def test_the_picture_names_the_efficient_levels(plan: Plan, tmp_path: Path) -> N
     with Image.open(path) as picture:
         assert picture.size == (1400, 860)
         assert np.unique(np.asarray(picture.convert("L"))).size > 50
-    ladder_picture(climbed(plan, FakeRuns(invalid=4)), path)
+    ladder_picture(climbed(comparison, FakeRuns(invalid=4)), path)
 
 
 def test_a_real_ladder_of_two_levels() -> None:
     """Full tier against rollers as springs: the same force, torque without sliding friction."""
     scene = load_scene("static_80kN")
-    plan = plan_of(scene, 0.25, 0.1)
+    comparison = comparison_of(scene, 0.25, 0.1)
     neighbour = level("neighbour", steps=4, laminae=5)
     levels = LevelList(
         level("reference", steps=4), neighbour, (level("rollers as springs", "lumped"), neighbour)
     )
-    ladder = climb(plan, levels, 0.05, ASKED)
+    ladder = climb(comparison, levels, 0.05, ASKED)
     balanced, near = ladder.rows
     assert ladder.revolutions == 2
     assert balanced.status == near.status == "complete"
@@ -415,9 +425,9 @@ def test_a_real_ladder_of_two_levels() -> None:
 @pytest.mark.slow
 def test_the_reference_is_converged() -> None:
     """Half the laminae and twice the step of the reference move it by less than the accuracy."""
-    plan = plan_of(load_scene("static_80kN"), 0.5, 0.25)
-    levels = levels_of(plan.scene, quick=True)
-    ladder = climb(plan, replace(levels, levels=(levels.neighbour,)), 0.05, ASKED)
+    comparison = comparison_of(load_scene("static_80kN"), 0.5, 0.25)
+    levels = levels_of(comparison.scene, quick=True)
+    ladder = climb(comparison, replace(levels, levels=(levels.neighbour,)), 0.05, ASKED)
     assert ladder.neighbour is not None
     for quantity in ("force", "deflection", "roller_load", "torque"):
         error = ladder.neighbour.of(quantity)
@@ -435,10 +445,10 @@ def test_the_automatic_choice_is_not_surely_beyond_the_accuracy(
     name: str, duration: float, settling: float
 ) -> None:
     """What the accuracy asks for is judged against every effect, many laminae and a small step."""
-    plan = plan_of(load_scene(name), duration, settling)
-    levels, scene = levels_of(plan.scene, quick=True), plan.scene
+    comparison = comparison_of(load_scene(name), duration, settling)
+    levels, scene = levels_of(comparison.scene, quick=True), comparison.scene
     auto = automatic(scene, 0.05, scene.quantities)
-    ladder = climb(plan, replace(levels, levels=(auto,)), 0.05, scene.quantities)
+    ladder = climb(comparison, replace(levels, levels=(auto,)), 0.05, scene.quantities)
     (row,) = ladder.rows
     assert row.status == "complete"
     assert ladder.verdict(row) != "no", table(ladder)
