@@ -77,9 +77,9 @@ class Store(Generic[Kept]):
         """Read all results, those of other code and of other requests included."""
         found: list[Entry[Kept]] = []
         for row in self._rows():
-            for each in row.get(self._layout.group, ()) if self._layout.group else (row,):
-                with suppress(ValueError, TypeError, KeyError):
-                    found.append(self._layout.of_json(each))
+            with suppress(ValueError, TypeError, KeyError):
+                rows = row[self._layout.group] if self._layout.group else [row]
+                found += [self._layout.of_json(each) for each in rows]
         return found
 
     def resume(self, plan: Plan[Item, Result]) -> Plan[Item, Result]:
@@ -123,13 +123,15 @@ class Store(Generic[Kept]):
         self._count += len(entries)
         return list(entries)
 
-    def tidy(self, plan: Plan[Item, Result], results: Mapping[str, Result]) -> None:
-        """Drop the outdated results of a plan, now that each of its runs has been done again."""
+    def tidy(self, plan: Plan[Item, Result]) -> None:
+        """Drop outdated results of runs that have been done again, and put those of the plan in order."""
         if self.path is None or not plan.outdated:
             return
-        others = [each for each in self.entries() if each.key not in plan.items]
-        own = [Entry(key, plan.digests[key], results[key]) for key in plan.items]
-        self._rewrite([*own, *others])
+        there = self.entries()
+        new = {each.key: each for each in there if plan.digests.get(each.key) == each.digest}
+        self._rewrite(
+            [*(new[key] for key in plan.items if key in new), *(e for e in there if e.key not in new)]
+        )
 
     def forget(self, keys: Sequence[str]) -> None:
         """Drop the results of some runs."""

@@ -256,7 +256,7 @@ def conduct(plan: Plan[Cell, TrialRun], folder: Path | None, jobs: int, progress
     here = jobs == 1 or not plan.missing
     with store.opened(plan), nullcontext(ThisProcess()) if here else Engine(Cluster(workers=jobs)) as engine:
         runs = loop.run_plan(plan, engine, store, report)
-        store.tidy(plan, runs)
+        store.tidy(plan)
     return list(runs.values())
 
 

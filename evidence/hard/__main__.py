@@ -9,7 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from beardyn_core.config import load_bearing
-from evidence.hard.battery import kernels_of, run_battery
+from evidence.hard.battery import earlier_results, forget, kernels_of, run_battery
 from evidence.hard.case import TOPICS, HardCase
 from evidence.hard.catalogue import CASES
 from evidence.hard.explicit_contact import hidden_chatter
@@ -50,9 +50,7 @@ def main(words: list[str] | None = None) -> int:
             print(f"{case.topic:10} {case.name:28} {case.breaks}")
         return 0
     if arguments.again:
-        for case in cases:
-            for path in arguments.folder.glob(f"{case.name.replace('.', '_')}-*"):
-                path.unlink()
+        forget(cases, arguments.folder)
     return _battery(cases, arguments.folder, arguments.jobs, arguments.starts, arguments.output)
 
 
@@ -68,6 +66,9 @@ def _chosen(arguments: argparse.Namespace) -> list[HardCase]:
 
 def _battery(cases: list[HardCase], folder: Path, jobs: int, starts: int, output: Path) -> int:
     by_name = {case.name: case for case in cases}
+    if earlier := earlier_results(folder):
+        print(f"{folder}: {len(earlier)} results (*.outcome) are of an earlier version, which kept them in "
+              "another form; they stay, and their cases are run again", file=sys.stderr)  # fmt: skip
     kernels = kernels_of(cases)
     print(f"{len(cases)} hard cases on {kernels} kernels, {jobs} side by side; a kernel that is not in the "
           "cache takes about a minute.")  # fmt: skip

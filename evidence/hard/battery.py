@@ -1,6 +1,6 @@
 """All hard cases side by side, each in a process of its own kind; what is done is not done again.
 
-A case is done when a result of the same case and the same sources lies in the folder. Long cases keep a
+A case is done when the folder has a result of the same case and the same sources. Long cases keep a
 checkpoint there and are continued from it.
 """
 
@@ -9,10 +9,10 @@ from __future__ import annotations
 import ast
 import hashlib
 import logging
-import pickle
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numba
@@ -22,15 +22,25 @@ import beardyn_core
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments.loop import Progress, run_plan
+from beardyn_core.experiments.plan import Plan
+from beardyn_core.experiments.store import Entry, Layout, Store
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.study.compiling import warm_once
 from evidence.hard.case import HardCase
 from evidence.hard.case_scene import scene_of
-from evidence.hard.run import STARTS, keep, run_case
+from evidence.hard.report import outcome_from
+from evidence.hard.run import STARTS, run_case
 from evidence.hard.verdict import FAILED, Outcome
 
+OUTCOMES = "outcomes.jsonl"
+LINES = Layout[Outcome](
+    lambda each: {"key": each.key, "digest": each.digest, "outcome": asdict(each.result)},
+    lambda row: Entry(row["key"], row["digest"], outcome_from(row["outcome"])),
+    default=lambda value: value.tolist(),  # numbers of NumPy
+)
 _CORE = Path(beardyn_core.__path__[0])
 _HERE = Path(__file__).resolve().parent
 _NOT_IN_A_RESULT = ("catalogue", "cases_", "report", "battery", "page", "test_", "__main__")
@@ -59,55 +69,84 @@ def run_battery(
         Of each case, where it has more than one.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    cases = list(cases)
-    done = {case.name: found for case in cases if (found := _kept(_place(case, folder, starts))) is not None}
-    for number, outcome in enumerate(list(done.values()), start=1):
-        report(outcome, number, len(cases))
-    todo = [case for case in cases if case.name not in done]
-    if not todo:
-        return [done[case.name] for case in cases]
-    size = Counter(kernel_of(case) for case in todo)
-    # long cases first, so that no process works alone at the end; kernels of many cases before others
-    todo.sort(key=lambda case: (not case.long, -size[kernel_of(case)]))
-    with Engine(Cluster(workers=jobs)) as engine:
-        for ended in engine.run(_one, todo, folder, starts):
-            outcome = ended.value
-            if ended.killed:
-                outcome = Outcome(ended.task.name, FAILED, (f"crashed: {ended.killed} processes died of it",))
-            done[outcome.name] = outcome
-            report(outcome, len(done), len(cases))
-    return [done[case.name] for case in cases]
+    store = Store(folder / OUTCOMES, LINES)
+    plan = store.resume(plan_of(list(cases), folder, starts))
+    total, there = len(plan.items), [plan.kept[key] for key in plan.items if key in plan.kept]
+    for number, outcome in enumerate(there, start=1):
+        report(outcome, number, total)
+    if not plan.missing:
+        return there
+    plan = replace(plan, order=tuple(_long_ones_first({key: plan.items[key] for key in plan.missing})))
+
+    def tell(now: Progress[Outcome]) -> None:
+        for outcome in now.latest.values():
+            report(outcome, now.done, total)
+
+    with store.opened(plan), Engine(Cluster(workers=jobs)) as engine:
+        outcomes = run_plan(plan, engine, store, tell)
+        store.tidy(plan)
+    return list(outcomes.values())
+
+
+def plan_of(cases: Sequence[HardCase], folder: Path, starts: int = STARTS) -> Plan[HardCase, Outcome]:
+    """Plan the runs of cases."""
+    items = {key_of(case, starts): case for case in cases}
+    return Plan(
+        items,
+        run_cases,
+        (folder, starts),
+        {key: _mark(case) for key, case in items.items()},
+        lost=lambda case, killed: Outcome(case.name, FAILED, (f"crashed: {killed} processes died of it",)),
+        keeps_lost=False,  # it may have been the memory
+        has_failed=lambda outcome: outcome.verdict == FAILED,
+    )
+
+
+def _long_ones_first(cases: Mapping[str, HardCase]) -> list[str]:
+    """Order cases so that no process works alone at the end, and kernels of many cases come before others."""
+    kernels = {key: kernel_of(case) for key, case in cases.items()}
+    size = Counter(kernels.values())
+    return sorted(cases, key=lambda key: (not cases[key].long, -size[kernels[key]]))
+
+
+def run_cases(cases: Sequence[HardCase], request: tuple[Path, int]) -> list[Outcome]:
+    """Run some cases in this process."""
+    return [_one(case, *request) for case in cases]
 
 
 def _one(case: HardCase, folder: Path, starts: int) -> Outcome:
     """Run a case in this process; a crash of the model is a verdict too."""
     logging.getLogger("beardyn").setLevel(logging.WARNING)
-    place = _place(case, folder, starts)
+    checkpoint = folder / f"{key_of(case, starts)}-{_mark(case)}.checkpoint"
     try:
         kernel = kernel_of(case)
         if kernel not in (*_NO_KERNEL, "none"):
             warm_once(scene_of(case), kernel)
-        outcome = run_case(case, place.with_suffix(".checkpoint"), starts)
+        outcome = run_case(case, checkpoint, starts)
     except Exception:
         outcome = Outcome(case.name, FAILED, (f"crashed: {traceback.format_exc(limit=-3)}",))
-    keep(place.with_suffix(".outcome"), outcome)
-    place.with_suffix(".checkpoint").unlink(missing_ok=True)
+    checkpoint.unlink(missing_ok=True)
     return outcome
 
 
-def _kept(place: Path) -> Outcome | None:
-    path = place.with_suffix(".outcome")
-    if not path.exists():
-        return None
-    outcome = pickle.loads(path.read_bytes())
-    assert isinstance(outcome, Outcome)
-    return outcome
+def key_of(case: HardCase, starts: int) -> str:
+    """Name a case and how often it is begun, as a file may be called."""
+    return case.name.replace(".", "_") + ("" if starts == STARTS else f"-{starts}")
 
 
-def _place(case: HardCase, folder: Path, starts: int) -> Path:
-    """Name the file of a case; the name has no dot, so that a suffix can follow."""
-    fewer = "" if starts == STARTS else f"-{starts}"
-    return folder / f"{case.name.replace('.', '_')}-{_mark(case)}{fewer}"
+def forget(cases: Iterable[HardCase], folder: Path) -> None:
+    """Forget what has been done of cases, from however many starts, their checkpoints included."""
+    store = Store(folder / OUTCOMES, LINES)
+    names = [key_of(case, STARTS) for case in cases]
+    store.forget([each.key for each in store.entries() if each.key.partition("-")[0] in names])
+    for name in names:
+        for path in folder.glob(f"{name}-*.checkpoint"):
+            path.unlink()
+
+
+def earlier_results(folder: Path) -> list[Path]:
+    """List the results that an earlier version has left, which this one cannot read."""
+    return sorted(folder.glob("*.outcome"))
 
 
 def _mark(case: HardCase) -> str:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
-from dataclasses import fields, replace
+from contextlib import nullcontext
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from beardyn_core.base.plain_json import plain
 from beardyn_core.config import load_bearing
+from beardyn_core.experiments import ThisProcess
+from beardyn_core.experiments.store import Entry, Store
 from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, Status
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
+from evidence.hard import __main__ as command
 from evidence.hard import battery, run
 from evidence.hard.battery import run_battery
 from evidence.hard.case import RUN_AS, HardCase, Limit, steady
@@ -88,8 +93,45 @@ def test_battery_keeps_what_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert [outcome.verdict for outcome in first] == ["refused"]
     monkeypatch.setattr(battery, "Engine", None)
     again = run_battery(cases, tmp_path, 1, lambda outcome, _there, _of: told.append(outcome))
-    assert again[0].sentence == first[0].sentence
+    assert repr(again) == repr(first)
     assert len(told) == 2
+
+
+def test_only_what_is_to_be_done_again_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(battery, "Engine", lambda _cluster: nullcontext(ThisProcess()))
+    cases = [case for case in CASES if case.run_as == "refused scene"][:2]
+    run_battery(cases, tmp_path, 1, lambda *_: None)
+    (tmp_path / f"{cases[0].name}-0.checkpoint").touch()
+    battery.forget(cases[:1], tmp_path)
+    plan = Store(tmp_path / battery.OUTCOMES, battery.LINES).resume(battery.plan_of(cases, tmp_path))
+    assert plan.missing == (cases[0].name,)
+    assert [path.name for path in tmp_path.iterdir()] == [battery.OUTCOMES]
+
+
+def test_every_number_of_an_outcome_comes_back_from_the_folder(tmp_path: Path) -> None:
+    outcome = judged(CASE, Finding(GOOD_MEASURES, changes(rows(5.0), rows(5.1))), 1.5)
+    store = Store(tmp_path / battery.OUTCOMES, battery.LINES)
+    plan = battery.plan_of([CASE], tmp_path)
+    with store.opened(plan):
+        store.add([Entry("steady", plan.digests["steady"], outcome)])
+    again = store.resume(plan).kept["steady"]
+    assert plain(asdict(again)) == plain(asdict(outcome))
+    assert again.changes == outcome.changes
+
+
+def test_results_of_an_earlier_version_stay_and_are_told_of(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old = tmp_path / "sphere_beyond_apex-0123456789ab.outcome"
+    old.write_bytes(b"pickled")
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "run_battery", interrupted)
+    assert command.main(["sphere_beyond_apex", "--folder", str(tmp_path)]) == 130
+    assert "1 results (*.outcome) are of an earlier version" in capsys.readouterr().err
+    assert old.exists()
 
 
 # --- finite is not stable

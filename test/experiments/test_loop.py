@@ -94,9 +94,9 @@ def test_results_of_other_code_stay_until_they_are_done_again(tmp_path: Path) ->
     plan = store.resume(edited)
     assert (plan.outdated, plan.kept) == (3, {})
     with store.opened(plan):
-        results = run_plan(plan, ThisProcess(), store)
+        run_plan(plan, ThisProcess(), store)
         assert (tmp_path / "runs.jsonl").read_bytes().startswith(old)
-        store.tidy(plan, results)
+        store.tidy(plan)
     assert [(each.key, each.digest) for each in store.entries()] == [
         *((f"run {n}", "edited") for n in range(3)), ("run 3", "new"), ("run 4", "new"),
     ]  # fmt: skip
