@@ -10,7 +10,7 @@ from pathlib import Path
 
 from evidence.random.book import code, results, try_many
 from evidence.random.scenes import KERNELS, case
-from evidence.random.trial import FAILED, VERDICTS
+from evidence.random.trial import FAILED, VERDICTS, Tried
 
 TELL_EVERY = 500
 
@@ -50,14 +50,17 @@ def main(words: list[str] | None = None) -> int:
 
 def _many(speed: str, count: int, arguments: argparse.Namespace) -> int:
     """Try scenes of a speed, tell what came of them; gives how many have failed."""
-    began = time.monotonic()
-    for index, each in enumerate(
-        try_many(arguments.output, speed, count, arguments.seed, arguments.jobs), start=1
-    ):
+    began, index = time.monotonic(), 0
+
+    def tell(each: Tried) -> None:
+        nonlocal index
+        index += 1
         if each.verdict == FAILED:
             print(f"{speed} {each.number}: FAILED\n{each.says}", flush=True)
         if index % TELL_EVERY == 0:
             print(f"{speed}: {index} in {time.monotonic() - began:.0f} s", flush=True)
+
+    try_many(arguments.output, speed, count, arguments.seed, arguments.jobs, tell)
     done = [each for each in results(arguments.output, speed, arguments.seed, code()) if each.number < count]
     counts = Counter(each.verdict for each in done)
     told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS if counts[verdict])

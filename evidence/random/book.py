@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, fields
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments.loop import Progress, run_plan
+from beardyn_core.experiments.plan import Plan
+from beardyn_core.experiments.store import Entry, Layout, Store
 from evidence.random.trial import FAILED, Tried, tried
 
 AT_ONCE = 20  # scenes of a task: a result is on disk at the latest after some seconds
+_FIELDS = [field.name for field in fields(Tried)]
 _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parents[1]
 # of the simulator that a run goes through; the others make, read and judge recordings and sets
@@ -43,30 +47,45 @@ def sources() -> list[Path]:
     return sorted(found)
 
 
+def store_of(folder: Path, speed: str) -> Store[Tried]:
+    """Give the store of the results of a speed."""
+    return Store(folder / f"{speed}.jsonl", LINES)
+
+
+def _digest(made_by: str, seed: int) -> str:
+    return f"{made_by} {seed}"
+
+
+def _to_json(entry: Entry[Tried]) -> dict[str, Any]:
+    made_by, seed = entry.digest.split(" ")
+    return {**asdict(entry.result), "seed": int(seed), "code": made_by}
+
+
+def _of_json(row: dict[str, Any]) -> Entry[Tried]:
+    result = Tried(**{key: row[key] for key in _FIELDS})
+    return Entry(str(result.number), _digest(row["code"], row["seed"]), result)
+
+
+LINES = Layout(_to_json, _of_json)
+
+
 def results(folder: Path, speed: str, seed: int, made_by: str) -> list[Tried]:
     """Read the results of a folder that some code has made, in the order of their numbers."""
-    path = folder / f"{speed}.jsonl"
-    known = {field.name for field in fields(Tried)}
-    found: dict[int, Tried] = {}
-    for line in path.read_text().splitlines() if path.exists() else ():
-        try:
-            stored = json.loads(line)
-        except json.JSONDecodeError:  # cut off when the run was killed
-            continue
-        if stored["code"] == made_by and stored["seed"] == seed:
-            found[stored["number"]] = Tried(**{key: stored[key] for key in known})
+    entries = store_of(folder, speed).entries()
+    found = {each.result.number: each.result for each in entries if each.digest == _digest(made_by, seed)}
     return [found[number] for number in sorted(found)]
 
 
 def last_code(folder: Path, speed: str) -> str:
     """Tell which code has made the last result of a folder; empty where there is none."""
-    path = folder / f"{speed}.jsonl"
-    lines = path.read_text().splitlines() if path.exists() else []
-    return next((json.loads(line)["code"] for line in reversed(lines) if line.endswith("}")), "")
+    entries = store_of(folder, speed).entries()
+    return entries[-1].digest.partition(" ")[0] if entries else ""
 
 
-def try_many(folder: Path, speed: str, count: int, seed: int, jobs: int) -> Iterator[Tried]:
-    """Try the scenes 0 to ``count`` that a folder does not have, and give each as it is done.
+def try_many(
+    folder: Path, speed: str, count: int, seed: int, jobs: int, report: Callable[[Tried], None]
+) -> None:
+    """Try the scenes 0 to ``count`` that a folder does not have, and report each as it is done.
 
     Parameters
     ----------
@@ -79,24 +98,35 @@ def try_many(folder: Path, speed: str, count: int, seed: int, jobs: int) -> Iter
     """
     folder.mkdir(parents=True, exist_ok=True)
     made_by = code()
-    there = {each.number for each in results(folder, speed, seed, made_by)}
-    todo = [number for number in range(count) if number not in there]
-    tasks = [tuple(todo[first : first + AT_ONCE]) for first in range(0, len(todo), AT_ONCE)]
-    if not tasks:
+    items = {str(number): number for number in range(count)}
+
+    def lost(number: int, killed: int) -> Tried:
+        died = f"this scene ended {killed} processes, one after the other"
+        return Tried(number, speed, "", "", "", FAILED, died)
+
+    store = store_of(folder, speed)
+    plan = store.resume(
+        Plan(
+            items,
+            try_some,
+            (seed, speed),
+            dict.fromkeys(items, _digest(made_by, seed)),
+            together=AT_ONCE,
+            lost=lost,
+            has_failed=lambda each: each.verdict == FAILED,
+        )
+    )
+    if not plan.missing:
         return
-    path = folder / f"{speed}.jsonl"
-    with Engine(Cluster(workers=jobs)) as engine, path.open("a") as file:
-        for ended in engine.run(try_some, tasks, seed, speed):
-            done = ended.value
-            if ended.killed:
-                died = f"one of these scenes ended {ended.killed} processes, one after the other"
-                done = [Tried(number, speed, "", "", "", FAILED, died) for number in ended.task]
-            for each in done:
-                file.write(json.dumps({**asdict(each), "seed": seed, "code": made_by}) + "\n")
-                yield each
-            file.flush()
+
+    def tell(now: Progress[Tried]) -> None:
+        for each in now.latest.values():
+            report(each)
+
+    with store.opened(plan), Engine(Cluster(workers=jobs)) as engine:
+        run_plan(plan, engine, store, tell)
 
 
-def try_some(numbers: tuple[int, ...], seed: int, speed: str) -> list[Tried]:
+def try_some(numbers: Sequence[int], request: tuple[int, str]) -> list[Tried]:
     """Try some scenes in this process."""
-    return [tried(number, seed, speed) for number in numbers]
+    return [tried(number, *request) for number in numbers]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated as A
@@ -15,7 +16,7 @@ import pytest
 
 from beardyn_core.base.edge import At
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.experiments import Ended
+from beardyn_core.experiments import ThisProcess
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
@@ -132,25 +133,12 @@ def test_results_are_kept_and_only_the_missing_are_run(
 ) -> None:
     asked: list[int] = []
 
-    def some(numbers: tuple[int, ...], _seed: int, speed: str) -> list[Tried]:
-        asked.extend(numbers)
-        return [Tried(n, speed, "lumped", "standard", "sound", FAILED if n == 3 else FINITE) for n in numbers]
+    def some(number: int, _seed: int, speed: str) -> Tried:
+        asked.append(number)
+        return Tried(number, speed, "lumped", "standard", "sound", FAILED if number == 3 else FINITE)
 
-    class Here:
-        def __init__(self, _cluster: object) -> None:
-            pass
-
-        def __enter__(self) -> Here:
-            return self
-
-        def __exit__(self, *_: object) -> None:
-            pass
-
-        def run(self, function: object, tasks: list[tuple[int, ...]], *arguments: object) -> object:
-            assert function is book.try_some
-            return (Ended(task, some(task, *arguments)) for task in tasks)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(book, "Engine", Here)
+    monkeypatch.setattr(book, "tried", some)
+    monkeypatch.setattr(book, "Engine", lambda _cluster: nullcontext(ThisProcess()))
     words = ["--full", "0", "-o", str(tmp_path), "--jobs", "1"]
     assert main([*words, "--fast", "3"]) == 0
     assert main([*words, "--fast", "5"]) == 1

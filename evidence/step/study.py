@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments.loop import Progress, run_plan
+from beardyn_core.experiments.plan import Plan
 from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX
 from beardyn_core.study.measures import NOMINAL_BANDS
@@ -93,12 +95,23 @@ def run_study(
     report("explicit steps across their limit")
     unstable = unstable_runs(points)
     results: dict[Job, StepRun | str] = {}
+    plan = Plan[Job, StepRun | str](
+        {
+            f"{point.name}, {method.name}, run {number + 1}": (point, method, number)
+            for point, method, number in jobs_of
+        },
+        attempt_jobs,
+        (extent.settling, extent.duration),
+        lost=lambda _, killed: f"{killed} processes died of it",
+    )
+
+    def tell(now: Progress[StepRun | str]) -> None:
+        for key, found in now.latest.items():
+            results[plan.items[key]] = found
+            report(f"{now.done:3}/{len(plan.items)}  {key}: {_said(found)}")
+
     with Engine(Cluster(workers=jobs)) as engine:
-        ended = engine.run(_attempted, jobs_of, extent.settling, extent.duration)
-        for done, each in enumerate(ended, start=1):
-            point, method, number = each.task
-            found = results[each.task] = each.value or f"{each.killed} processes died of it"
-            report(f"{done:3}/{len(jobs_of)}  {point.name}, {method.name}, run {number + 1}: {_said(found)}")
+        run_plan(plan, engine, report=tell)
     runs: Runs = {}
     for point, method, number in jobs_of:
         runs.setdefault((point, method), []).append(results[point, method, number])
@@ -119,10 +132,9 @@ def run_study(
     }
 
 
-def _attempted(job: Job, settling: float, duration: float) -> StepRun | str:
-    """Do one run in a process of the engine."""
-    point, method, number = job
-    return attempt(point, method, number, settling, duration)
+def attempt_jobs(jobs: Sequence[Job], lengths: tuple[float, float]) -> list[StepRun | str]:
+    """Do some runs in this process; their settling and duration are given, [s]."""
+    return [attempt(*job, *lengths) for job in jobs]
 
 
 def _said(found: StepRun | str) -> str:
