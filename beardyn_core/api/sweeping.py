@@ -10,9 +10,10 @@ from typing import Any
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import folder_problems
 from beardyn_core.experiments import Cluster, EngineError, Tls
+from beardyn_core.experiments.loop import Progress
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.request import asked
-from beardyn_core.population.sweeping import Progress, conduct
+from beardyn_core.population.sweeping import conduct
 
 _TOLD_EVERY_S = 10.0
 

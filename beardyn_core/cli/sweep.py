@@ -119,7 +119,7 @@ def option_problems(args: argparse.Namespace, cluster: Cluster) -> list[str]:
 def _mistakes_of(sweep: str, changes: dict[str, Any]) -> list[str]:
     """List the mistakes in a sweep file and in the scenes of its runs, without choosing effects."""
     from beardyn_core.config import read_sweep
-    from beardyn_core.population.plan import mistakes_of
+    from beardyn_core.population.sweep_scenes import mistakes_of
 
     try:
         return mistakes_of(*read_sweep(sweep, **changes))
@@ -184,7 +184,7 @@ class _Bar:
 
     def __call__(self, now: object) -> None:
         from beardyn_core.api.sweeping import clock
-        from beardyn_core.population.sweeping import Progress
+        from beardyn_core.experiments.loop import Progress
 
         assert isinstance(now, Progress)
         if not self._linked and now.dashboard:

@@ -6,7 +6,8 @@ import os
 import platform
 import sys
 import time
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Annotated as A
 from typing import Any
 
@@ -19,7 +20,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.population.draw import Row
 from beardyn_core.population.features import NAMES, features_of
-from beardyn_core.population.plan import Plan, bearing_name, check_rows
+from beardyn_core.population.sweep_scenes import SweepScenes, bearing_name, check_rows
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run import Run
 from beardyn_core.record.tables import parts_of, signal_of
@@ -57,34 +58,31 @@ class Made:
     arrays: A[dict[str, NDArray[Any]], "by name; empty where the run did not begin"]
     seconds: A[float, "wall time on its worker, [s]"]
     processor: A[float, "processor time of its worker meanwhile, [s]"] = 0.0
+    shapes: A[
+        dict[str, Array], "what the arrays are, without values; told by the first whole run of a task alone"
+    ] = field(default_factory=dict)
+    times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]; told by the same run"] = field(
+        default_factory=dict
+    )
+    code: A[str, "digest of the code of the worker; empty for a run that no worker has ended"] = ""
+    worker: A[str, "process that did it: machine and process"] = "none"
+    memory: A[int, "most that process had held by the end of the task, [byte]"] = 0
 
 
-@dataclass(frozen=True)
-class Batch:
-    """Several runs that are done."""
-
-    made: tuple[Made, ...]
-    arrays: A[dict[str, Array], "what the arrays are, without values; empty when no run of the batch began"]
-    times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]"]
-    code: A[str, "digest of the code of the worker"]
-    worker: A[str, "process that did it: machine and process"]
-    memory: A[int, "most that process has held so far, [byte]"] = 0
-
-
-def run_batch(rows: tuple[Row, ...], plan: Plan) -> Batch:
+def run_batch(rows: Sequence[Row], scenes: SweepScenes) -> list[Made]:
     """Simulate runs one after the other in this process."""
-    made, shapes, times = [], dict[str, Array](), dict[str, NDArray[np.int64]]()
+    made, told = list[Made](), False
     for row in rows:
-        done, arrays, when = _made(row, plan)
-        made.append(done)
-        if arrays and not shapes and done.labels["status"] == DONE:
+        done, arrays, times = _made(row, scenes)
+        if arrays and not told and done.labels["status"] == DONE:
             shapes = {
                 name: Array(each.values[:0], each.dims, each.unit, each.signal)
                 for name, each in arrays.items()
             }
-            times = when
-    process = f"{platform.node()}:{os.getpid()}"
-    return Batch(tuple(made), shapes, times, code_digest(), process, most_memory())
+            done, told = replace(done, shapes=shapes, times=times), True
+        made.append(done)
+    process, memory = f"{platform.node()}:{os.getpid()}", most_memory()
+    return [replace(each, code=code_digest(), worker=process, memory=memory) for each in made]
 
 
 def most_memory() -> int:
@@ -95,9 +93,9 @@ def most_memory() -> int:
     return most if sys.platform == "darwin" else 1024 * most
 
 
-def checked_batch(rows: tuple[Row, ...], plan: Plan) -> list[str]:
+def checked_batch(rows: Sequence[Row], scenes: SweepScenes) -> list[str]:
     """List what is wrong with the scenes of runs; see `check_rows`."""
-    return check_rows(plan, rows)
+    return check_rows(scenes, rows)
 
 
 def code_digest() -> str:
@@ -105,21 +103,21 @@ def code_digest() -> str:
     return f"{simulator_digest()}-{LANE_WIDTH}"
 
 
-def _made(row: Row, plan: Plan) -> tuple[Made, dict[str, Array], dict[str, NDArray[np.int64]]]:
+def _made(row: Row, scenes: SweepScenes) -> tuple[Made, dict[str, Array], dict[str, NDArray[np.int64]]]:
     began, spent = time.perf_counter(), time.process_time()
-    values = plan.keys(row)[1]
+    values = scenes.keys(row)[1]
     labels: dict[str, Any] = {"run": row.run, "status": FAILED, "reason": "", "bearing_id": ""}
     arrays: dict[str, Array] = {}
     times: dict[str, NDArray[np.int64]] = {}
     features = dict.fromkeys(NAMES, float("nan"))
     try:
-        scene = plan.scene(row)
+        scene = scenes.scene(row)
         labels["bearing_id"] = bearing_name(scene)
         run = simulated(scene)
         complete = run.status == DONE
         labels |= {"status": DONE if complete else FAILED, "reason": "" if complete else run.status}
         labels |= {name: value for name, value in run.labels.items() if name not in labels}
-        arrays, times = arrays_of(run, plan.sweep.signals)
+        arrays, times = arrays_of(run, scenes.sweep.signals)
         features = features_of(run, fault_frequencies(scene.bearing), scene.bearing.roller_count)
     except (InputError, ValidityError) as error:
         labels |= {"status": FAILED, "reason": str(error)}

@@ -8,7 +8,7 @@ from typing import Any
 
 from beardyn_core.base.edge import written
 from beardyn_core.config.yaml_text import write_mapping
-from beardyn_core.population.plan import Plan
+from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import unit_in
 
 _LIMITS = (
@@ -21,13 +21,13 @@ _LIMITS = (
 )
 
 
-def card_text(plan: Plan, about: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
+def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
     """Write the card."""
-    sweep = plan.sweep
+    sweep = scenes.sweep
     conditions = Counter(str(row["condition"]) for row in rows if row["condition"])
     parts = about["parts"]
     bearings = len({row["bearing_id"] for row in rows if row["bearing_id"]})
-    frame = plan.frame
+    frame = scenes.frame
     sensors = "" if frame is None else ", ".join(f"{name} at {rate:g} Hz" for name, rate in frame.sensors)
     length = "" if frame is None else f"{frame.duration:g} s"
     lines = [
@@ -42,7 +42,7 @@ def card_text(plan: Plan, about: Mapping[str, Any], rows: Sequence[Mapping[str, 
         f"| parts | {', '.join(f'{name} {count}' for name, count in parts.items())}; no bearing is in two |",
         f"| conditions | {', '.join(f'{name} {count}' for name, count in conditions.most_common())} |",
         f"| each run | {length}, {sensors} |",
-        f"| tier | {plan.base.get('tier', 'full')} |",
+        f"| tier | {scenes.base.get('tier', 'full')} |",
         f"| seed | {sweep.seed} |",
         f"| made | from {about['begun']} on, {about['processes']} processes, "
         f"{about['processor_seconds_a_run']['median']:.2f} s of a core a run |",
@@ -70,20 +70,20 @@ def card_text(plan: Plan, about: Mapping[str, Any], rows: Sequence[Mapping[str, 
         "## How",
         "",
         "```yaml",
-        write_mapping(_sweep(plan)).rstrip(),
+        write_mapping(_sweep(scenes)).rstrip(),
         "```",
         "",
     ]
-    if plan.chosen:
-        lines += ["What the scene leaves open was chosen:", "", *(f"- {each}" for each in plan.chosen), ""]
+    if scenes.chosen:
+        lines += ["What the scene leaves open was chosen:", "", *(f"- {each}" for each in scenes.chosen), ""]
     lines += ["## Columns that were drawn", "", "| column | unit | from | to |", "|---|---|---|---|"]
     lines += [_column(variable.key, rows) for variable in sweep.vary]
     lines += ["", "## Known limits", "", *(f"- {limit}" for limit in _LIMITS), ""]
     return "\n".join(lines)
 
 
-def _sweep(plan: Plan) -> dict[str, Any]:
-    found = written(plan.sweep)
+def _sweep(scenes: SweepScenes) -> dict[str, Any]:
+    found = written(scenes.sweep)
     return {key: value for key, value in found.items() if value not in ({}, [], ())}
 
 

@@ -14,7 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.store import RUN
+from beardyn_core.population.signal_store import RUN
 
 KINDS = (".h5", ".npz", ".parquet")
 _AT_ONCE = 32  # runs in memory

@@ -14,8 +14,8 @@ from beardyn_core.experiments import Cluster
 from beardyn_core.population.data_card import card_text
 from beardyn_core.population.features import UNITS as FEATURE_UNITS
 from beardyn_core.population.folder import CARD, SUMS, read_about, write_about
-from beardyn_core.population.plan import Plan
-from beardyn_core.population.store import SIGNALS
+from beardyn_core.population.signal_store import SIGNALS
+from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import FEATURES, RUNS, splits_of, write_table
 
 _FIRST = ("run", "bearing_id", "split", "status", "reason", "condition")
@@ -23,14 +23,18 @@ _READ = 1 << 20
 
 
 def close_set(
-    folder: Path, plan: Plan, about: dict[str, Any], done: Mapping[int, Mapping[str, Any]], cluster: Cluster
+    folder: Path,
+    scenes: SweepScenes,
+    about: dict[str, Any],
+    done: Mapping[int, Mapping[str, Any]],
+    cluster: Cluster,
 ) -> None:
     """Write the tables, the card and the checksums of the runs that are done."""
     made = [done[run] for run in sorted(done)]
     if not made:
         return
     labels = [dict(each["labels"]) for each in made]
-    parts = splits_of([row["bearing_id"] for row in labels], plan.sweep.split, plan.sweep.seed)
+    parts = splits_of([row["bearing_id"] for row in labels], scenes.sweep.split, scenes.sweep.seed)
     rows = []
     for row, part in zip(labels, parts, strict=True):
         row["split"] = part if row["bearing_id"] else None
@@ -50,9 +54,9 @@ def close_set(
     about["most_memory"] = max(int(each["memory"]) for each in made)
     about["processes"] = len({each["worker"] for each in made})
     about["parts"] = dict(Counter(row["split"] for row in rows if row["split"]))
-    about["split"] = plan.sweep.split.shares
+    about["split"] = scenes.sweep.split.shares
     write_about(folder, about)
-    write_whole(folder / CARD, card_text(plan, about, rows))
+    write_whole(folder / CARD, card_text(scenes, about, rows))
     write_sums(folder)
 
 

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.outputs import is_being_written, open_to_append, write_whole
+from beardyn_core.base.outputs import write_whole
+from beardyn_core.base.plain_json import plain
 from beardyn_core.base.versions import versions
 from beardyn_core.experiments.code_digest import simulator_digest
-from beardyn_core.population.batch import Batch
-from beardyn_core.population.plan import Plan
-from beardyn_core.population.store import SIGNALS, forget
+from beardyn_core.experiments.plan import Plan
+from beardyn_core.experiments.store import Entry, Layout, Store, differing
+from beardyn_core.population.batch import Made
+from beardyn_core.population.signal_store import SIGNALS, SignalStore, forget
+from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import FEATURES, RUNS
 
 ABOUT, JOURNAL, CARD, SUMS = "set.json", "journal.jsonl", "README.md", "SHA256SUMS"
 FILES = (ABOUT, JOURNAL, CARD, SUMS, RUNS, FEATURES)
 _FORMAT = 1
+# a line for every task that is done, after its signals are written
+LINES = Layout[dict[str, Any]](
+    lambda each: each.result,
+    lambda made: Entry(str(int(made["labels"]["run"])), "", made),
+    group="made",
+)
 
 
 def read_about(folder: Path) -> dict[str, Any]:
@@ -45,9 +53,9 @@ def read_about(folder: Path) -> dict[str, Any]:
     return found
 
 
-def folder_of_set_problems(folder: Path, plan: Plan, *, force: bool) -> list[str]:
-    """List why the runs of a plan cannot go into a folder; nothing is created."""
-    if is_being_written(folder / JOURNAL):
+def folder_of_set_problems(folder: Path, scenes: SweepScenes, *, force: bool) -> list[str]:
+    """List why the runs of a sweep cannot go into a folder; nothing is created."""
+    if Store(folder / JOURNAL, LINES).is_busy:
         return [f"{folder}: another sweep is writing this set; wait for its end or give another folder"]
     if not folder.is_dir() or not any(folder.iterdir()):
         return []
@@ -58,9 +66,7 @@ def folder_of_set_problems(folder: Path, plan: Plan, *, force: bool) -> list[str
     about = read_about(folder)
     count = len(done_rows(folder))
     lose = "give another folder, or --force to start over and lose them"
-    mine, there = plan.identity, about["identity"]
-    different = [name for name in dict.fromkeys([*mine, *there]) if mine.get(name) != there.get(name)]
-    if different:
+    if different := differing(scenes.identity, about["identity"]):
         what = ", ".join("the scene" if name == "base" else name for name in different)
         return [f"{folder}: its {count} runs are of another sweep ({what} differ); {lose}"]
     if about["code"] != simulator_digest():
@@ -68,15 +74,15 @@ def folder_of_set_problems(folder: Path, plan: Plan, *, force: bool) -> list[str
             f"{folder}: its {count} runs are of other code (digest {about['code']}, this is "
             f"{simulator_digest()}), and runs of both would not go together; {lose}"
         ]
-    if about["runs"] > plan.sweep.run_count and count > plan.sweep.run_count:
+    if about["runs"] > scenes.sweep.run_count and count > scenes.sweep.run_count:
         return [
-            f"{folder}: has {count} runs, more than the {plan.sweep.run_count} that are asked for; "
+            f"{folder}: has {count} runs, more than the {scenes.sweep.run_count} that are asked for; "
             "ask for as many or more, or give another folder"
         ]
     return []
 
 
-def begin(folder: Path, plan: Plan, *, fresh: bool) -> dict[str, Any]:
+def begin(folder: Path, scenes: SweepScenes, *, fresh: bool) -> dict[str, Any]:
     """Make the folder, or take one up again; gives what it says about itself."""
     folder.mkdir(exist_ok=True)
     if fresh:
@@ -85,19 +91,19 @@ def begin(folder: Path, plan: Plan, *, fresh: bool) -> dict[str, Any]:
                 (folder / name).unlink()
         forget(folder)
     if (folder / ABOUT).is_file():
-        about = read_about(folder) | {"runs": plan.sweep.run_count}
+        about = read_about(folder) | {"runs": scenes.sweep.run_count}
     else:
         about = {
             "format": _FORMAT,
-            "sweep": plan.sweep.name,
-            "purpose": plan.sweep.purpose,
-            "licence": plan.sweep.licence,
-            "runs": plan.sweep.run_count,
+            "sweep": scenes.sweep.name,
+            "purpose": scenes.sweep.purpose,
+            "licence": scenes.sweep.licence,
+            "runs": scenes.sweep.run_count,
             "begun": datetime.now(UTC).isoformat(timespec="seconds"),
             "code": simulator_digest(),
             "versions": versions(),
-            "chosen": list(plan.chosen),
-            "identity": plan.identity,
+            "chosen": list(scenes.chosen),
+            "identity": scenes.identity,
         }
     write_about(folder, about)
     return about
@@ -110,81 +116,80 @@ def write_about(folder: Path, about: dict[str, Any]) -> None:
 
 def done_rows(folder: Path) -> dict[int, dict[str, Any]]:
     """Read the runs that are done, by number: labels, features, times, worker and its memory."""
-    found: dict[int, dict[str, Any]] = {}
-    path = folder / JOURNAL
-    if not path.is_file():
-        return found
-    with path.open(encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            with suppress(ValueError, TypeError, KeyError):  # the last one may be cut off
-                for made in json.loads(line)["made"]:
-                    found[int(made["labels"]["run"])] = made
-    return found
+    return {int(each.key): each.result for each in Store(folder / JOURNAL, LINES).entries()}
 
 
-class Journal:
-    """File that gets a line for every task that is done, after its signals are written."""
+class SetStore(Store[dict[str, Any]]):
+    """The journal of a set, and the signals that are written before each of its lines.
 
-    def __init__(self, folder: Path) -> None:
-        self._path = folder / JOURNAL
-        with disk(self._path):
-            self._file: BinaryIO = open_to_append(self._path)
+    Parameters
+    ----------
+    folder : Path
+    says : dict
+        What the set says about itself; gets what is learnt of the machine.
+    """
 
-    def add(self, batch: Batch) -> list[dict[str, Any]]:
-        """Add runs that are done."""
-        made = [
-            {
-                "labels": plain(each.labels),
-                "features": plain(each.features),
-                "seconds": round(each.seconds, 4),
-                "processor": round(each.processor, 4),
-                "worker": batch.worker,
-                "memory": batch.memory,
-            }
-            for each in batch.made
-        ]
-        line = (json.dumps({"made": made}) + "\n").encode()
-        with disk(self._path):
-            while line:  # a disk that is nearly full takes a part
-                line = line[self._file.write(line) :]
-        return made
+    def __init__(self, folder: Path, says: dict[str, Any]) -> None:
+        super().__init__(folder / JOURNAL, LINES)
+        self._folder, self._says = folder, says
+        self._signals: SignalStore | None = None
 
-    def close(self) -> None:
-        """Close the file, which unlocks it."""
-        self._file.close()
+    @contextmanager
+    def opened(self, plan: Plan[Any, Any]) -> Iterator[None]:
+        """Lock the journal, and make room for the signals of runs that are missing."""
+        with super().opened(plan):
+            if plan.missing:
+                self._signals = SignalStore(self._folder, len(plan.items), plan.together)
+            yield
+
+    def add(self, entries: Sequence[Entry[Any]]) -> list[Entry[Any]]:
+        """Add the results of a task, `Made` as they are; gives the rows of the journal.
+
+        Raises
+        ------
+        InputError
+            A worker has other code, or signals do not fit.
+        """
+        runs: list[Made] = [each.result for each in entries]
+        self._check_code(runs[0])
+        assert self._signals is not None
+        if problems := self._signals.write(runs):
+            raise InputError([f"{self._folder}: {problem}, unlike the others" for problem in problems])
+        return super().add([each._replace(result=_row(each.result)) for each in entries])
+
+    def _check_code(self, made: Made) -> None:
+        """Refuse a worker whose bits would be others."""
+        if not made.code:
+            return
+        code, _, lanes = made.code.partition("-")
+        if code != simulator_digest():
+            raise InputError(
+                f"worker {made.worker}: its beardyn is another one (digest {code}, here "
+                f"{simulator_digest()}); install the same version on every machine"
+            )
+        if "lanes" not in self._says:
+            self._says["lanes"] = lanes
+            write_about(self._folder, self._says)
+        known = self._says["lanes"]
+        if lanes != known:
+            raise InputError(
+                f"worker {made.worker}: its processor takes {lanes} rollers at once, the runs so far were "
+                f"made {known} at once; their last bits would differ: use machines of one kind"
+            )
 
 
-@contextmanager
-def disk(path: Path) -> Iterator[None]:
-    """Turn a full disk into a sentence."""
-    try:
-        yield
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be written: {error.strerror or error}; the runs before are kept, and the same "
-            "command goes on from there"
-        ) from error
-
-
-def plain(value: Any) -> Any:
-    """Turn what a run says into strict JSON: NaN to null, numbers of NumPy to those of Python."""
-    if isinstance(value, dict):
-        return {str(key): plain(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(each) for each in value]
-    if hasattr(value, "tolist"):
-        return plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+def _row(made: Made) -> dict[str, Any]:
+    """Write a run as the journal has it."""
+    return {
+        "labels": plain(made.labels),
+        "features": plain(made.features),
+        "seconds": round(made.seconds, 4),
+        "processor": round(made.processor, 4),
+        "worker": made.worker,
+        "memory": made.memory,
+    }
 
 
 def size_of(folder: Path) -> int:
     """Measure the signals of a set, [byte]."""
     return sum(path.stat().st_size for path in (folder / SIGNALS).rglob("*") if path.is_file())
-
-
-def numbers_missing(count: int, done: Sequence[int] | dict[int, Any]) -> list[int]:
-    """List the numbers of runs that are still to be done."""
-    there = set(done)
-    return [run for run in range(count) if run not in there]

@@ -14,7 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
 from beardyn_core.population.finalizing import verify
 from beardyn_core.population.folder import read_about
-from beardyn_core.population.store import RUN, SIGNALS, zarr_library
+from beardyn_core.population.signal_store import RUN, SIGNALS, zarr_library
 from beardyn_core.population.table import FEATURES, RUNS, units_of
 
 if TYPE_CHECKING:

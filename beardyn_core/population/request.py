@@ -1,4 +1,4 @@
-"""What a user asks for: the plan of a sweep file, or every mistake in it, in its scene and in its runs."""
+"""What a user asks for: the scenes of a sweep file, or every mistake in it, in its scene and in its runs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
-from beardyn_core.population.plan import Plan, mistakes_of, plan_of
+from beardyn_core.population.sweep_scenes import SweepScenes, mistakes_of, scenes_of
 
 _EVEN = (
     "sampling sobol fills all keys evenly, but few runs of it have keys that go together, and a learner that "
@@ -24,8 +24,8 @@ _EMPTY = {"sweep": "mistakes", "purpose": "to find them", "scene": "smooth_run",
 
 def asked(
     sweep: str | Path | Mapping[str, Any], say: Callable[[str], None] = lambda _: None, **changes: Any
-) -> Plan:
-    """Make the plan of a shipped sweep, a file or a mapping.
+) -> SweepScenes:
+    """Make the scenes of a shipped sweep, a file or a mapping.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def asked(
         raise InputError([*error.problems, *_of_the_rest(name)]) from None
     if found.sampling == "sobol":
         say(_EVEN)
-    return plan_of(found, label, say)
+    return scenes_of(found, label, say)
 
 
 def _of_the_rest(name: dict[str, Any] | str | Path) -> list[str]:

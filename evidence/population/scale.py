@@ -20,7 +20,7 @@ from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.folder import done_rows, size_of
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.plan import plan_of
+from beardyn_core.population.sweep_scenes import scenes_of
 from evidence.population.sets import TRAINED
 
 WORKERS = (1, 2, 4, 8)
@@ -131,17 +131,17 @@ def core_scaling() -> list[dict[str, float]]:
     for workers in CORES:
         count = RUNS_TIMED * workers
         sweep, label = read_sweep(TRAINED, runs=2 * count)
-        plan, drawn = plan_of(sweep, label), rows_of(sweep)
+        scenes, drawn = scenes_of(sweep, label), rows_of(sweep)
         tasks = [tuple(drawn[first : first + TOGETHER]) for first in range(0, 2 * count, TOGETHER)]
         half = len(tasks) // 2
         with Engine(Cluster(workers=workers)) as engine:
-            list(engine.run(run_batch, tasks[:half], plan))
+            list(engine.run(run_batch, tasks[:half], scenes))
             before, own, began = _processor(engine), time.process_time(), time.perf_counter()
-            batches = [ended.value for ended in engine.run(run_batch, tasks[half:], plan)]
+            batches = [ended.value for ended in engine.run(run_batch, tasks[half:], scenes)]
             wall = time.perf_counter() - began
             load = os.getloadavg()[0]
             spent = _processor(engine) - before + time.process_time() - own
-        runs = [made for batch in batches for made in batch.made]
+        runs = [made for batch in batches for made in batch]
         inside = sum(made.processor for made in runs)
         rows.append(
             {

@@ -14,7 +14,7 @@ from beardyn_core.config import read_sweep
 from beardyn_core.effects import ModalStructure
 from beardyn_core.experiments import Cluster, Engine
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.plan import plan_of
+from beardyn_core.population.sweep_scenes import scenes_of
 from evidence.population import page as page_module
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.page import section, write_page
@@ -113,7 +113,7 @@ def test_writing_again_keeps_what_is_above_the_mark(tmp_path: Path, monkeypatch:
 @pytest.mark.parametrize("name", OTHERS)
 def test_further_sets_differ_by_what_their_name_says_and_share_no_bearing(name: str) -> None:
     trained, _ = read_sweep("spalls")
-    plan = plan_of(*read_sweep(other_sweep(name, 8)))
+    plan = scenes_of(*read_sweep(other_sweep(name, 8)))
     rows = rows_of(plan.sweep)
     assert not {row.lot for row in rows} & {row.lot for row in rows_of(trained)}
     scene = plan.scene(rows[0])

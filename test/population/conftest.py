@@ -9,7 +9,8 @@ import pytest
 
 from beardyn_core.experiments import Cluster
 from beardyn_core.experiments.cluster import LocalCluster
-from beardyn_core.population.sweeping import Progress, conduct
+from beardyn_core.experiments.loop import Progress
+from beardyn_core.population.sweeping import conduct
 from test.population.sweeps import planned
 
 

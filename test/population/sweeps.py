@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.config import read_sweep
-from beardyn_core.population.plan import Plan, plan_of
+from beardyn_core.population.sweep_scenes import SweepScenes, scenes_of
 
 TINY: dict[str, Any] = {
     "sweep": "tiny",
@@ -33,9 +33,9 @@ def tiny(**changes: Any) -> dict[str, Any]:
     return {**TINY, **changes}
 
 
-def planned(**changes: Any) -> Plan:
-    """Plan the tiny sweep, some keys changed."""
-    return plan_of(*read_sweep(tiny(**changes)))
+def planned(**changes: Any) -> SweepScenes:
+    """SweepScenes the tiny sweep, some keys changed."""
+    return scenes_of(*read_sweep(tiny(**changes)))
 
 
 def content(folder: Path) -> dict[str, bytes]:

@@ -22,7 +22,7 @@ import beardyn_core as bd
 from beardyn_core.config import read_sweep
 from beardyn_core.experiments import Cluster, Engine, EngineError, Tls
 from beardyn_core.population.folder import done_rows
-from beardyn_core.population.plan import plan_of
+from beardyn_core.population.sweep_scenes import scenes_of
 from beardyn_core.population.sweeping import conduct
 from test.experiments.work import squared
 from test.population.sweeps import tiny
@@ -115,7 +115,7 @@ def bits(folder: Path) -> dict[str, bytes]:
 def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     """The set as this machine's own processes make it."""
     folder = tmp_path_factory.mktemp("whole")
-    conduct(plan_of(*read_sweep(tiny(runs=24))), folder / "set", Cluster(workers=2))
+    conduct(scenes_of(*read_sweep(tiny(runs=24))), folder / "set", Cluster(workers=2))
     return bits(folder / "set")
 
 
@@ -169,7 +169,7 @@ def test_a_worker_that_comes_later_takes_its_share(
             machines.start("worker", nworkers="1")
             time.sleep(15.0)  # it takes so long to begin
 
-    plan = plan_of(*read_sweep(tiny(runs=24)))
+    plan = scenes_of(*read_sweep(tiny(runs=24)))
     conduct(plan, tmp_path / "set", Cluster(scheduler=machines.address), report=add)
     assert seen[0] == 1
     assert seen[-1] == 2
@@ -184,7 +184,7 @@ def test_a_scheduler_that_is_killed_and_comes_back_loses_nothing_that_was_finish
     scheduler = machines.start("scheduler")
     machines.start("worker", nworkers="1")
     said: list[str] = []
-    plan = plan_of(*read_sweep(tiny(runs=24)))
+    plan = scenes_of(*read_sweep(tiny(runs=24)))
     cluster = Cluster(scheduler=machines.address, patience=LONGEST_S)
     sweep = threading.Thread(
         target=conduct, args=(plan, tmp_path / "set", cluster), kwargs={"say": said.append}, daemon=True

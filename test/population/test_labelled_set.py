@@ -9,6 +9,7 @@ import pickle
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,12 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.population.batch import Array, Batch, Made
+from beardyn_core.experiments.loop import Progress
+from beardyn_core.population.batch import Array, Made
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.finalizing import verify
-from beardyn_core.population.store import SignalStore
-from beardyn_core.population.sweeping import Progress
+from beardyn_core.population.signal_store import SignalStore
 from beardyn_core.population.table import write_table
 from test.population.sweeps import planned
 
@@ -174,7 +175,7 @@ def wide_set(folder: Path, count: int) -> None:
             Made(run, {}, {}, {"vibration": random.random((51_200, 3), np.float32)}, 0.0)
             for run in range(first, min(first + 8, count))
         ]
-        store.write(Batch(tuple(made), about, times, "", ""))
+        store.write([replace(made[0], shapes=about, times=times), *made[1:]])
     rows = [{"run": run, "split": "train", "status": "complete", "condition": "cup"} for run in range(count)]
     write_table(folder / "runs.parquet", rows, {}, {})
     write_table(folder / "features.parquet", [{"run": run} for run in range(count)], {}, {})

@@ -11,8 +11,8 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep, scene_text
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.plan import plan_of
 from beardyn_core.population.request import asked
+from beardyn_core.population.sweep_scenes import scenes_of
 from test.population.sweeps import TINY, planned, tiny
 
 
@@ -136,7 +136,7 @@ def test_a_base_scene_may_come_from_anywhere(tmp_path: Path) -> None:
     """A file of one's own, beside the sweep."""
     (tmp_path / "mine.yaml").write_text(scene_text(planned().scene(rows_of(planned().sweep)[0])))
     (tmp_path / "own.yaml").write_text(json.dumps({**TINY, "scene": "mine.yaml", "set": {}, "runs": 2}))
-    plan = plan_of(*read_sweep(tmp_path / "own.yaml"))
+    plan = scenes_of(*read_sweep(tmp_path / "own.yaml"))
     assert plan.scene(rows_of(plan.sweep)[1]).tier == "lumped"
 
 

@@ -15,18 +15,19 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.experiments import Cluster
 from beardyn_core.experiments.cluster import LocalCluster
-from beardyn_core.population import sweeping
+from beardyn_core.experiments.loop import Progress
+from beardyn_core.population import folder as folder_module
 from beardyn_core.population.batch import run_batch
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.folder import JOURNAL, done_rows
-from beardyn_core.population.sweeping import Progress, Swept, conduct
+from beardyn_core.population.sweeping import Swept, conduct
 from test.population.sweeps import TINY, content, planned
 
 
 def test_the_same_bits_come_from_this_process_and_from_two_workers(made: tuple[Path, list[Progress]]) -> None:
     plan, runs = planned(), bd.open_set(made[0])
     batch = run_batch(tuple(rows_of(plan.sweep)[3:6]), plan)  # other tasks than those of the set
-    for each in batch.made:
+    for each in batch:
         for name, values in each.arrays.items():
             np.testing.assert_array_equal(runs.arrays[name][each.run], values, strict=True)
         own = runs.table.iloc[each.run]
@@ -165,7 +166,7 @@ def test_any_number_of_workers_makes_the_same_bits(
 def test_a_worker_of_other_code_is_refused(
     cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sweeping, "simulator_digest", lambda: "mine")
+    monkeypatch.setattr(folder_module, "simulator_digest", lambda: "mine")
     with pytest.raises(InputError, match="install the same version on every machine"):
         conduct(planned(runs=2), tmp_path / "set", cluster)
 

@@ -1,4 +1,4 @@
-"""The plan of a sweep: the scene of each run, made and checked before anything runs."""
+"""What all runs of a sweep are made of: the scene of each, made and checked before anything runs."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Frame:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SweepScenes:
     """All that the runs of a sweep are made of."""
 
     sweep: Sweep
@@ -116,8 +116,8 @@ def bearing_name(scene: Scene) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:10]
 
 
-def plan_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: None) -> Plan:
-    """Make the plan of a sweep.
+def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: None) -> SweepScenes:
+    """Make the scenes of a sweep.
 
     Parameters
     ----------
@@ -133,17 +133,17 @@ def plan_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: Non
         With every mistake in the sweep, in its scene, and in the scenes of its runs.
     """
     try:
-        plan, opened = _begun(sweep, label)
+        scenes, opened = _begun(sweep, label)
     except InputError:
         raise InputError(mistakes_of(sweep, label)) from None
     rows = rows_of(sweep)
     extremes = _extremes(rows)
     few = rows if len(rows) <= CHECKED_HERE else _once([*extremes, *rows[:: len(rows) // CHECKED_HERE]])
-    if problems := [*_unknown_signals(plan, opened.scene), *check_rows(plan, few)]:
+    if problems := [*_unknown_signals(scenes, opened.scene), *check_rows(scenes, few)]:
         raise InputError(problems)
-    plan = _settled(plan, opened, extremes, say)
-    frame = Frame.of(plan.scene(rows[0]))
-    return replace(plan, frame=frame)
+    scenes = _settled(scenes, opened, extremes, say)
+    frame = Frame.of(scenes.scene(rows[0]))
+    return replace(scenes, frame=frame)
 
 
 def mistakes_of(sweep: Sweep, label: str) -> list[str]:
@@ -152,7 +152,7 @@ def mistakes_of(sweep: Sweep, label: str) -> list[str]:
     Keys that are wrong by themselves are told, and left out of the scenes that the others are looked at in.
     """
     try:
-        plan, opened = _begun(sweep, label)
+        scenes, opened = _begun(sweep, label)
     except InputError as error:
         changes = {key: each for key, each in sweep.changes.items() if _alone(sweep, label, {key: each})}
         vary: list[Variable] = []
@@ -165,7 +165,7 @@ def mistakes_of(sweep: Sweep, label: str) -> list[str]:
         return [*error.problems, *(mistakes_of(rest, label) if less else ())]
     rows = rows_of(sweep)
     few = _once([*_extremes(rows), *rows[:_LOOKED_AT]]) if sweep.vary else []
-    return [*_unknown_signals(plan, opened.scene), *_wrong(plan, few)]
+    return [*_unknown_signals(scenes, opened.scene), *_wrong(scenes, few)]
 
 
 def _once(rows: Iterable[Row]) -> list[Row]:
@@ -182,7 +182,7 @@ def _alone(sweep: Sweep, label: str, changes: dict[str, Any]) -> bool:
     return True
 
 
-def _begun(sweep: Sweep, label: str) -> tuple[Plan, OpenScene]:
+def _begun(sweep: Sweep, label: str) -> tuple[SweepScenes, OpenScene]:
     """Read the scene of a sweep with what the sweep sets in it."""
     problems: list[str] = []
     places: dict[str, Place] = {}
@@ -213,14 +213,14 @@ def _begun(sweep: Sweep, label: str) -> tuple[Plan, OpenScene]:
         raise InputError([*problems, *error.problems]) from None
     if problems:
         raise InputError(problems)
-    return Plan(sweep, label, opened.keys, folder, str(path)), opened
+    return SweepScenes(sweep, label, opened.keys, folder, str(path)), opened
 
 
-def _unknown_signals(plan: Plan, scene: Scene) -> list[str]:
+def _unknown_signals(scenes: SweepScenes, scene: Scene) -> list[str]:
     known = (*SIGNALS, *(f"{VIBRATION}_{sensor.name}" for sensor in scene.sensors[1:]))
     return [
-        f"{plan.label}: signals[{index}] is {name!r}; allowed are {', '.join(known)}"
-        for index, name in enumerate(plan.sweep.signals)
+        f"{scenes.label}: signals[{index}] is {name!r}; allowed are {', '.join(known)}"
+        for index, name in enumerate(scenes.sweep.signals)
         if name not in known
     ]
 
@@ -239,7 +239,7 @@ def _extremes(rows: Sequence[Row]) -> list[Row]:
     return [found[run] for run in sorted(found)] or list(rows[:1])
 
 
-def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
+def check_rows(scenes: SweepScenes, rows: Iterable[Row]) -> list[str]:
     """List what is wrong with the scenes of runs: each kind of mistake once, with how many runs have it."""
     rows = list(rows)
     frames: dict[Frame, int] = {}
@@ -249,24 +249,25 @@ def check_rows(plan: Plan, rows: Iterable[Row]) -> list[str]:
         frames.setdefault(Frame.of(scene), row.run)
         names.add(bearing_name(scene))
 
-    wrong = _wrong(plan, rows, look)
-    problems = [*wrong, *([] if wrong else _unused(plan, rows)), *_unlike(plan, frames)]
+    wrong = _wrong(scenes, rows, look)
+    problems = [*wrong, *([] if wrong else _unused(scenes, rows)), *_unlike(scenes, frames)]
     if len(names) == 1 and len(rows) > 1 and not wrong:
         problems.append(
-            f"{plan.label}: all {len(rows)} runs are of one and the same bearing, so that no part of the set "
-            "could be without it: give its lot a grade (set: {scatter: {grade: G1}}), or vary bearing keys"
+            f"{scenes.label}: all {len(rows)} runs are of one and the same bearing, so that no part of the "
+            "set could be without it: give its lot a grade (set: {scatter: {grade: G1}}), or vary bearing "
+            "keys"
         )
     return problems[:_SHOWN]
 
 
 def _wrong(
-    plan: Plan, rows: Iterable[Row], look: Callable[[Row, Scene], None] = lambda *_: None
+    scenes: SweepScenes, rows: Iterable[Row], look: Callable[[Row, Scene], None] = lambda *_: None
 ) -> list[str]:
     """List what is wrong with the scenes of runs, each kind of mistake once; look at those that are right."""
     found: dict[str, list[str]] = {}
     for row in rows:
         try:
-            look(row, plan.opened(row).scene)
+            look(row, scenes.opened(row).scene)
         except InputError as error:
             for problem in error.problems:
                 found.setdefault(_kind_of(problem, row), []).append(problem)
@@ -281,30 +282,30 @@ def _kind_of(problem: str, row: Row) -> str:
     return problem.replace(f": run {row.run}:", ":").partition(" is ")[0]
 
 
-def _unused(plan: Plan, rows: Sequence[Row]) -> list[str]:
-    used = {key for row in rows for key, value in plan.keys(row)[1].items() if value is not None}
+def _unused(scenes: SweepScenes, rows: Sequence[Row]) -> list[str]:
+    used = {key for row in rows for key, value in scenes.keys(row)[1].items() if value is not None}
     return [
-        f"{plan.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
+        f"{scenes.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
         "scene is shorter"
-        for index, variable in enumerate(plan.sweep.vary)
-        if variable.key not in used and not _reachable(plan, variable.key)
+        for index, variable in enumerate(scenes.sweep.vary)
+        if variable.key not in used and not _reachable(scenes, variable.key)
     ]
 
 
-def _reachable(plan: Plan, key: str) -> bool:
+def _reachable(scenes: SweepScenes, key: str) -> bool:
     """Tell whether some value of a choice brings the entry that a key is of; few runs may have drawn none."""
-    for choice in (each for each in plan.sweep.vary if isinstance(each, Choice)):
+    for choice in (each for each in scenes.sweep.vary if isinstance(each, Choice)):
         for value in choice.one_of:
             try:
-                data = with_value(plan.base, place_of(choice.key), value, plan.folder)
-                with_value(data, place_of(key), None, plan.folder)
+                data = with_value(scenes.base, place_of(choice.key), value, scenes.folder)
+                with_value(data, place_of(key), None, scenes.folder)
             except (AbsentError, InputError):
                 continue
             return True
     return False
 
 
-def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:
+def _unlike(scenes: SweepScenes, frames: dict[Frame, int]) -> list[str]:
     """Say what makes the signals of runs of different lengths."""
     if len(frames) < 2:
         return []
@@ -314,26 +315,28 @@ def _unlike(plan: Plan, frames: dict[Frame, int]) -> list[str]:
         "sensors": (one.sensors, other.sensors),
         "rows and rollers": (one.rollers, other.rollers),
     }
-    needs_rollers = {"rollers", "bodies", "contacts", "cages"} & set(plan.sweep.signals)
+    needs_rollers = {"rollers", "bodies", "contacts", "cages"} & set(scenes.sweep.signals)
     if not needs_rollers:
         del what["rows and rollers"]
     return [
-        f"{plan.label}: {name} is {a} in run {first} and {b} in run {second}; the signals of a set are of "
+        f"{scenes.label}: {name} is {a} in run {first} and {b} in run {second}; the signals of a set are of "
         "one length: leave it the same, or make two sets"
         for name, (a, b) in what.items()
         if a != b
     ]
 
 
-def _settled(plan: Plan, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]) -> Plan:
+def _settled(
+    scenes: SweepScenes, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]
+) -> SweepScenes:
     """Choose what the scene leaves open, once for all runs: no learner must tell a fault by the effects."""
-    found = [plan.opened(row) for row in extremes]
+    found = [scenes.opened(row) for row in extremes]
     free = replace(opened.free, rates=False)  # signals of one length
     if not free.anything:
         if opened.step_given:
-            return plan
+            return scenes
         steps = max(closed(each).numerics.steps_per_sample for each in found)
-        return _with_numerics(plan, opened.scene, steps_per_sample=steps)
+        return _with_numerics(scenes, opened.scene, steps_per_sample=steps)
     say("choosing the effects of the runs: some seconds for each kind of run, kept for the next time")
     choices = [choice_for(OpenScene(each.scene, free, opened.step_given, {})) for each in found]
     tier = opened.scene.tier
@@ -341,20 +344,20 @@ def _settled(plan: Plan, opened: OpenScene, extremes: list[Row], say: Callable[[
         tier = max((choice.tier for choice in choices), key=TIER_NAMES.index)
         if any(choice.tier != tier for choice in choices):  # the step of a tier is chosen for it
             free = replace(free, tier=False)
-            scenes = [replace(each.scene, tier=tier) for each in found]
-            choices = [choice_for(OpenScene(each, free, opened.step_given, {})) for each in scenes]
+            tiered = [replace(each.scene, tier=tier) for each in found]
+            choices = [choice_for(OpenScene(each, free, opened.step_given, {})) for each in tiered]
     effects = together([choice.effects for choice in choices], found[0].scene.effects)
     hardest = max(choices, key=lambda choice: choice.seconds)
-    plan = _with_numerics(
-        replace(plan, base={**plan.base, "tier": tier, "effects": written(effects)}),
+    scenes = _with_numerics(
+        replace(scenes, base={**scenes.base, "tier": tier, "effects": written(effects)}),
         opened.scene,
         laminae=max(choice.laminae for choice in choices),
         steps_per_sample=max(choice.steps_per_sample for choice in choices),
     )
     why = f"the same in all runs, which is what any of {len(choices)} kinds of them needs"
-    return replace(plan, chosen=(f"{hardest.summary}; {why}", *hardest.reasons[1:]))
+    return replace(scenes, chosen=(f"{hardest.summary}; {why}", *hardest.reasons[1:]))
 
 
-def _with_numerics(plan: Plan, scene: Scene, **changes: Any) -> Plan:
+def _with_numerics(scenes: SweepScenes, scene: Scene, **changes: Any) -> SweepScenes:
     numerics = {**written(scene.numerics), **changes}
-    return replace(plan, base={**plan.base, "numerics": numerics})
+    return replace(scenes, base={**scenes.base, "numerics": numerics})

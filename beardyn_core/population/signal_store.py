@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.optional import library
-from beardyn_core.population.batch import Array, Batch
+from beardyn_core.population.batch import Array, Made
 
 SIGNALS = "signals.zarr"
 RUN = "run"
@@ -39,18 +40,18 @@ class SignalStore:
             if array.metadata.dimension_names[0] == RUN and array.shape[0] < count:
                 array.resize((count, *array.shape[1:]))
 
-    def write(self, batch: Batch) -> list[str]:
-        """Write the signals of runs; gives what is wrong with each that does not fit, by number of run."""
-        if batch.arrays:
-            self._make(batch)
+    def write(self, runs: Sequence[Made]) -> list[str]:
+        """Write the signals of a task; gives what is wrong with each that does not fit, by number of run."""
+        if any(made.shapes for made in runs):
+            self._make(runs)
         problems = []
         for name in self._signal_names():
             array = self._group[name]
-            first, last = batch.made[0].run, batch.made[-1].run + 1
+            first, last = runs[0].run, runs[-1].run + 1
             block = np.full((last - first, *array.shape[1:]), np.nan, array.dtype)
-            if last - first != len(batch.made):  # others of the file are there already
+            if last - first != len(runs):  # others of the file are there already
                 block[:] = array[first:last]
-            for made in batch.made:
+            for made in runs:
                 values = made.arrays.get(name)
                 if values is None:
                     continue
@@ -67,15 +68,16 @@ class SignalStore:
             name for name in self._group.array_keys() if self._group[name].metadata.dimension_names[0] == RUN
         ]
 
-    def _make(self, batch: Batch) -> None:
+    def _make(self, runs: Sequence[Made]) -> None:
         """Make the arrays of the first runs that come back."""
-        if all(name in self._group for name in batch.arrays):
+        one = next(made for made in runs if made.shapes)
+        if all(name in self._group for name in one.shapes):
             return
-        sizes = {signal: len(time) for signal, time in batch.times.items()}
-        for signal, time in batch.times.items():
+        sizes = {signal: len(time) for signal, time in one.times.items()}
+        for signal, time in one.times.items():
             self._coordinate(f"time_{signal}", f"time_{signal}", np.asarray(time * 1e-9, np.float64), "s")
-        values = {name: next(m.arrays[name] for m in batch.made if name in m.arrays) for name in batch.arrays}
-        for name, about in batch.arrays.items():
+        values = {name: next(m.arrays[name] for m in runs if name in m.arrays) for name in one.shapes}
+        for name, about in one.shapes.items():
             self._array(name, about, values[name].shape, sizes[about.signal])
 
     def _array(self, name: str, about: Array, shape: tuple[int, ...], samples: int) -> None:
