@@ -46,7 +46,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from beardyn_core.api.calibrating import Calibration, calibrate
+    from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, train
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import steady_heat
@@ -68,10 +68,12 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.calibration.calibration_result import Calibration
     from beardyn_core.effects import EffectSet
     from beardyn_core.follow.estimator import Estimates, Estimator
-    from beardyn_core.follow.forecast import Forecast, Service
+    from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.follow.service import Service
     from beardyn_core.monitor.chain import Chain, MonitorSettings
     from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.record.run import Run
@@ -103,7 +105,7 @@ __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "st
 __all__ += ["torque", "train", "trend"]
 
 _MODULES = {
-    "api.calibrating": ("Calibration", "calibrate"),
+    "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
     "api.following": ("Following",),
     "api.heat": ("steady_heat",),
@@ -118,8 +120,10 @@ _MODULES = {
     "bearing.geometry": ("Bearing",),
     "bearing.lubricant": ("Lubricant",),
     "bearing.name_plate": ("NamePlate",),
+    "calibration.calibration_result": ("Calibration",),
     "effects": ("EffectSet",),
-    "follow.forecast": ("Forecast", "Service"),
+    "follow.forecast": ("Forecast",),
+    "follow.service": ("Service",),
     "follow.growth": ("GrowthLaw",),
     "follow.estimator": ("Estimates", "Estimator"),
     "base.errors": ("InputError", "ValidityError"),

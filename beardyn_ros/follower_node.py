@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 from rclpy.node import Node
 
-from beardyn_core.api.following import follower_of, residual_beside
 from beardyn_core.api.making import scene as make_scene
+from beardyn_core.api.twin_residual import residual_beside
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_plate
@@ -25,9 +25,10 @@ from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.following import SOUND, WAITING, Followed
-from beardyn_core.follow.forecast import Service
 from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.residual import Residual
+from beardyn_core.follow.run_stretches import follower_of
+from beardyn_core.follow.service import Service
 from beardyn_core.follow.windowing import StretchIntake
 from beardyn_core.record.messages import (
     Diagnostic,

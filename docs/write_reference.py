@@ -14,7 +14,7 @@ from typing import Any
 
 from beardyn_core.base.edge import places
 from beardyn_core.base.units import unit_of
-from beardyn_core.cli.measured_options import flag
+from beardyn_core.cli.generated_parser import flag
 from beardyn_core.config import SCHEMA_KINDS, json_schema
 from beardyn_core.measured.options import Reading
 

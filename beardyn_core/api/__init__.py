@@ -1,19 +1,20 @@
 """The interface for Python programs: runs, objects made in code, answers without a run.
 
-=========== ==================================================================
-module      responsibility
-=========== ==================================================================
-making      bearings, lubricants and scenes from a handful of arguments
-simulating  simulate a scene
-reading     read a recording, let a monitor judge a run
-measuring   read measured files, make recordings of them
-statics     stiffness, torque, life, film and load distribution, no run needed
-sweeping    sets of labelled runs over a population of bearings
-estimating  load, end play and spall from a run, what remains; training
-following   the same over many stretches and runs, with a twin beside
-calibrating the scene of one measured axlebox, fitted to its healthy recordings
-heat        steady temperatures and losses by source, no run needed either
-=========== ==================================================================
+============= ===================================================================
+module        responsibility
+============= ===================================================================
+making        bearings, lubricants and scenes from a handful of arguments
+simulating    simulate a scene
+reading       read a recording, let a monitor judge a run
+measuring     read measured files, make recordings of them
+statics       stiffness, torque, life, film and load distribution, no run needed
+sweeping      sets of labelled runs over a population of bearings
+estimating    load, end play and spall from a run, what remains; training
+following     the same over many stretches and runs
+twin_residual what is heard beside a twin at the state that is known
+calibrating   the scene of one measured axlebox, fitted to its healthy recordings
+heat          steady temperatures and losses by source, no run needed either
+============= ===================================================================
 
 Users take all of it from `beardyn_core` itself.
 """

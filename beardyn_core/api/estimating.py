@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from beardyn_core.api.reading import heard_of
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import file_problems
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.follow import forecast as forecasting
-from beardyn_core.follow import training
-from beardyn_core.follow.estimator import Estimates, Estimator, read_estimator
-from beardyn_core.follow.forecast import Forecast, Service
-from beardyn_core.follow.growth import GrowthLaw
-from beardyn_core.follow.inference import estimates_of
-from beardyn_core.follow.shipped import shipped_for
-from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.record.run import Run
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.follow.estimator import Estimates, Estimator
+    from beardyn_core.follow.forecast import Forecast
+    from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.follow.service import Service
+    from beardyn_core.population.labelled_set import LabelledSet
+    from beardyn_core.record.run import Run
 
 
 def estimate(
@@ -30,16 +28,22 @@ def estimate(
     bearing: Bearing | NamePlate | str | None = None,
     sensor: str = "",
 ) -> Estimates:
-    """Estimate load, end play and spall from vibration and shaft, each with intervals.
+    """Estimate load, end play and spall of a recording, each with an interval.
+
+    Estimate from vibration and shaft of a recording what no sensor measures: load, end play, which part is
+    spalled and how wide, with intervals of 50 and 90 %; what is not identifiable is told (with the shipped
+    estimators vertical load and temperature).
 
     Parameters
     ----------
     run : Run or Path
-        A run or a recording, simulated or measured.
+        Recording to estimate from. Or a run, simulated or measured.
     estimator : Estimator or Path, optional
-        That `train` has made; by default a shipped one for the bearing.
-    bearing, sensor
-        See `beardyn_core.monitor`.
+        That `train` has made; default a shipped one for the bearing.
+    bearing : Bearing, NamePlate or str, optional
+        Name plate of the bearing; default that of the recording.
+    sensor : str, optional
+        Accelerometer; default the first. See `beardyn_core.monitor`.
 
     Returns
     -------
@@ -52,6 +56,11 @@ def estimate(
     InputError
         No estimator fits the bearing, an axis is not measured, or the run is too short.
     """
+    from beardyn_core.api.reading import heard_of
+    from beardyn_core.follow.estimator import Estimator, read_estimator
+    from beardyn_core.follow.inference import estimates_of
+    from beardyn_core.follow.shipped import shipped_for
+
     heard, plate, sensor = heard_of(run, bearing, sensor)
     if estimator is None:
         estimator = shipped_for(plate)
@@ -84,12 +93,18 @@ def forecast(
     bearing : Bearing or str, optional
         A whole one: a name plate has no rating life.
     lubricant : Lubricant or str
+        Of the rating life.
 
     Raises
     ------
     InputError
         Only the name plate of the bearing is known, or there is no such lubricant.
     """
+    from beardyn_core.api.reading import heard_of
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.config import load_bearing, load_lubricant
+    from beardyn_core.follow import forecast as forecasting
+
     known: Bearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
     if not isinstance(known, Bearing):  # a name plate alone has no raceways
         known = load_bearing(known if isinstance(known, str) else known.name)
@@ -106,29 +121,35 @@ def train(
     axes: Sequence[str] = ("x", "y", "z"),
     force: bool = False,
 ) -> Estimator:
-    """Train an estimator on a set of labelled runs, as ``beardyn train`` does.
+    """Train an estimator of load, end play and spall on a set of runs.
+
+    Train an estimator on the training part of a set that `sweep` has made, for its bearing and its
+    accelerometer, and judge it by the test part, whose bearings are others. `estimate` reads the file.
 
     Parameters
     ----------
     runs : LabelledSet or Path
-        That `sweep` has made, of one bearing and one accelerometer.
+        Set to train with.
     output : Path, optional
-        NPZ file to write.
+        File to write; default none. It is an NPZ file.
     calibration : sequence of LabelledSet or Path
-        Sets that straighten the estimates and set the widths of the intervals, such as a small one in the
-        tier `full`; by default the validation part of `runs`.
+        Another set that straightens estimates and sets the intervals, such as a small one of a truer
+        tier; the validation part of the set widens them where it needs wider ones.
     test : LabelledSet or Path, optional
-        Another set that judges the estimator; by default the test part of `runs`.
+        Another set, all of it to judge the estimator by; default the test part of the set.
     axes : sequence of str
-        Of the accelerometer that are heard.
+        Of the accelerometer that are heard, such as z.
     force : bool
-        Replace the file if it exists.
+        Replace the file when it exists; default refuse.
 
     Raises
     ------
     InputError
         There are too few runs, bearings of several drawings, or the file exists.
     """
+    from beardyn_core.follow import training
+    from beardyn_core.population.labelled_set import LabelledSet
+
     if problems := file_problems(
         "output", None if output is None else Path(output), force=force, ending=".npz"
     ):

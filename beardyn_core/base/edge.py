@@ -129,6 +129,12 @@ def plain_hint(hint: Any) -> tuple[Any, tuple[Any, ...]]:
     return hint, ()
 
 
+def kind_of(place: Place) -> type:
+    """Tell what one number or text of a field is: float, int or str."""
+    hint = str(plain_hint(place.hint)[0])
+    return float if "float" in hint else int if "int" in hint else str
+
+
 def is_noun(hint: Any) -> bool:
     """Tell whether a type is written as a mapping of keys."""
     return isinstance(hint, type) and (dataclasses.is_dataclass(hint) or hasattr(hint, "_field_defaults"))

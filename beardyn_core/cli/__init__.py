@@ -6,6 +6,7 @@ module           responsibility
 main             the parser, the list of subcommands, exit codes, complaints
 json_output      strict JSON with a version, for every ``--json``
 files            inputs and outputs of a command: complaints at once, doubts, a folder to write
+generated_parser parsers of commands from the functions of `api` that they call
 options          options that several commands have
 quantities       numbers with units in options
 demo             the main job in one go

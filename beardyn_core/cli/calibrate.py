@@ -6,63 +6,34 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.api import calibrating
+from beardyn_core.api.estimating import estimate
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import file_problems, files_read
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_box, add_force, add_json, names
+from beardyn_core.cli.options import add_box, add_json
 
 if TYPE_CHECKING:
-    from beardyn_core.api.calibrating import Calibration
+    from beardyn_core.calibration.calibration_result import Calibration
 
 _INTERRUPTED = 130
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "calibrate",
-        help="fit a scene to healthy recordings of one axlebox, write the scene of that axlebox",
-        description="Fit what no drawing tells of an axlebox (natural frequencies and damping of the box, "
-        "background, noise of the accelerometer, end play) to recordings with a sound bearing: twins run at "
-        "the speed of the recordings, and their spectra are compared. Writes the scene with the values that "
-        "the recordings determine; what they do not is said and left. Needs the extra `calibrate`. Ctrl-C "
-        "ends it with the best so far.",
-    )
-    parser.add_argument("recordings", metavar="run.mcap", nargs="+", help="healthy recordings of one axlebox")
-    parser.add_argument(
-        "--scene",
-        metavar="SCENE",
-        required=True,
-        help="sound scene of such an axlebox: what is fitted begins there, the rest stays; no default",
-    )
-    parser.add_argument(
-        "-o", "--output", metavar="FILE.yaml", type=Path, help="scene to write; default none, it is told only"
-    )
-    parser.add_argument(
-        "--fit",
-        metavar="NAMES",
-        help="what is fitted, with commas between: frequency, damping, background, noise, end_play; default "
-        "all that the scene has",
-    )
-    parser.add_argument(
-        "--budget",
-        metavar="N",
-        type=int,
-        default=80,
-        help="runs of the twin at each speed of the recordings, of a second or more; at least 42, default 80",
-    )
-    parser.add_argument(
-        "--tier",
-        choices=("lumped", "quasistatic", "full"),
-        default="quasistatic",
-        help="of the twin; default quasistatic",
-    )
-    parser.add_argument(
-        "--bearing", metavar="NAME", help="name plate of the bearing; default that of the recording"
-    )
-    parser.add_argument("--sensor", metavar="NAME", default="", help="accelerometer; default the first")
+    function = calibrating.calibrate
+    parser = add_command(subparsers, "calibrate", function, "Ctrl-C ends it with the best so far.")
+    add_parameter(parser, function, "runs", "recordings", metavar="run.mcap", nargs="+", type=str)
+    add_parameter(parser, function, "scene", metavar="SCENE", required=True, type=str)
+    add_parameter(parser, function, "output", "-o", "--output", metavar="FILE.yaml")
+    add_parameter(parser, function, "fit", metavar="NAMES")
+    add_parameter(parser, function, "budget", metavar="N")
+    add_parameter(parser, function, "tier")
+    add_parameter(parser, estimate, "bearing", metavar="NAME")
+    add_parameter(parser, estimate, "sensor", metavar="NAME")
     add_box(parser)
-    add_force(parser, "replace FILE.yaml when it exists; default refuse")
+    add_parameter(parser, function, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -71,14 +42,13 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     if problems := option_problems(args):
         raise InputError(problems)
-    from beardyn_core.api.calibrating import calibrate
     from beardyn_core.record.reading import read_run
 
-    found = calibrate(
+    found = calibrating.calibrate(
         [read_run(each, args.box) for each in args.recordings],
         args.scene,
         args.output,
-        fit=names(args.fit),
+        fit=args.fit,
         tier=args.tier,
         budget=args.budget,
         bearing=args.bearing,

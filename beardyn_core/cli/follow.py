@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
+from beardyn_core.api import following
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.estimate import add_hearing, add_service, service_of
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "follow",
-        help="follow load, end play and spall of a bearing over its recordings",
-        description="Follow one bearing over its recordings in the order of time: a filter puts together "
-        "what every stretch says of load, end play and spall, lets loads wander and spalls grow, and says "
-        "what it does not explain. Prints a line for every stretch, and what remains.",
-    )
-    parser.add_argument(
-        "recordings", metavar="run.mcap", nargs="+", help="recordings of one axlebox, in the order of time"
-    )
+    more = "Prints a line for every stretch, and what remains."
+    parser = add_command(subparsers, "follow", following.follow, more)
+    add_parameter(parser, following.follow, "runs", "recordings", metavar="run.mcap", nargs="+", type=str)
     add_hearing(parser)
     add_box(parser)
     parser.add_argument(
@@ -32,18 +26,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         nargs="+",
         help="mileage at the begin of every recording; default each goes on where the one before ended",
     )
-    parser.add_argument(
-        "--twin",
-        metavar="SCENE",
-        help="sound scene of this axlebox on its track: runs at the state that is known at the end, and its "
-        "third octaves are compared with those heard; default no twin",
-    )
-    parser.add_argument(
-        "--tier",
-        choices=("lumped", "quasistatic"),
-        default="quasistatic",
-        help="of the twin; default quasistatic",
-    )
+    add_parameter(parser, following.follow, "twin", metavar="SCENE")
+    add_parameter(parser, following.follow, "tier")
     add_service(parser, "what remains", "at the first recording, in place of --at-km; default 0")
     add_json(parser)
     parser.set_defaults(run=run)
@@ -53,7 +37,6 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from itertools import pairwise
 
-    from beardyn_core.api.following import follow
     from beardyn_core.follow.estimate_json import residual_object, step_object
     from beardyn_core.record.reading import read_run
 
@@ -72,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
         if after < before:
             raise InputError(f"--at-km: {after:g} comes after {before:g}; give mileages in the order of time")
     service, law = service_of(args, at_km[0] if at_km else args.mileage_km or 0.0)
-    found = follow(
+    found = following.follow(
         [read_run(each, args.box) for each in args.recordings],
         args.estimator,
         bearing=args.bearing,
@@ -81,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
         mileages=[1e3 * (each - at_km[0]) for each in at_km] or None,
         law=law,
         lubricant=args.lubricant,
-        twin=None if args.twin is None else Path(args.twin),
+        twin=args.twin,
         tier=args.tier,
     )
     if args.json:

@@ -7,8 +7,9 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.base.edge import Place, places
+from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
+from beardyn_core.cli.generated_parser import add_field, flag
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
@@ -21,17 +22,17 @@ USUAL_LABEL = "bearing"
 
 def add_reading(parser: argparse.ArgumentParser) -> None:
     """Declare how measured files are read."""
-    from beardyn_core.measured.options import Reading, kind_of
+    from beardyn_core.measured.options import Reading
 
     group = parser.add_argument_group("measured files", "what the files do not say, or say wrongly")
     for place in places(Reading):
-        _add(group, place, kind_of(place), several=place.field == "channels")
+        several: dict[str, Any] = {"action": "append", "type": str} if place.field == "channels" else {}
+        add_field(group, place, dest=f"measured_{place.key}", **several)
 
 
 def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
     """Declare the bearings on the shaft."""
     from beardyn_core.bearing.name_plate import NamePlate
-    from beardyn_core.measured.options import kind_of
 
     group = parser.add_argument_group("bearings", "what their name plates say")
     group.add_argument(
@@ -45,31 +46,7 @@ def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
     )
     for place in places(NamePlate):
         if place.key in _PLATE:
-            _add(group, place, kind_of(place), suffix="; these in place of --bearing")
-
-
-def flag(key: str) -> str:
-    """Write the option of a key."""
-    return f"--{key.lower().replace('_', '-')}"
-
-
-def _add(group: Any, place: Place, kind: type, several: bool = False, suffix: str = "") -> None:
-    unit = place.key.rpartition("_")[2] if place.at.unit else place.field.rpartition("_")[2]
-    allowed = [each for each in place.at.one_of if each]
-    words = place.words if "default" in place.words else f"{place.words}; default {_default(place)}"
-    words += f"; one of {', '.join(allowed)}" if allowed else ""
-    action = {"action": "append"} if several else {"type": kind}
-    group.add_argument(
-        flag(place.key),
-        dest=f"measured_{place.key}",
-        metavar="N" if kind is int else unit.upper(),
-        help=f"{words}{suffix}".replace("%", "%%"),
-        **action,
-    )
-
-
-def _default(place: Place) -> str:
-    return f"{place.default:g}" if isinstance(place.default, int | float) else "none"
+            add_field(group, place, "; these in place of --bearing", dest=f"measured_{place.key}")
 
 
 def reading_of(args: argparse.Namespace) -> Reading:

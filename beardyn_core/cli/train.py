@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.api.estimating import train
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import file_problems
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimator
@@ -18,40 +19,13 @@ if TYPE_CHECKING:
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "train",
-        help="train an estimator of load, end play and spall on a set of runs",
-        description="Train an estimator on the training part of a set that `beardyn sweep` has made, for its "
-        "bearing and its accelerometer, and judge it by the test part, whose bearings are others. "
-        "`beardyn estimate` reads the file.",
-    )
-    parser.add_argument("set", metavar="DIR", type=Path, help="set to train with")
-    parser.add_argument(
-        "-o", "--output", metavar="FILE.npz", type=Path, required=True, help="file to write, without default"
-    )
-    parser.add_argument(
-        "--calibration",
-        metavar="DIR",
-        type=Path,
-        action="append",
-        default=[],
-        help="another set that straightens estimates and sets the intervals, such as a small one of a truer "
-        "tier; may be given again; the validation part of the set widens them where it needs wider ones; "
-        "default none",
-    )
-    parser.add_argument(
-        "--test",
-        metavar="DIR",
-        type=Path,
-        help="another set, all of it to judge the estimator by; default the test part of the set",
-    )
-    parser.add_argument(
-        "--axes",
-        metavar="AXES",
-        default="xyz",
-        help="of the accelerometer that are heard, such as z; default xyz",
-    )
-    add_force(parser, "replace the file when it exists; default refuse")
+    parser = add_command(subparsers, "train", train)
+    add_parameter(parser, train, "runs", "set", metavar="DIR")
+    add_parameter(parser, train, "output", "-o", "--output", metavar="FILE.npz", required=True)
+    add_parameter(parser, train, "calibration", metavar="DIR")
+    add_parameter(parser, train, "test", metavar="DIR")
+    add_parameter(parser, train, "axes", metavar="AXES", type=str, default="xyz")
+    add_parameter(parser, train, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -64,8 +38,6 @@ def run(args: argparse.Namespace) -> int:
         problems.append(f"--axes {args.axes!r}: give one or more of x, y and z, each once")
     if problems:
         raise InputError(problems)
-    from beardyn_core.api.estimating import train
-
     found = train(
         args.set,
         args.output,

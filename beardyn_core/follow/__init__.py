@@ -18,11 +18,13 @@ estimator           the numbers that make an estimator, its card, and the file t
 inference           what an estimator makes of a run
 shipped             estimators that are shipped, found by the bearing
 growth              how a spall grows with mileage, with its scatter
+service             what a forecast must be told: mileage, wheel, widest spall
 forecast            mileage until a spall is too wide, share of the rating life that is used
 labelled            runs of a set of labelled runs as an estimator sees them
 cubature_filter     means and covariances, carried on and corrected
 condition           which part is spalled, believed over many stretches
 following           the filter of one bearing: load, end play, spall as they change
+run_stretches       the stretches of a run as the filter of its bearing takes them
 residual            what is heard beside a twin at the state that is known
 estimate_json       estimates, steps and residuals for JSON
 windowing           stretches out of blocks as they come

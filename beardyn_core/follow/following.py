@@ -22,9 +22,10 @@ from beardyn_core.follow.estimator import (
     Estimator,
     within_learnt,
 )
-from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
+from beardyn_core.follow.forecast import SOON, Forecast, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
 from beardyn_core.follow.quantities import BY_NAME, Quantity
+from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
 SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"

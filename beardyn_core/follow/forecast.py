@@ -9,11 +9,11 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.base.edge import At, refuse
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
+from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
 if TYPE_CHECKING:
@@ -25,27 +25,6 @@ _NOTHING = (0.0, 0.0, 0.0)  # remaining mileage of a spall that must come out no
 _USUAL_TEMPERATURE, _USUAL_END_PLAY = 333.15, 1.0e-4
 SOON = 1.0e6  # [m], below which a forecast counts as now
 WIDEST_FORECAST = 20.0e-3  # width from which no mileage is given: the spall must come out, [m]; assumed
-
-
-@dataclass(frozen=True)
-class Service:
-    """What a forecast must be told: how far the bearing has run, and what it may not come to."""
-
-    mileage: A[float, At(ge=0.0, le=1e11), "of the bearing so far, [m]"] = 0.0
-    wheel_diameter: A[float, At("mm", gt=0.0, ge=300.0, le=1500.0), "running diameter"] = 0.92
-    widest: A[
-        float | None,
-        At("mm", gt=0.0, le=200.0),
-        "width at which a bearing is taken out; 20 mm, or the distance of two rollers, when left out",
-    ] = None
-
-    def __post_init__(self) -> None:
-        refuse(self, "service")
-
-    @property
-    def revolutions(self) -> float:
-        """Revolutions of the shaft so far."""
-        return self.mileage / (pi * self.wheel_diameter)
 
 
 @dataclass(frozen=True)

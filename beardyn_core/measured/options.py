@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.base.edge import At, Place, places, plain_hint, refuse
+from beardyn_core.base.edge import At, Place, kind_of, places, refuse
 from beardyn_core.base.errors import InputError
 from beardyn_core.measured.units import ACCELERATION, ROTATION, TIME, TRAVEL
 
@@ -145,12 +145,6 @@ class Reading:
         made = cls(**values)
         refuse(made, "measured files")
         return made
-
-
-def kind_of(place: Place) -> type:
-    """Tell what one value of an option is: float, int or str."""
-    hint = str(plain_hint(place.hint)[0])
-    return float if "float" in hint else int if "int" in hint else str
 
 
 def _converted(place: Place, value: Any) -> Any:

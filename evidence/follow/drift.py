@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import beardyn_core as bd
-from beardyn_core.api.following import follower_of
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import written
 from beardyn_core.config import load_bearing
@@ -28,6 +27,7 @@ from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import SOUND, WAITING, Followed
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import stretches_of
+from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
 from evidence.pages import DOCS, with_section

@@ -13,9 +13,9 @@ import pytest
 import yaml
 
 import beardyn_core as bd
-from beardyn_core.api import calibrating
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
+from beardyn_core.calibration import intake
 from beardyn_core.calibration.fitting import Fit
 from beardyn_core.calibration.twin import Beside, Values, operation_at
 from beardyn_core.calibration.unknowns import BY_NAME, UNKNOWNS
@@ -89,7 +89,7 @@ def test_a_fault_that_the_monitor_hears_is_refused(tmp_path: Path, monkeypatch: 
     healthy = bd.monitor(run)
     assert healthy.finding is not None
     spalled = replace(healthy, finding=replace(healthy.finding, verdict="cup", reason="the cup is spalled"))
-    monkeypatch.setattr(calibrating, "monitor", lambda *_, **__: spalled)
+    monkeypatch.setattr(intake, "conclude", lambda *_, **__: spalled)
     with pytest.raises(InputError, match=r"hears a fault \(the cup is spalled\)"):
         bd.calibrate(run, SCENE)
 

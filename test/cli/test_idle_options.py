@@ -113,7 +113,7 @@ def test_a_sweep_tells_of_its_options_and_of_its_file_at_once_and_early(
 def test_a_calibration_refuses_a_scene_with_a_fault_before_its_recordings_are_read(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("beardyn_core.api.calibrating.calibrate", too_late)
+    monkeypatch.setattr("beardyn_core.record.reading.read_run", too_late)
     told = refused(
         capsys, "calibrate", recording, "--scene", "cup_spall", "-o", tmp_path / "missing" / "mine.yaml"
     )

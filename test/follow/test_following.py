@@ -21,8 +21,8 @@ from beardyn_core.follow.following import (
     Followed,
     Follower,
 )
-from beardyn_core.follow.forecast import Service
 from beardyn_core.follow.growth import GrowthLaw
+from beardyn_core.follow.service import Service
 from test.follow.synthetic import NAMES, drawn, heard, taught
 
 NORMAL_OF_TEN = np.array([-1.64, -1.04, -0.67, -0.39, -0.13, 0.13, 0.39, 0.67, 1.04, 1.64])  # quantiles

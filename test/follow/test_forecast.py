@@ -11,9 +11,10 @@ import pytest
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.fault_location import PartEstimate
-from beardyn_core.follow.forecast import SOON, Forecast, Service, forecast
+from beardyn_core.follow.forecast import SOON, Forecast, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, drawn_between
 from beardyn_core.follow.quantities import BY_NAME
+from beardyn_core.follow.service import Service
 from beardyn_core.physics.statics.rating_life import LoadClass, rating_life
 
 BEARING, GREASE = load_bearing("HS130x230"), load_lubricant("L055")

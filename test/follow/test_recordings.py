@@ -62,7 +62,7 @@ def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     def beside(estimator: Estimator, rows: Float, *_: object) -> Residual:
         return residual_of(estimator, rows, rows)
 
-    monkeypatch.setattr("beardyn_core.api.following.residual_beside", beside)
+    monkeypatch.setattr("beardyn_core.api.twin_residual.residual_beside", beside)
     runs = [str(recording(tmp_path, "HS130x230", seed)) for seed in (1, 2)]
     taught(drawn(60, 2), runs=80).save(tmp_path / "one.npz")
     every: list[dict[str, Any]] = []

@@ -1,0 +1,72 @@
+"""The stretches of a run as the filter of its bearing takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from beardyn_core.base.arrays import Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.follow.descriptors import describe
+from beardyn_core.follow.estimator import Estimator, read_estimator
+from beardyn_core.follow.following import Follower
+from beardyn_core.follow.growth import GrowthLaw
+from beardyn_core.follow.inference import doubt_of, stretches_of
+from beardyn_core.follow.service import Service
+from beardyn_core.follow.shipped import shipped_for
+from beardyn_core.record.run import Run
+
+
+def follower_of(
+    plate: Bearing | NamePlate,
+    estimator: Estimator | Path | str | None = None,
+    *,
+    service: Service | None = None,
+    law: GrowthLaw | None = None,
+    lubricant: Lubricant | str = "L055",
+) -> Follower:
+    """Make the filter of one bearing; see `beardyn_core.follow`.
+
+    Raises
+    ------
+    InputError
+        The estimator is for another bearing.
+    """
+    if estimator is None:
+        estimator = shipped_for(plate)
+    elif not isinstance(estimator, Estimator):
+        estimator = read_estimator(Path(estimator))
+    if doubt := doubt_of(estimator, plate):
+        raise InputError(f"{doubt}; train one with `beardyn train`")
+    whole = plate if isinstance(plate, Bearing) else _whole(plate.name)
+    grease = load_lubricant(lubricant) if isinstance(lubricant, str) else lubricant
+    return Follower(estimator, whole, grease, service or Service(), law or GrowthLaw())
+
+
+def _whole(name: str) -> Bearing | None:
+    """Find the bearing of a name plate; none where only the plate is known."""
+    try:
+        return load_bearing(name)
+    except InputError:
+        return None
+
+
+def stretches_followed(
+    run: Run, follower: Follower, plate: Bearing | NamePlate, sensor: str
+) -> Iterator[tuple[Float, float, float]]:
+    """Give descriptors, end [s] and way of the wheel since the begin [m] of each stretch of a run."""
+    estimator, wheel = follower.estimator, follower.service.wheel_diameter
+    if doubt := doubt_of(estimator, plate):
+        raise InputError(f"{run.label}: {doubt}; train one with `beardyn train`")
+    turned = np.unwrap(run.shaft.angle) if len(run.shaft) else np.zeros(1)
+    begin_ns = int(run.shaft.time_ns[0]) if len(run.shaft) else 0
+    for stretch in stretches_of(run, estimator, sensor):
+        row = describe(stretch, estimator.orders, estimator.plate, estimator.axes)
+        angle = float(np.interp(stretch.end_ns, run.shaft.time_ns, turned)) - float(turned[0])
+        yield row, 1e-9 * (stretch.end_ns - begin_ns), 0.5 * wheel * abs(angle)
