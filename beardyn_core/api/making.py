@@ -222,14 +222,8 @@ def scene(
     faults : sequence of mappings, optional
         Defects in place of the scene's, with the keys of a scene file; ``row`` is 0 and ``depth_um`` 100
         where they are not given: ``[{"on": "cup", "width_mm": 6}]``. An empty sequence: none.
-    tier : str, optional
-        ``lumped``, ``quasistatic``, ``full`` or ``auto``.
-    effects : str, mapping or EffectSet, optional
-        Preset, file, ``auto`` or the effects themselves; those that 5 % of accuracy need when nothing names
-        any.
-    duration : float, optional
-        [s].
-    laminae, seed : int, optional
+    tier, effects, duration, laminae, seed : optional
+        See `beardyn_core.simulate`; effects are those that 5 % of accuracy need when nothing names any.
     **keys
         Other keys of a scene file in their units: ``end_play_mm=0.05``, ``temperature_C=40``.
 

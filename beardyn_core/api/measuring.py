@@ -5,22 +5,18 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.config import load_plate
-from beardyn_core.measured.about import Mounted
-from beardyn_core.measured.heard_speed import with_heard_speed
-from beardyn_core.measured.in_memory import run_of
-from beardyn_core.measured.options import Reading
-from beardyn_core.measured.survey import Survey, survey
-from beardyn_core.measured.trending import trend_of
-from beardyn_core.measured.writing import write_measured
-from beardyn_core.monitor.trend import TrendPoint
-from beardyn_core.record.run import Run
+if TYPE_CHECKING:
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.measured.about import Mounted
+    from beardyn_core.measured.survey import Survey
+    from beardyn_core.monitor.trend import TrendPoint
+    from beardyn_core.record.run import Run
 
-Files = Path | str | Sequence[Path | str]
-Plates = NamePlate | str | Mapping[str, NamePlate | str]
+    Plates: TypeAlias = NamePlate | str | Mapping[str, NamePlate | str]
+
+Files: TypeAlias = Path | str | Sequence[Path | str]
 
 
 def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any) -> Run:
@@ -54,6 +50,9 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     InputError
         With every mistake in options and files.
     """
+    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.in_memory import run_of
+
     mounted = _mounted(bearing)
     found = with_heard_speed(_surveyed(files, options), mounted)
     run = run_of(found, mounted)
@@ -65,22 +64,31 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
 def import_measured(
     files: Files, recording: Path | str, *, bearing: Plates | None = None, force: bool = False, **options: Any
 ) -> Path:
-    """Make a recording of measured files, block by block, as ``beardyn import`` does.
+    """Make a recording of measured files: CSV, MATLAB, HDF5, WAV, TDMS, MDF, ...
+
+    Make a recording of measured vibration and speed, like that of a simulation and without truth. Read are
+    CSV and other text, MATLAB (also 7.3), HDF5, WAV, FLAC, NumPy, TDMS, Universal files (58), MDF, Parquet
+    and MCAP of other tools. Several files are one measurement in the order given.
 
     Parameters
     ----------
-    files, bearing, options
-        See `read_measured`.
+    files : Path or sequence of Path
+        Measured file to read. It is read block by block.
     recording : Path
-        MCAP file to write; `beardyn_core.read` reads it.
+        Recording to write. It is an MCAP file; `beardyn_core.read` reads it.
+    bearing, options
+        See `read_measured`.
     force : bool
-        Replace it if it exists.
+        Replace the recording when it exists; default refuse.
 
     Raises
     ------
     InputError
         With every mistake; then nothing is written.
     """
+    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.writing import write_measured
+
     mounted = _mounted(bearing)
     made = write_measured(
         with_heard_speed(_surveyed(files, options), mounted), recording, mounted, force=force
@@ -108,10 +116,15 @@ def trend(files: Files, **options: Any) -> list[TrendPoint]:
     InputError
         With every mistake in options and files.
     """
+    from beardyn_core.measured.trending import trend_of
+
     return list(trend_of(_surveyed(files, options)))
 
 
 def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:
+    from beardyn_core.measured.options import Reading
+    from beardyn_core.measured.survey import survey
+
     paths = [files] if isinstance(files, str | Path) else list(files)
     found = survey(paths, Reading.of(**options))
     for sentence in found.warnings:
@@ -120,6 +133,10 @@ def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:
 
 
 def _mounted(bearing: Plates | None) -> tuple[Mounted, ...]:
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.config import load_plate
+    from beardyn_core.measured.about import Mounted
+
     if bearing is None:
         return ()
     several = bearing if isinstance(bearing, Mapping) else {"bearing": bearing}

@@ -8,22 +8,20 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.announcements import announced_on_stderr
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import files_read, recording_problems
-from beardyn_core.config.content import files_of
-from beardyn_core.effects import EffectSet
-from beardyn_core.record.run import Run
-from beardyn_core.record.run_summary import life_of
-from beardyn_core.record.sinks import McapSink, MemorySink, Sink, TrainSink
-from beardyn_core.scene.load import LoadHistory
-from beardyn_core.scene.scene import Scene
-from beardyn_core.sensors.block import Block
-from beardyn_core.sensors.summary import RunSummary
-from beardyn_core.study import desk_run, train_run
+
+if TYPE_CHECKING:
+    from beardyn_core.effects import EffectSet
+    from beardyn_core.record.run import Run
+    from beardyn_core.record.sinks import Sink
+    from beardyn_core.scene.load import LoadHistory
+    from beardyn_core.scene.scene import Scene
+    from beardyn_core.sensors.block import Block
+    from beardyn_core.sensors.summary import RunSummary
 
 
 @announced_on_stderr()
@@ -40,7 +38,7 @@ def simulate(
     progress: bool = False,
     **changes: Any,
 ) -> Run:
-    """Simulate a scene as fast as this machine can and keep the run in memory.
+    """Run a scene as fast as this machine can, record it if asked to.
 
     The first run of a set of effects compiles its kernels, about a minute, and prints a line on standard
     error that says so; they are kept on disk.
@@ -48,22 +46,31 @@ def simulate(
     Parameters
     ----------
     scene : str, Path, mapping or Scene
-        See `scene`, whose other arguments can be given here too: ``faults=[...]``, ``end_play_mm=0.05``.
-    tier, effects, duration, laminae, seed : optional
-        In place of the scene's own; see `scene`.
+        Shipped scene or YAML file. Or what else `beardyn_core.scene` takes, whose other arguments can be
+        given here too: ``faults=[...]``, ``end_play_mm=0.05``.
+    tier : str, optional
+        ``lumped``, ``quasistatic``, ``full`` or ``auto``; default the scene's.
+    effects : str, mapping or EffectSet, optional
+        Set or file of effects, or ``auto``; default the scene's. Or the effects themselves.
+    duration : float, optional
+        Simulated time, s; default the scene's.
+    laminae : int, optional
+        Laminae of each roller; default the scene's.
+    seed : int, optional
+        Seed of irregularity and noise; default the scene's.
     record : Path, optional
-        Write the run to this MCAP file too.
+        Record the run to this file; default no file. It is an MCAP file.
     force : bool
-        Replace that file if it exists.
+        Replace the file when it exists; default refuse.
     progress : bool
         Show a bar on standard error.
 
     Returns
     -------
     Run
-        Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by name. Its
-        ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its range of
-        validity; the arrays end there.
+        Kept in memory. Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by
+        name. Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its
+        range of validity; the arrays end there.
 
     Warns
     -----
@@ -77,6 +84,12 @@ def simulate(
     ValidityError
         There is no equilibrium under the first load.
     """
+    from beardyn_core.api.making import scene as make_scene
+    from beardyn_core.config.content import files_of
+    from beardyn_core.record.sinks import McapSink, MemorySink
+    from beardyn_core.scene.scene import Scene
+    from beardyn_core.study import desk_run
+
     asked = {"tier": tier, "effects": effects, "duration": duration, "laminae": laminae, "seed": seed}
     asked |= changes
     untouched = isinstance(scene, Scene) and all(value is None for value in asked.values())
@@ -109,6 +122,10 @@ def simulate(
 
 def _train(scene: Scene, record: Path | str | None, force: bool, progress: bool) -> Run:
     """Simulate all axleboxes of a scene; see `simulate`."""
+    from beardyn_core.record.run import Run
+    from beardyn_core.record.sinks import TrainSink
+    from beardyn_core.study import train_run
+
     assert scene.axleboxes is not None
     pictures = scene.axleboxes.pictures
     sink = None if record is None else TrainSink(record, replace=force, pictures=pictures)
@@ -132,6 +149,8 @@ def _train(scene: Scene, record: Path | str | None, force: bool, progress: bool)
 
 def _with_life(summary: RunSummary, scene: Scene, load: LoadHistory | None) -> RunSummary:
     """Add the rating life under the load until the end of the run; it can take longer than a short run."""
+    from beardyn_core.record.run_summary import life_of
+
     if load is None:
         return summary
     until = round(summary.duration * 1e9)

@@ -11,33 +11,23 @@ import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from numbers import Real
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
-from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
-from beardyn_core.bearing.life import load_doubts
-from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
-from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.effects import LineFilm, RollingResistance
-from beardyn_core.effects.grease import LAYERS
-from beardyn_core.physics.lamina_table import equivalent_radius
-from beardyn_core.physics.ring_modes import bending_rings
-from beardyn_core.physics.rolling_resistance import oil_supply
-from beardyn_core.physics.statics.rating_life import USUAL_CONTAMINATION, LoadClass, RatingLife, rating_life
-from beardyn_core.physics.statics.static import StaticSolution, solve
-from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
-from beardyn_core.scene.operation import MOST_RPM
+
+if TYPE_CHECKING:
+    from beardyn_core.base.arrays import Float
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.effects import LineFilm
+    from beardyn_core.physics.statics.rating_life import RatingLife
+    from beardyn_core.physics.statics.static import StaticSolution
 
 Load = float | Sequence[float]
 
 _KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
 _RIB_FRICTION = 0.05
+LIMITS = {"temperature_C": (-60.0, 200.0), "contamination": (0.0, 1.0)}
 
 
 def equilibrium(
@@ -46,29 +36,31 @@ def equilibrium(
     *,
     end_play_mm: float | None = None,
     speed_rpm: float = 0.0,
-    tilt: str = "locked",
+    tilt: Literal["locked", "free"] = "locked",
     laminae: int = 1,
-    rings: str = "elastic",
+    rings: Literal["elastic", "rigid"] = "elastic",
 ) -> StaticSolution:
     """Solve the static equilibrium of a bearing: displacement, roller loads, stiffness.
 
     Parameters
     ----------
     bearing : Bearing or str
+        Name of a shipped bearing or path of a YAML file.
     load_kN : float or 3 floats
-        On the journal, upwards or along x, y, z.
+        Force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80. A
+        number alone is upwards.
     end_play_mm : float, optional
-        Total axial travel, negative for preload; by default the bearing's own.
+        Total axial travel, mm, negative: preload; default that of the bearing file.
     speed_rpm : float
-        Of the shaft, for the inertia forces of the rollers.
+        Shaft speed, rpm. It gives the inertia forces of the rollers.
     tilt : str
-        ``locked`` or ``free``: tilt of the journal against the cup.
+        Tilt of the cone against the cup. ``locked`` or ``free``.
     laminae : int
-        Of each raceway contact; with 1 the rollers do not tilt.
+        Laminae of each raceway contact. With 1 the rollers do not tilt.
     rings : str
-        ``elastic``: the cup bends in a housing with a wall of 25 mm, which spreads the load over more
-        rollers; ``rigid``: only contacts yield, as in catalogues and ISO 16281. The housing is assumed: name
-        the box of yours in a scene.
+        ``elastic``: the cup bends in a housing with a wall of 25 mm, as in runs with the effect structure;
+        ``rigid``: only the contacts yield, as in catalogues. Elastic rings spread the load over more rollers;
+        ISO 16281 has rigid ones. The housing is assumed: name the box of yours in a scene.
 
     Returns
     -------
@@ -80,6 +72,9 @@ def equilibrium(
     InputError, ValidityError
         An argument makes no sense; there is no equilibrium.
     """
+    from beardyn_core.physics.ring_modes import bending_rings
+    from beardyn_core.physics.statics.static import solve
+
     chosen = _bearing(bearing)
     return solve(
         chosen,
@@ -102,9 +97,9 @@ def stiffness(
     load_kN: Load = 80.0,
     *,
     end_play_mm: float | Sequence[float] | None = None,
-    tilt: str = "locked",
+    tilt: Literal["locked", "free"] = "locked",
     laminae: int = 1,
-    rings: str = "elastic",
+    rings: Literal["elastic", "rigid"] = "elastic",
 ) -> Float:
     """Give the stiffness of a bearing against its end play or preload.
 
@@ -138,7 +133,7 @@ def torque(
     rib_friction: float = _RIB_FRICTION,
     supply: str = "settled",
     end_play_mm: float | None = None,
-    rings: str = "elastic",
+    rings: Literal["elastic", "rigid"] = "elastic",
 ) -> Any:
     """Give the running torque of raceways and ribs against speed, in pure rolling.
 
@@ -165,6 +160,10 @@ def torque(
     ----------
     See `beardyn_core.physics.statics.torque.running_torque`.
     """
+    from beardyn_core.effects import RollingResistance
+    from beardyn_core.physics.rolling_resistance import oil_supply
+    from beardyn_core.physics.statics.torque import running_torque
+
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
 
@@ -191,10 +190,10 @@ def life(
     *,
     lubricant: Lubricant | str = "L055",
     temperature_C: float = 70.0,
-    contamination: float = USUAL_CONTAMINATION,
+    contamination: float | None = None,
     end_play_mm: float | None = None,
-    tilt: str = "locked",
-    rings: str = "rigid",
+    tilt: Literal["locked", "free"] = "locked",
+    rings: Literal["elastic", "rigid"] = "rigid",
 ) -> RatingLife:
     """Rate the life of a bearing under one load, ISO 281 and ISO 16281, basic and modified.
 
@@ -205,10 +204,11 @@ def life(
     speed_rpm : float
         Of the shaft; it sets the film and with it the modified lives.
     lubricant : Lubricant or str
+        Shipped lubricant or path of a YAML file.
     temperature_C : float
-        Of lubricant and bearing.
-    contamination : float
-        e_C of ISO 281, 1 for extreme cleanliness; 0.6 by default, sealed and greased.
+        Temperature of the lubricant, degrees Celsius. The bearing has it too.
+    contamination : float, optional
+        e_C of ISO 281, 0 to 1: 1 extreme cleanliness; default 0.6, sealed and greased.
     rings : str
         ``rigid``, as ISO 16281 defines its lives, or ``elastic``: under the loads of `equilibrium`.
 
@@ -224,8 +224,11 @@ def life(
     """
     if not speed_rpm:
         raise InputError("speed_rpm is 0; life needs a shaft that turns")
-    if not 0.0 <= contamination <= 1.0:
-        raise InputError(f"contamination is {contamination:g}; it must be from 0 to 1")
+    from beardyn_core.physics.statics.rating_life import USUAL_CONTAMINATION, LoadClass, rating_life
+
+    cleanliness = USUAL_CONTAMINATION if contamination is None else contamination
+    if problem := limit_problem("contamination", cleanliness):
+        raise InputError(problem)
     chosen = _bearing(bearing)
     x, y, z = _force(chosen, load_kN)
     rated = rating_life(
@@ -235,7 +238,7 @@ def life(
         _kelvin(temperature_C),
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
         tilt=tilt,
-        contamination=contamination,
+        contamination=cleanliness,
         rings=rings,
     )
     assert rated is not None
@@ -251,7 +254,7 @@ def film(
     temperature_C: float = 70.0,
     supply: str = "settled",
     end_play_mm: float | None = None,
-    rings: str = "elastic",
+    rings: Literal["elastic", "rigid"] = "elastic",
 ) -> dict[str, Float]:
     """Give the smallest film of every roller on both raceways in pure rolling.
 
@@ -277,6 +280,13 @@ def film(
     ----------
     Dowson and Higginson (1966), Murch and Wilson (1975): see `beardyn_core.bearing.film_thickness`.
     """
+    import numpy as np
+
+    from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
+    from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
+    from beardyn_core.physics.lamina_table import equivalent_radius
+    from beardyn_core.physics.statics.torque import entrainment_speeds
+
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
@@ -311,20 +321,30 @@ def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) ->
     dict
         [Hz] at that speed, without one per revolution of the shaft. A roller fault strikes at 2 BSF.
     """
+    from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
+
     hertz = 1.0 if speed_rpm is None else abs(_speed(speed_rpm)) / (2.0 * math.pi)
     return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
 
 
 def _bearing(bearing: Bearing | str) -> Bearing:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.config import load_bearing
+
     return bearing if isinstance(bearing, Bearing) else load_bearing(bearing)
 
 
 def _lubricant(lubricant: Lubricant | str) -> Lubricant:
+    from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.config import load_lubricant
+
     return lubricant if isinstance(lubricant, Lubricant) else load_lubricant(lubricant)
 
 
 def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
     """Turn a load into newtons; refuse what no bearing can be meant to carry, warn of what is unusual."""
+    from beardyn_core.bearing.life import load_doubts
+
     several = (0.0, 0.0, load_kN) if isinstance(load_kN, Real) else load_kN
     if not isinstance(several, Iterable) or isinstance(several, str):
         several = ()
@@ -341,6 +361,8 @@ def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
 
 def _speed(speed_rpm: float) -> float:
     """Turn a shaft speed into [rad/s]; refuse what a scene refuses."""
+    from beardyn_core.scene.operation import MOST_RPM
+
     if not isinstance(speed_rpm, Real) or not abs(speed_rpm) <= MOST_RPM:
         raise InputError(f"speed_rpm is {speed_rpm!r}; give a number from {-MOST_RPM:g} to {MOST_RPM:g}")
     return float(speed_rpm) * _RPM
@@ -348,6 +370,8 @@ def _speed(speed_rpm: float) -> float:
 
 def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:
     """Answer for a number, or for each of a sequence; refuse what is no number."""
+    import numpy as np
+
     several = list(values) if np.ndim(values) else [values]
     for value in several:
         if not isinstance(value, Real):
@@ -356,13 +380,26 @@ def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:
     return np.array(answers) if np.ndim(values) else answers[0]
 
 
+def limit_problem(name: str, value: float, shown: str = "") -> str:
+    """Say why an argument cannot have a value, empty where it can; it can be `shown` by another name."""
+    least, most = LIMITS[name]
+    return (
+        ""
+        if least <= value <= most
+        else f"{shown or name} is {value:g}; it must be from {least:g} to {most:g}"
+    )
+
+
 def _kelvin(temperature_C: float) -> float:
-    if not -60.0 <= temperature_C <= 200.0:
-        raise InputError(f"temperature_C is {temperature_C:g}; it must be from -60 to 200")
+    if problem := limit_problem("temperature_C", temperature_C):
+        raise InputError(problem)
     return temperature_C + _ZERO_CELSIUS
 
 
 def _film(supply: str) -> LineFilm:
+    from beardyn_core.effects import LineFilm
+    from beardyn_core.effects.grease import LAYERS
+
     if supply not in LAYERS:
         raise InputError(f"supply is {supply!r}; allowed are {', '.join(LAYERS)}")
     return LineFilm(supply=supply)

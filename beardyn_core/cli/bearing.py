@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
+from beardyn_core.api.statics import equilibrium, life
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.bearing_options import operation_of
+from beardyn_core.cli.generated_parser import add_parameter, parameters_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 from beardyn_core.cli.quantities import NEGATIVE_QUANTITY
@@ -22,12 +24,11 @@ if TYPE_CHECKING:
     from beardyn_core.physics.statics.rating_life import RatingLife
     from beardyn_core.physics.statics.static import StaticSolution
 
-TILT_MODES = ("locked", "free")  # those of integrate.static, which is heavy to import
-RING_MODES = {  # those of model.structure, which is as heavy
+_RINGS = {
     "elastic": "elastic rings: the cup bends in a housing with a wall of 25 mm",
     "rigid": "rigid rings: only the contacts yield",
 }
-_TEMPERATURE = 70.0  # of the lubricant, [degrees Celsius]
+_TEMPERATURE = parameters_of(life)["temperature_C"].default  # of the lubricant, [degrees Celsius]
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
 _ZERO_CELSIUS = 273.15
@@ -44,52 +45,26 @@ def add_parser(subparsers: Any) -> None:
     )
     # Before Python 3.14 argparse takes -1e-5 for an option.
     parser._negative_number_matcher = NEGATIVE_QUANTITY
-    parser.add_argument("bearing", metavar="BEARING", help="name of a shipped bearing or path of a YAML file")
-    parser.add_argument(
-        "--load",
-        nargs=3,
-        metavar=("FX_KN", "FY_KN", "FZ_KN"),
-        help="force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80",
-    )
-    parser.add_argument(
-        "--end-play",
-        metavar="MM",
-        help="total axial travel, mm, negative: preload; default that of the bearing file",
-    )
-    parser.add_argument(
-        "--tilt",
-        choices=TILT_MODES,
-        default="locked",
-        help="tilt of the cone against the cup; default locked",
-    )
-    parser.add_argument("--speed", default="0", metavar="RPM", help="shaft speed, rpm; default 0")
-    parser.add_argument(
-        "--laminae", type=int, default=1, metavar="N", help="laminae of each raceway contact; default 1"
-    )
-    parser.add_argument(
-        "--rings",
-        choices=RING_MODES,
-        default="elastic",
-        help="elastic: the cup bends in a housing with a wall of 25 mm, as in runs with the effect "
-        "structure; rigid: only the contacts yield, as in catalogues; default elastic",
-    )
-    parser.add_argument(
-        "--lubricant",
-        metavar="NAME",
-        help="shipped lubricant or path of a YAML file; with it film and life; default none",
-    )
-    parser.add_argument(
+    add_parameter(parser, equilibrium, "bearing", "bearing", metavar="BEARING")
+    force = ("FX_KN", "FY_KN", "FZ_KN")
+    add_parameter(parser, equilibrium, "load_kN", "--load", metavar=force, nargs=3, type=str, default=None)
+    add_parameter(parser, equilibrium, "end_play_mm", "--end-play", metavar="MM", type=str)
+    add_parameter(parser, equilibrium, "tilt")
+    add_parameter(parser, equilibrium, "speed_rpm", "--speed", metavar="RPM", type=str, default="0")
+    add_parameter(parser, equilibrium, "laminae", metavar="N")
+    add_parameter(parser, equilibrium, "rings")
+    without = "none, no film and no life"
+    add_parameter(parser, life, "lubricant", metavar="NAME", default=None, usual=without)
+    add_parameter(
+        parser,
+        life,
+        "temperature_C",
         "--temperature",
-        type=float,
         metavar="CELSIUS",
-        help=f"temperature of the lubricant, degrees Celsius; default {_TEMPERATURE:g}",
+        default=None,
+        usual=f"{_TEMPERATURE:g}",
     )
-    parser.add_argument(
-        "--contamination",
-        type=float,
-        metavar="EC",
-        help="e_C of ISO 281, 0 to 1: 1 extreme cleanliness; default 0.6, sealed and greased",
-    )
+    add_parameter(parser, life, "contamination", metavar="EC")
     parser.add_argument(
         "--coupled-laminae",
         action="store_true",
@@ -137,14 +112,14 @@ def run(args: argparse.Namespace) -> int:
         coupling=LaminaCoupling() if args.coupled_laminae else None,
         body=bending_rings(bearing, args.rings),
     )
-    life = _life(case)
+    rated = _life(case)
     if args.json:
         report = _report(case, solution)
-        print(json_text("bearing", {**report, "life": None if life is None else life_object(life)}))
+        print(json_text("bearing", {**report, "life": None if rated is None else life_object(rated)}))
     else:
         print(_table(case, solution))
-        if life is not None:
-            print("\n".join(["", *life_lines(life)]))
+        if rated is not None:
+            print("\n".join(["", *life_lines(rated)]))
     return 0
 
 
@@ -274,7 +249,7 @@ def _table(case: _Case, solution: StaticSolution) -> str:
             "",
             f"Static equilibrium under ({force}) kN on the cone{chosen}",
             f"  end play {case.end_play * 1e3:g} mm, tilt {args.tilt}, {rpm:g} rpm, laminae {args.laminae}",
-            f"  {RING_MODES[args.rings]}",
+            f"  {_RINGS[args.rings]}",
             *_static_lines(solution),
             *_rib_lines(bearing, float(solution.rib_load.max()), rpm),
             *(_line_lines(_most_loaded_roller(bearing, solution)) if args.laminae > 1 else []),

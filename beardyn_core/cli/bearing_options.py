@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
+from beardyn_core.api.statics import limit_problem
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.quantities import read_quantity
 
@@ -34,11 +35,10 @@ def operation_of(args: argparse.Namespace) -> tuple[tuple[float, float, float], 
         problems.append(f"--speed is {args.speed}; it must be at most {MOST_RPM:g} rpm either way")
     if args.laminae < 1:
         problems.append(f"--laminae is {args.laminae}; it must be at least 1")
-    if args.temperature is not None and not -60.0 <= args.temperature <= 200.0:
-        problems.append(f"--temperature is {args.temperature:g}; it must be from -60 to 200 degrees Celsius")
-    if args.contamination is not None and not 0.0 <= args.contamination <= 1.0:
-        problems.append(f"--contamination is {args.contamination:g}; it must be from 0 to 1")
-    for option, given in (("--temperature", args.temperature), ("--contamination", args.contamination)):
+    for name, given in (("temperature_C", args.temperature), ("contamination", args.contamination)):
+        option = f"--{name.removesuffix('_C')}"
+        if given is not None and (problem := limit_problem(name, given, option)):
+            problems.append(problem)
         if args.lubricant is None and given is not None:
             problems.append(f"{option} is given, but no --lubricant; it is about the lubricant: give both")
     if args.lubricant is not None and speed == 0.0:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words
+from beardyn_core.cli.generated_parser import names
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_box, add_force, add_json, names
+from beardyn_core.cli.options import add_box, add_force, add_json
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run

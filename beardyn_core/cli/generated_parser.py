@@ -28,7 +28,6 @@ from typing import Annotated as A
 from typing import Any, Literal, get_args, get_origin
 
 from beardyn_core.base.edge import Place, alternatives, kind_of, plain_hint
-from beardyn_core.cli.options import names
 
 _SECTION = re.compile(r"^(\w[\w ]*)\n-{3,}$", re.MULTILINE)
 _PARAMETER = re.compile(r"^(\w+(?:, \w+)*)(?: :.*)?$")
@@ -42,7 +41,7 @@ class Parameter:
     default: A[Any, "`inspect.Parameter.empty` where it must be given"]
     words: A[str, "in the docstring, all sentences"]
 
-    def help_of(self, keywords: Mapping[str, Any]) -> str:
+    def help_of(self, keywords: Mapping[str, Any], usual: str = "") -> str:
         """Write its help: the first sentence, with the default where that is not in it."""
         sentence = re.split(r"\.(?:\s+(?=[A-Z`])|$)", self.words, maxsplit=1)[0]
         text, _, default = _plain(sentence).partition("; default ")
@@ -53,8 +52,8 @@ class Parameter:
             text += "; with commas between"
         if keywords.get("required"):
             text += "; no default"
-        elif default:
-            text += f"; default {default}"
+        elif usual or default:
+            text += f"; default {usual or default}"
         elif "default" in keywords:
             text += f"; default {_written(keywords['default'])}"
         return text.replace("%", "%%")
@@ -111,13 +110,19 @@ def add_command(
     """
     text = (inspect.getdoc(function) or "").split("\n\nParameters\n---", maxsplit=1)[0]
     first, _, rest = text.partition("\n\n")
-    purpose = _plain(first).rstrip(".")
-    described = " ".join(each for each in (_plain(rest) or f"{purpose}.", more) if each)
+    purpose = _plain(first)
+    described = " ".join(each for each in (_plain(rest) or purpose, more) if each)
+    purpose = purpose if purpose.endswith("..") else purpose.removesuffix(".")
     return subparsers.add_parser(name, help=purpose[:1].lower() + purpose[1:], description=described)
 
 
 def add_parameter(
-    target: Any, function: Callable[..., Any], parameter: str, *flags: str, **differences: Any
+    target: Any,
+    function: Callable[..., Any],
+    parameter: str,
+    *flags: str,
+    usual: str = "",
+    **differences: Any,
 ) -> None:
     """Add an argument of a command from the parameter of a function.
 
@@ -131,6 +136,8 @@ def add_parameter(
     *flags
         Options, ``-o``, ``--output``, or the name of what has a place; by default that of the parameter as an
         option.
+    usual : str
+        Default of the command in words, where it differs.
     **differences
         Of the command from the function: ``metavar``, ``nargs``, ``required``, and what else argparse takes.
     """
@@ -143,7 +150,7 @@ def add_parameter(
         default = None if known.default is inspect.Parameter.empty else known.default
         keywords["default"] = list(default or ()) if keywords.get("action") == "append" else default
     keywords |= differences
-    target.add_argument(*flags, **{"help": known.help_of(keywords), **keywords})
+    target.add_argument(*flags, **{"help": known.help_of(keywords, usual), **keywords})
 
 
 def add_field(target: Any, place: Place, suffix: str = "", **differences: Any) -> None:
@@ -182,6 +189,11 @@ def _usual(place: Place) -> str:
     if not isinstance(place.default, int | float):
         return "none"
     return f"{place.at.scale.to_edge(place.default) if place.at.unit else place.default:g}"
+
+
+def names(text: str | None) -> list[str] | None:
+    """Split names with commas between them; ``None`` where there is no option."""
+    return None if text is None else [name.strip() for name in text.split(",")]
 
 
 class _Names(dict[str, Any]):

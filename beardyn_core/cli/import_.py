@@ -7,12 +7,14 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.api.measuring import import_measured
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import recording_problems
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import add_plates, add_reading, mounted_of, reading_of
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
     from beardyn_core.measured.writing import Imported
@@ -20,24 +22,11 @@ if TYPE_CHECKING:
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "import",
-        help="make a recording of measured files: CSV, MATLAB, HDF5, WAV, TDMS, MDF, ...",
-        description="Make a recording of measured vibration and speed, like that of a simulation and without "
-        "truth, for `beardyn report`, `monitor` and `export`. Read are CSV and other text, MATLAB (also "
-        "7.3), HDF5, WAV, FLAC, NumPy, TDMS, Universal files (58), MDF, Parquet and MCAP of other tools; "
-        "how a file was understood is said. Several files are one measurement in the order given.",
-    )
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="measured file to read")
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        required=True,
-        metavar="run.mcap",
-        help="recording to write, without default",
-    )
-    add_force(parser, "replace the recording when it exists")
+    more = "How a file was understood is said. `beardyn report`, `monitor` and `export` read the recording."
+    parser = add_command(subparsers, "import", import_measured, more)
+    add_parameter(parser, import_measured, "files", "files", nargs="+", metavar="FILE")
+    add_parameter(parser, import_measured, "recording", "-o", "--output", metavar="run.mcap", required=True)
+    add_parameter(parser, import_measured, "force")
     add_json(parser)
     add_plates(parser, "default none; they are kept in the recording")
     add_reading(parser)

@@ -15,8 +15,9 @@ from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
 from beardyn_core.cli.files import checked, made_folder, tell_doubts
+from beardyn_core.cli.generated_parser import names
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_force, add_json, names
+from beardyn_core.cli.options import add_force, add_json
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene

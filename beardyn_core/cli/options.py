@@ -5,15 +5,16 @@ from __future__ import annotations
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from typing import Any
 
+from beardyn_core.api.simulating import simulate
+from beardyn_core.cli.generated_parser import add_parameter, names
+
 _LAST_PORT = 65_535
 
 
 def add_choice(parser: ArgumentParser) -> None:
     """Add effects and tier, and what `auto` chooses them for; `chosen` reads them."""
-    parser.add_argument(
-        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's"
-    )
-    parser.add_argument("--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's")
+    add_parameter(parser, simulate, "effects", metavar="NAME")
+    add_parameter(parser, simulate, "tier", metavar="T")
     parser.add_argument(
         "--accuracy",
         metavar="PERCENT",
@@ -43,11 +44,6 @@ def chosen(args: Namespace) -> dict[str, Any]:
         "quantities": names(args.quantities),
         "vibration_to": args.vibration_to,
     }
-
-
-def names(text: str | None) -> list[str] | None:
-    """Split names with commas between them; ``None`` where there is no option."""
-    return None if text is None else [name.strip() for name in text.split(",")]
 
 
 def add_box(parser: ArgumentParser, usual: str = "the first one") -> None:

@@ -8,11 +8,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import recording_problems
 from beardyn_core.cli.files import checked, tell_doubts
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_choice, add_force, add_json, chosen
+from beardyn_core.cli.options import add_choice, add_json, chosen
 
 if TYPE_CHECKING:
     from beardyn_core.sensors.block import Block
@@ -28,26 +30,18 @@ _RINGS = {
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "simulate",
-        help="run a scene as fast as this machine can, record it if asked to",
-        description="Run a scene as fast as this machine can. Exit code 2: bad input, nothing written, or a "
-        "disk that is full; 3: the model left its range of validity, the recording up to there is closed and "
-        "readable.",
+    more = (
+        "Exit code 2: bad input, nothing written, or a disk that is full; 3: the model left its range of "
+        "validity, the recording up to there is closed and readable."
     )
-    parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
-    parser.add_argument(
-        "-o", "--output", metavar="run.mcap", type=Path, help="record the run to this file; default no file"
-    )
-    parser.add_argument("--duration", metavar="S", type=float, help="simulated time, s; default the scene's")
+    parser = add_command(subparsers, "simulate", simulate, more)
+    add_parameter(parser, simulate, "scene", "scene", metavar="SCENE", type=str)
+    add_parameter(parser, simulate, "record", "-o", "--output", metavar="run.mcap")
+    add_parameter(parser, simulate, "duration", metavar="S")
     add_choice(parser)
-    parser.add_argument(
-        "--laminae", metavar="N", type=int, help="laminae of each roller; default the scene's"
-    )
-    parser.add_argument(
-        "--seed", metavar="N", type=int, help="seed of irregularity and noise; default the scene's"
-    )
-    add_force(parser, "replace the file of -o when it exists")
+    add_parameter(parser, simulate, "laminae", metavar="N")
+    add_parameter(parser, simulate, "seed", metavar="N")
+    add_parameter(parser, simulate, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 

@@ -7,7 +7,9 @@ import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
+from beardyn_core.cli.generated_parser import add_parameter
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
@@ -26,12 +28,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "scene", nargs="*", metavar="SCENE", help="shipped scene or YAML file; default all, see above"
     )
-    parser.add_argument(
-        "--effects", metavar="NAME", help="set or file of effects, or auto; default the scene's, or every set"
-    )
-    parser.add_argument(
-        "--tier", metavar="T", help="lumped, quasistatic, full or auto; default the scene's, or every tier"
-    )
+    add_parameter(parser, simulate, "effects", metavar="NAME", usual="the scene's, or every set")
+    add_parameter(parser, simulate, "tier", metavar="T", usual="the scene's, or every tier")
     parser.set_defaults(run=run)
 
 

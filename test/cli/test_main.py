@@ -11,13 +11,17 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
-from beardyn_core.cli import bearing, schema
+from beardyn_core.api.statics import equilibrium
 from beardyn_core.cli import main as command
+from beardyn_core.cli import schema
+from beardyn_core.cli.generated_parser import parameters_of
 from beardyn_core.config import shipped_names
 from beardyn_core.config.schema import SCHEMA_KINDS
+from beardyn_core.physics.ring_modes import RINGS
 from beardyn_core.physics.statics import static
 
 
@@ -151,7 +155,9 @@ def test_ctrl_c_while_modules_load_ends_cleanly(module: str) -> None:
 
 
 def test_the_bearing_command_offers_the_tilts_that_the_solution_knows() -> None:
-    assert bearing.TILT_MODES == static.TILT_MODES
+    known = parameters_of(equilibrium)
+    assert get_args(known["tilt"].hint) == static.TILT_MODES
+    assert get_args(known["rings"].hint) == RINGS
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -47,11 +47,11 @@ def test_rings_bend_unless_they_are_said_to_be_rigid() -> None:
     for answer in (bd.load_distribution, bd.stiffness):
         assert not np.allclose(answer(BEARING, 80), answer(BEARING, 80, rings="rigid"), rtol=0.05)
     with pytest.raises(bd.InputError, match="rings is 'soft'; allowed are elastic, rigid"):
-        bd.equilibrium(BEARING, 80, rings="soft")
+        bd.equilibrium(BEARING, 80, rings="soft")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("how", ["elastic", "rigid"])
-def test_stiffness_is_the_slope_of_the_load_however_the_rings_are(how: str) -> None:
+def test_stiffness_is_the_slope_of_the_load_however_the_rings_are(how: Literal["elastic", "rigid"]) -> None:
     less, more = (bd.equilibrium(BEARING, load, rings=how).displacement[2] for load in (79.9, 80.1))
     slope = bd.stiffness(BEARING, 80, rings=how)
     assert 200.0 / (more - less) == pytest.approx(1.0 / np.linalg.inv(slope)[2, 2], rel=2e-3)
@@ -143,4 +143,4 @@ def test_questions_that_make_no_sense_are_refused() -> None:
     with pytest.raises(bd.InputError, match="-60 to 200"):
         bd.film(BEARING, 100, temperature_C=343)
     with pytest.raises(bd.InputError, match="tilt"):
-        bd.stiffness(BEARING, tilt="loose")
+        bd.stiffness(BEARING, tilt="loose")  # type: ignore[arg-type]
