@@ -5,15 +5,15 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import folder_problems
-from beardyn_core.experiments import Cluster, EngineError, Tls
-from beardyn_core.experiments.loop import Progress
-from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.request import asked
-from beardyn_core.population.sweeping import conduct
+
+if TYPE_CHECKING:
+    from beardyn_core.experiments import Cluster
+    from beardyn_core.experiments.loop import Progress
+    from beardyn_core.population.labelled_set import LabelledSet
 
 _TOLD_EVERY_S = 10.0
 
@@ -30,24 +30,29 @@ def sweep(
     progress: bool | Callable[[Progress], None] = False,
     **changes: Any,
 ) -> LabelledSet:
-    """Make a set of labelled runs, as ``beardyn sweep`` does; an interrupted one goes on.
+    """Make a set of labelled runs over a population of bearings, on all cores or a Dask cluster.
+
+    Draw runs from the distributions of a sweep file, simulate them on all cores of this machine or on the
+    workers of a Dask scheduler; keep signals (Zarr), labels with units (Parquet), features, a data card and
+    checksums in a folder. Parts for training and testing share no bearing. An interrupted sweep goes on where
+    it was when it is asked for again; the same seed gives the same bits on any number of workers.
 
     Parameters
     ----------
     sweep : str, Path or mapping
-        Shipped sweep, YAML file, or a mapping with the keys of one.
+        Shipped sweep or YAML file. Or a mapping with the keys of one.
     output : Path
-        Folder of the set; it is made.
+        Folder of the set. It is made.
     workers : int, optional
-        Processes of this machine, by default one for each core.
+        Processes of this machine; default one for each core.
     scheduler : str, optional
-        Address of a Dask scheduler in place of them, ``tcp://host:8786``.
+        Address of the Dask scheduler whose workers do the runs, tcp://host:8786; default this machine.
     tls : mapping, optional
         ``ca``, ``cert`` and ``key``: files that a scheduler at ``tls://`` is reached with.
     memory_GB : float, optional
-        Above which a worker is started anew; its share of the machine's by default.
+        Memory of a worker, GB, above which it is started anew; default its share of the machine's.
     force : bool
-        Start over in a folder that holds a set.
+        Start over in a folder that holds a set, and lose it.
     progress : bool or callable
         Print a line now and then on standard error; or a function that is told after every task.
     **changes
@@ -63,6 +68,11 @@ def sweep(
     InputError
         With every mistake in the sweep and in the scenes of its runs; nothing has run.
     """
+    from beardyn_core.experiments import EngineError
+    from beardyn_core.population.labelled_set import LabelledSet
+    from beardyn_core.population.request import asked
+    from beardyn_core.population.sweeping import conduct
+
     tell: Callable[[Progress], None] = progress if callable(progress) else Lines() if progress else _nothing
     cluster = cluster_of(workers, scheduler, tls, memory_GB)
     problems = cluster.problems() + folder_problems("output", Path(output))
@@ -97,6 +107,8 @@ def open_set(folder: str | Path) -> LabelledSet:
     >>> runs = open_set("my_set")                             # doctest: +SKIP
     >>> runs.signals.vibration.sel(run=3, axis="z")           # doctest: +SKIP
     """
+    from beardyn_core.population.labelled_set import LabelledSet
+
     return LabelledSet(folder)
 
 
@@ -104,6 +116,8 @@ def cluster_of(
     workers: int | None, scheduler: str, tls: Mapping[str, str | Path] | None, memory_GB: float | None
 ) -> Cluster:
     """Say where the work is done."""
+    from beardyn_core.experiments import Cluster, Tls
+
     given = {name: Path(path) for name, path in (tls or {}).items() if path is not None}
     unknown = set(given) - {"ca", "cert", "key"}
     if unknown:

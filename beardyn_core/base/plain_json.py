@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
 from typing import Any
 
+from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
 
 LONGEST_TEXT = 4_000_000  # characters; the description of a scene with every part takes 60 000
 DEEPEST = 32  # levels of objects and lists; ours have at most 8
+_UNIT = re.compile(r"(?<!shape )\[([^]]+)\]$")
 LONGEST_NUMBER = 400  # digits; the longest float64 written in full has 309 before its point
 
 
@@ -32,6 +35,35 @@ def plain(value: Any) -> Any:
     if value is None or isinstance(value, (bool, int, str)):
         return value
     return str(value)
+
+
+def keyed_fields(noun: Any, without: Collection[str] = (), **keys: str) -> dict[str, Any]:
+    """List the fields of a dataclass for JSON, each by its name and the unit that its words end with.
+
+    A field ``time`` with the words ``of the last sample, [s]`` has the key ``time_s``, one in [m/s^2] ends
+    with ``_m_per_s2``; counts, ratios and texts have their names alone.
+
+    Parameters
+    ----------
+    noun : dataclass
+    without : collection of str
+        Fields that JSON has not.
+    **keys
+        Keys of fields that are called otherwise there.
+    """
+    return {
+        keys.get(place.field) or _with_unit(place.field, place.words): getattr(noun, place.field)
+        for place in places(type(noun))
+        if place.field not in without
+    }
+
+
+def _with_unit(name: str, words: str) -> str:
+    match = _UNIT.search(words)
+    unit = "" if match is None else match[1].partition(" re ")[0]
+    if unit in ("", "-"):
+        return name
+    return f"{name}_{unit.replace('/', '_per_').replace('^', '').replace(' ', '_')}"
 
 
 def read_object(text: str, required: Mapping[str, type | tuple[type, ...]] | None = None) -> dict[str, Any]:

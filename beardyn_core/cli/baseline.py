@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 
@@ -60,15 +61,13 @@ def json_object(learner: Learner, trained: int, found: list[Judgement]) -> dict[
         "trained_on": trained,
         "features": learner.importance(),
         "tests": [
-            {
-                "name": each.name,
-                "runs": each.count,
-                "accuracy": each.accuracy,
-                "balanced_accuracy": each.balanced,
-                "named": each.matrix,
-                "width_relative_error": each.width_error,
-                "width_bias_m": each.width_bias,
-            }
+            keyed_fields(
+                each,
+                count="runs",
+                balanced="balanced_accuracy",
+                matrix="named",
+                width_error="width_relative_error",
+            )
             for each in found
         ],
     }

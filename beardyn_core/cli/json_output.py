@@ -2,7 +2,7 @@
 
 The vocabulary: SI units without multiples, the unit as last words of the key (`_N_m`, `_rad_per_s`); levels
 in dB; what has no unit (counts, ratios, shares of 1) has none in its key. Every object begins with
-``schema_version`` and ``command``.
+``schema_version`` and ``command``. What a dataclass holds takes its keys from there: `keyed_fields`.
 """
 
 from __future__ import annotations

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
+from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import (
     USUAL_LABEL,
     add_plates,
@@ -32,25 +33,8 @@ if TYPE_CHECKING:
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
 
-_UNITS = {
-    "s": ("time",),
-    "Hz": (
-        "found_frequency",
-        "expected_frequency",
-        "shaft_frequency",
-        "fitting_shaft_frequency",
-        "comb_frequency",
-        "band_low",
-        "band_high",
-    ),
-    "dB": ("signal_to_background", "score", "threshold", "rms_rise"),
-    "N": ("load",),
-    "m_per_s2": ("rms",),
-    "K": ("temperature",),
-}
 # of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
 _LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
-_KEYS = {name: f"{name}_{unit}" for unit, names in _UNITS.items() for name in names}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -360,11 +344,9 @@ def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _
 
 def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
-    from dataclasses import asdict
-
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude, worst
 
-    every = []
+    every: list[dict[str, Any]] = []
     for mounted, findings in heard.items():
         conclusion = conclude(findings)
         every.append(
@@ -375,7 +357,7 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "verdict": NOT_DIAGNOSABLE if conclusion.verdict == WAITING else conclusion.verdict,
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
-                "findings": renamed([asdict(finding) for finding in findings], _KEYS),
+                "findings": [keyed_fields(finding) for finding in findings],
             }
         )
     verdict = worst(each["verdict"] for each in every)

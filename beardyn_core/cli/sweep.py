@@ -7,11 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.api.sweeping import Lines, clock, cluster_of, sweep
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import folder_problems
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
     from beardyn_core.experiments import Cluster
@@ -22,41 +24,18 @@ DONE, DIFFERS, INTERRUPTED = 0, 3, 130
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "sweep",
-        help="make a set of labelled runs over a population of bearings, on all cores or a Dask cluster",
-        description="Draw runs from the distributions of a sweep file, simulate them on all cores of this "
-        "machine or on the workers of a Dask scheduler; keep signals (Zarr), labels with units (Parquet), "
-        "features, a data card and checksums in a folder. Parts for training and testing share no bearing. "
-        "An interrupted sweep goes on where it was with the same command; the same seed gives the same bits "
-        "on any number of workers.",
-    )
-    parser.add_argument(
-        "sweep", metavar="SWEEP", nargs="?", help="shipped sweep or YAML file; needed but for --verify"
-    )
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, required=True, help="folder of the set, without default"
-    )
+    parser = add_command(subparsers, "sweep", sweep)
+    needless = "none, for --verify alone"
+    add_parameter(parser, sweep, "sweep", "sweep", metavar="SWEEP", nargs="?", type=str, usual=needless)
+    add_parameter(parser, sweep, "output", "-o", "--output", metavar="DIR", required=True)
     parser.add_argument("--runs", metavar="N", type=int, help="how many runs; default the sweep's")
     parser.add_argument("--seed", metavar="N", type=int, help="of all draws; default the sweep's")
     parser.add_argument(
         "--hours", metavar="H", type=float, help="stop after so long, h; default the sweep's, or never"
     )
-    parser.add_argument(
-        "--workers", metavar="N", type=int, help="processes of this machine; default one for each core"
-    )
-    parser.add_argument(
-        "--memory",
-        metavar="GB",
-        type=float,
-        help="of a worker, GB, above which it is started anew; default its share of the machine's",
-    )
-    parser.add_argument(
-        "--scheduler",
-        metavar="ADDR",
-        default="",
-        help="Dask scheduler whose workers do the runs, tcp://host:8786; default this machine",
-    )
+    add_parameter(parser, sweep, "workers", metavar="N")
+    add_parameter(parser, sweep, "memory_GB", "--memory", metavar="GB")
+    add_parameter(parser, sweep, "scheduler", metavar="ADDR")
     for name, what in (("ca", "of the authority"), ("cert", "of this client"), ("key", "its private key")):
         parser.add_argument(
             f"--tls-{name}", metavar="FILE", type=Path, help=f"PEM file {what}, for tls://; default none"
@@ -64,7 +43,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument(
         "--verify", action="store_true", help="compare the files of a finished set with its checksums, no run"
     )
-    add_force(parser, "start over in a folder that holds a set, and lose it")
+    add_parameter(parser, sweep, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -75,7 +54,6 @@ def run(args: argparse.Namespace) -> int:
         return _verify(args)
     if args.sweep is None:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
-    from beardyn_core.api.sweeping import Lines, cluster_of
     from beardyn_core.experiments import EngineError
     from beardyn_core.population.request import asked
     from beardyn_core.population.sweeping import conduct
@@ -116,13 +94,13 @@ def option_problems(args: argparse.Namespace, cluster: Cluster) -> list[str]:
     return problems
 
 
-def _mistakes_of(sweep: str, changes: dict[str, Any]) -> list[str]:
+def _mistakes_of(name: str, changes: dict[str, Any]) -> list[str]:
     """List the mistakes in a sweep file and in the scenes of its runs, without choosing effects."""
     from beardyn_core.config import read_sweep
     from beardyn_core.population.sweep_scenes import mistakes_of
 
     try:
-        return mistakes_of(*read_sweep(sweep, **changes))
+        return mistakes_of(*read_sweep(name, **changes))
     except InputError as error:
         return error.problems
 
@@ -142,8 +120,6 @@ def json_object(swept: Swept) -> dict[str, object]:
 
 def told(swept: Swept) -> str:
     """Say what there is."""
-    from beardyn_core.api.sweeping import clock
-
     if not swept.here:
         return f"{swept.folder}: all {swept.done} runs were done before, {swept.failed} failed"
     rate = swept.here / swept.seconds
@@ -183,7 +159,6 @@ class _Bar:
         )
 
     def __call__(self, now: object) -> None:
-        from beardyn_core.api.sweeping import clock
         from beardyn_core.experiments.loop import Progress
 
         assert isinstance(now, Progress)

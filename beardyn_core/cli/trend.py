@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.base.plain_json import keyed_fields
+from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import plate_options, reading_of
 
 if TYPE_CHECKING:
     from beardyn_core.monitor.trend import TrendPoint
-
-_KEYS = {"time": "time_s", "rise": "rise_dB", "since": "since_s"}
 
 
 def add_trend(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +52,7 @@ def run_trend(args: argparse.Namespace) -> int:
     if args.memory:
         remember(trend, args.memory)
     if args.json:
-        found = renamed([asdict(each) for each in points], _KEYS)
+        found = [keyed_fields(each) for each in points]
         print(json_text("monitor", {"files": args.files, "trend": found}))
         return 0
     earlier = ""

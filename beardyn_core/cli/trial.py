@@ -8,10 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
 from beardyn_core.cli.files import checked, made_folder
+from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, add_monitor
 
@@ -54,12 +56,11 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="keep the runs here, write trial.json and, of a trial with spalls, trial.png; default none",
     )
     parser.add_argument("--jobs", metavar="N", type=int, help="processes; default one for each core")
-    parser.add_argument(
-        "--effects",
-        metavar="NAME",
-        help="set or file of effects, or auto; default the trial's or its scene's, or what it needs to be "
-        "within 5 %% of the full model, the same in all runs of a tier",
+    of_all = (
+        "the trial's or its scene's, or what it needs to be within 5 % of the full model, the same in all "
+        "runs of a tier"
     )
+    add_parameter(parser, simulate, "effects", metavar="NAME", usual=of_all)
     parser.add_argument("--tier", metavar="T", help="lumped, quasistatic or full; default the trial's")
     parser.add_argument(
         "--seed",

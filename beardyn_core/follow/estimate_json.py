@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
+from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
@@ -14,14 +15,7 @@ from beardyn_core.follow.residual import Residual
 
 def forecast_object(remains: Forecast) -> dict[str, Any]:
     """Give what JSON has of a forecast."""
-    return {
-        "widest_m": remains.widest,
-        "remaining_m": remains.remaining,
-        "equivalent_load_N": remains.equivalent_load,
-        "life_m": remains.life,
-        "reference_life_m": remains.reference_life,
-        "used": remains.used,
-    }
+    return keyed_fields(remains, without=("condition",))
 
 
 def estimates_object(found: Estimates) -> dict[str, Any]:
@@ -80,11 +74,7 @@ def step_object(step: Followed) -> dict[str, Any]:
 def residual_object(residual: Residual) -> dict[str, Any]:
     """Give what JSON has of heard and twin."""
     return {
-        "axes": residual.axes,
-        "frequency_Hz": residual.middles,
-        "measured_dB": residual.measured,
-        "twin_dB": residual.twin,
-        "tolerance_dB": residual.tolerance,
+        **keyed_fields(residual, middles="frequency_Hz"),
         "explained": residual.explained,
         "sentences": residual.sentences,
     }

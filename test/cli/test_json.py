@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Annotated as A
 from typing import Any
 
 import numpy as np
 import pytest
 
-from beardyn_core.base.plain_json import plain
+from beardyn_core.base.plain_json import keyed_fields, plain
 from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate, simulate_train
@@ -227,3 +228,28 @@ def test_every_unit_of_a_key_is_explained_on_the_page() -> None:
     head = PAGE.read_text(encoding="utf-8").split("## `beardyn")[0]
     for unit in UNITS:
         assert f"`_{unit}`" in head, unit
+
+
+@dataclass(frozen=True)
+class Turned:
+    """What words of fields say of their units."""
+
+    time: A[float, "of the last sample, [s]"]
+    torque: A[float, "of seals, [N m]"]
+    rms: A[float, "[m/s^2]"]
+    level: A[float, "shape [band], [dB re 1 m/s^2]"]
+    places: A[tuple[float, ...], "shape [axis]"]
+    order: A[float, "per turn, [-]"]
+    note: str = ""
+
+
+def test_keys_of_a_dataclass_are_its_names_with_the_units_of_the_words() -> None:
+    found = keyed_fields(Turned(1.0, 2.0, 3.0, 4.0, (5.0,), 6.0), without=("note",), order="turns")
+    assert found == {
+        "time_s": 1.0,
+        "torque_N_m": 2.0,
+        "rms_m_per_s2": 3.0,
+        "level_dB": 4.0,
+        "places": (5.0,),
+        "turns": 6.0,
+    }
