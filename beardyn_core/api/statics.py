@@ -27,7 +27,7 @@ Load = float | Sequence[float]
 
 _KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
 _RIB_FRICTION = 0.05
-LIMITS = {"temperature_C": (-60.0, 200.0), "contamination": (0.0, 1.0)}
+LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": (0.0, 1.0, "")}
 
 
 def equilibrium(
@@ -382,11 +382,11 @@ def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:
 
 def limit_problem(name: str, value: float, shown: str = "") -> str:
     """Say why an argument cannot have a value, empty where it can; it can be `shown` by another name."""
-    least, most = LIMITS[name]
+    least, most, unit = LIMITS[name]
     return (
         ""
         if least <= value <= most
-        else f"{shown or name} is {value:g}; it must be from {least:g} to {most:g}"
+        else f"{shown or name} is {value:g}; it must be from {least:g} to {most:g}{unit}"
     )
 
 

@@ -10,6 +10,7 @@ from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.generated_parser import add_command, add_field, add_parameter
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.measured_options import in_options
 from beardyn_core.cli.options import add_box, add_json
 from beardyn_core.follow.service import Service
 
@@ -84,15 +85,16 @@ def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, Gr
         wrong.append(f"--mileage-km: is {args.mileage_km:g}; it must be at least 0")
     if args.growth_mm2 <= 0.0:
         wrong.append(f"--growth-mm2: is {args.growth_mm2:g}; it must be above 0")
+    known = places(Service)[1:]
     given = {
         place.field: place.at.scale.to_si(value)
-        for place in places(Service)[1:]
+        for place in known
         if (value := getattr(args, place.key)) is not None
     }
     try:
         service = Service(1e3 * mileage_km, **given)
     except InputError as error:
-        wrong += error.problems
+        wrong += [in_options(each, [place.key for place in known]) for each in error.problems]
     if wrong:
         raise InputError(wrong)
     return service, GrowthLaw(rate=args.growth_mm2 * 1e-12)
