@@ -3,13 +3,10 @@
 ===================== ======================================================================================
 module                responsibility
 ===================== ======================================================================================
-environment           what ROS 2 from wheels needs to start; says clearly when there is no ROS 2
-runtime               one process, one node: arguments, signals, executor, exit code
-leaving               a node leaves so that those who stay are not stopped by it
-requirements          says which Python packages of a distribution are too old
-parameters            parameters declared once from a table, refused with a sentence
-addressed             which parameters were given to one node itself, which to whoever shares a file
-wire                  topics of the table as publishers, and raw subscriptions that are emptied in one sweep
+environment           what must be there before a node starts: ROS 2, its variables, packages of the right age
+runtime               one process, one node: arguments, signals, executor, exit code, a quiet end
+parameters            parameters declared once from a table, refused with a sentence; which are a node's own
+wire                  topics of the table as publishers, at once or spread; raw subscriptions in one sweep
 message_guard         the intake of every node: counts and refuses what it does not take
 sources               whose messages are taken: one publisher a topic
 frames                names of frames, one tree for each axlebox
@@ -37,7 +34,6 @@ one_box               a scene with several axleboxes, where a node is of one: wh
 run_state             options of a session, the messages it hands over, its report
 session               the twin in its own thread: compile, wait for load, advance, pace
 pacer                 when a block is due on the wall clock
-spreading             trend messages one after the other instead of in bursts
 twin_parameters       parameters of the twin node
 simulation_services   the services of simulation_interfaces, where it is installed
 twin_report           what the twin says about its runs, the one that a reset has left too

@@ -6,8 +6,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available
-from beardyn_ros.requirements import missing_requirements
+from beardyn_ros.environment import MISSING_ROS, missing_requirements, prepare_environment, ros_available
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES, leave
 
 PROGRAMS = {

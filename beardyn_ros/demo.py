@@ -212,7 +212,7 @@ class _Observer:
         return self
 
     def __exit__(self, *_: object) -> None:
-        from beardyn_ros.leaving import leave_quietly
+        from beardyn_ros.runtime import leave_quietly
 
         self._executor.shutdown()
         leave_quietly(self._node)

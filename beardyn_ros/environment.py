@@ -1,4 +1,8 @@
-"""What ROS 2 needs to start when it comes from wheels instead of a sourced installation."""
+"""What must be there before a node starts: ROS 2 with its variables, and Python packages of the right age.
+
+ROS 2 from wheels sets no variables, and rosdep installs the packages that the distribution has, such as numba
+0.56 and pydantic 1.10 in Debian 12: either is said in a sentence instead of an import that fails somewhere.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,9 @@ import importlib.util
 import os
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from re import match
 
 FASTDDS_PROFILE = Path(__file__).with_name("fastdds_profile.xml")
 FASTDDS_2_PROFILE = Path(__file__).with_name("fastdds_2_profile.xml")
@@ -20,6 +26,14 @@ MISSING_ROS = (
     "(`source /opt/ros/<distro>/setup.bash`) and start again. The desk path (`beardyn demo`, "
     "`beardyn simulate`) needs no ROS 2."
 )
+# what the code cannot do without, from setup.py: first version, and the first that is too new
+NEEDED: dict[str, tuple[str, str | None]] = {
+    "numba": ("0.68", "0.69"),
+    "numpy": ("1.26", None),
+    "pydantic": ("2.7", None),
+    "rosbags": ("0.11", "0.12"),
+    "scipy": ("1.13", None),
+}
 
 
 def ros_available() -> bool:
@@ -101,3 +115,49 @@ def _wheel_prefix() -> Path:
 def _home_is_writable() -> bool:
     home = os.environ.get("HOME")
     return bool(home) and os.access(str(home), os.W_OK)
+
+
+def requirement(name: str) -> str:
+    """Write what pip needs to install a package: ``numba>=0.68,<0.69``."""
+    first, beyond = NEEDED[name]
+    return f"{name}>={first}" + (f",<{beyond}" if beyond else "")
+
+
+def missing_requirements(installed: Callable[[str], str] | None = None) -> list[str]:
+    """List in sentences what is missing, too old or too new, and what to do.
+
+    Parameters
+    ----------
+    installed : callable, optional
+        Gives the version of a package by its name; `PackageNotFoundError` when there is none. ``None``: of
+        the packages that are here.
+    """
+    from importlib.metadata import PackageNotFoundError, version
+
+    installed = installed or version
+    found = []
+    for name, (first, beyond) in NEEDED.items():
+        try:
+            have = installed(name)
+        except PackageNotFoundError:
+            found.append(f"{name} is not installed")
+            continue
+        number = _number(have)
+        if number < _number(first):
+            found.append(f"{name} {have} is too old")
+        elif beyond and number >= _number(beyond):
+            found.append(f"{name} {have} is too new")
+    if not found:
+        return []
+    needs = " ".join(f"'{requirement(name)}'" for name in NEEDED)
+    return [
+        *found,
+        "the packages of this distribution do not do: make a virtual environment that sees the sourced ROS 2 "
+        f"(python3 -m venv --system-site-packages DIR) and install there: DIR/bin/pip install {needs}; "
+        "docs/quality.md says more",
+    ]
+
+
+def _number(text: str) -> tuple[int, ...]:
+    found = match(r"\d+(\.\d+)*", text)
+    return tuple(int(part) for part in found[0].split(".")) if found else (0,)

@@ -39,10 +39,9 @@ from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.session import TwinSession
 from beardyn_ros.simulation_services import SimulationServices, interfaces
 from beardyn_ros.sources import Sources
-from beardyn_ros.spreading import Spreader
 from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.twin_report import TwinReporter
-from beardyn_ros.wire import RawIntake, TopicPublishers
+from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers
 
 RigLoader = Callable[[str, str, str], Callable[[], Rig]]
 

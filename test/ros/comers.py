@@ -11,7 +11,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import String
 
-from beardyn_ros.leaving import leave_quietly
+from beardyn_ros.runtime import leave_quietly
 
 TOPICS = tuple(f"spoken_{number}" for number in range(10))
 WATCHERS = 3

@@ -66,7 +66,7 @@ class Graph:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        from beardyn_ros.leaving import leave_quietly
+        from beardyn_ros.runtime import leave_quietly
 
         # this node first: others that are killed do not leave quietly
         self._executor.shutdown()

@@ -36,7 +36,7 @@ def test_newcomers_are_found_within_half_a_second(capfd: pytest.CaptureFixture[s
 def test_a_node_that_cannot_leave_ends_with_its_code_nevertheless() -> None:
     """Even where the interpreter is held for good, as rclpy holds it when it destroys."""
     leaves = (
-        "import ctypes; from beardyn_ros.leaving import ended_after\n"
+        "import ctypes; from beardyn_ros.runtime import ended_after\n"
         "with ended_after(60.0, 7): pass\n"
         "with ended_after(0.2, 5): ctypes.PyDLL(None).sleep(50)"
     )

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_ros import requirements
-from beardyn_ros.requirements import NEEDED, missing_requirements, requirement
+from beardyn_ros.environment import NEEDED, missing_requirements, requirement
 
 REPOSITORY = Path(__file__).parents[2]
 DEBIAN_12 = {"numba": "0.56.4", "numpy": "1.24.2", "pydantic": "1.10.4", "scipy": "1.10.1"}
@@ -50,4 +49,4 @@ def test_a_node_says_it_and_ends_with_2(
     monkeypatch.setattr(__main__, "missing_requirements", lambda: missing_requirements(in_debian_12))
     assert __main__.main(["twin"]) == 2
     assert "beardyn: pydantic 1.10.4 is too old" in capsys.readouterr().err
-    assert requirements.NEEDED["pydantic"] == ("2.7", None)
+    assert NEEDED["pydantic"] == ("2.7", None)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_ros.addressed import own_parameters
+from beardyn_ros.parameters import own_parameters
 from test.ros.graph import Graph
 
 SHARED = """

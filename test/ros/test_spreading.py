@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from beardyn_ros.spreading import CLOSEST, MOST_MOMENTS, Spreader
+from beardyn_ros.wire import CLOSEST, MOST_MOMENTS, Spreader
 
 SPACING_S = 0.01
 
