@@ -7,40 +7,25 @@ environment           what must be there before a node starts: ROS 2, its variab
 runtime               one process, one node: arguments, signals, executor, exit code, a quiet end
 parameters            parameters declared once from a table, refused with a sentence; which are a node's own
 wire                  topics of the table as publishers, at once or spread; raw subscriptions in one sweep
-message_guard         the intake of every node: counts and refuses what it does not take
-sources               whose messages are taken: one publisher a topic
-frames                names of frames, one tree for each axlebox
-poses                 place and orientation of one frame in another
-transforms            transforms as tf2 messages
-stl                   meshes of the parts as STL files, from the bearing's own dimensions
-description           the bearing in its box as URDF
-description_publisher robot_description, /tf_static and /tf
+message_guard         the intake of every node: counts and refuses what it does not take, one publisher a topic
+frames                names of frames, place and orientation in each other, transforms as tf2 messages
 identity              runs of a twin, frame of a load, two twins under one name
-answers               services that answer when the work is done
 load_gate             what comes in as load: checked, counted, queued
-live_filter           low-pass filter of live load, its delay known
-held_load             live load: checked, filtered, its last value held
-live_line             from its value in each block to samples that leave no images of the block rate
 scenario              what the load node replays: load, events, and the truth that it tells
-replay                a scenario as an endless stream: loop, seek, cross-fade, passages
-replay_clock          pace and pause of a live replay
-credit                up to when a twin has used its load, and when to look again
+replay                a scenario as an endless stream: loop, seek, cross-fade, passages; its clock and its credit
 load_parameters       parameters of the load node
-live_load             load of one moment as the messages of the live mode
+live_load             load of the live mode: its messages, low-pass filter, checks, the last value held
 load_node             replays an operation or a CSV as stamped load blocks, within the credit
 load_intake           topics that carry load, decoded for the twin or refused
-load_feed             load for the twin's thread: waiting, age, knowing pauses
+load_feed             load for the twin's thread: waiting, age, knowing pauses, the smooth line of live load
 one_box               a scene with several axleboxes, where a node is of one: what to start instead
 run_state             options of a session, the messages it hands over, its report
 session               the twin in its own thread: compile, wait for load, advance, pace
-pacer                 when a block is due on the wall clock
 twin_parameters       parameters of the twin node
-simulation_services   the services of simulation_interfaces, where it is installed
 twin_report           what the twin says about its runs, the one that a reset has left too
 twin_node             the lifecycle node around a session: topics, services, diagnostics
 twin_watch            is the twin there, has it ended, how
-shared_file           one file for the runs of several axleboxes
-run_file              one run in one file, with proof of what was lost
+run_file              one run in one file, of its own or shared by several axleboxes, with proof of what was lost
 strands               which messages of a topic go on from each other
 recording             messages into files, one a run
 recorder_node         every topic into a crash-safe MCAP file
@@ -58,5 +43,7 @@ launching             lets a launch end with a failure when a node has failed
 processes             child processes that never outlive their parent
 child                 the start of such a child: it asks to end with its parent
 demo                  all nodes as separate processes on one scene
+robot_description     the bearing in its box as URDF with meshes: robot_description, /tf_static and /tf
+services              services that answer when the work is done, those of simulation_interfaces too
 ===================== ======================================================================================
 """

@@ -11,8 +11,8 @@ from beardyn_ros.car import BOXES, CAR, NodeGroup, axleboxes_of, boxes_named
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recorder_node import PARAMETERS as RECORDER_PARAMETERS
 from beardyn_ros.recorder_node import RecorderNode
+from beardyn_ros.run_file import SharedFiles
 from beardyn_ros.runtime import run_node
-from beardyn_ros.shared_file import SharedFiles
 
 PARAMETERS = (
     BOXES,

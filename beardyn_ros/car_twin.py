@@ -12,9 +12,9 @@ from dataclasses import replace
 
 from beardyn_core.base.errors import InputError
 from beardyn_ros.car import BOXES, CAR, NodeGroup, box_rig, boxes_named, place_of, train_of
-from beardyn_ros.description_publisher import PARENT, POSE
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.robot_description import PARENT, POSE
 from beardyn_ros.runtime import run_node
 from beardyn_ros.twin_node import TwinNode
 from beardyn_ros.twin_parameters import BOX

@@ -11,12 +11,11 @@ from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.load_stream import decode_load
 from beardyn_core.record.messages import decode, decode_string, header_stamp
 from beardyn_core.record.topics import TWIST, WRENCH, topic
-from beardyn_ros.held_load import SHAFT, LiveLoad
-from beardyn_ros.held_load import WRENCH as WRENCH_TOPIC
 from beardyn_ros.identity import wrong_frame
+from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC, LiveLoad
 from beardyn_ros.load_feed import LoadFeed
+from beardyn_ros.message_guard import Sources
 from beardyn_ros.scenario import says_paused
-from beardyn_ros.sources import Sources
 from beardyn_ros.wire import RawIntake
 
 
@@ -64,7 +63,7 @@ class LoadIntake:
                 reason, problem = "second publisher", self._sources.problem(entry, source)
             if not problem:
                 handler(cdr)
-            elif name in (WRENCH_TOPIC, SHAFT):
+            elif name in (WRENCH_TOPIC, SHAFT_TOPIC):
                 self._report(self._feed.live.refuse(name, reason, problem))
             else:
                 self._report(self._feed.gate.refuse(reason, problem, name))

@@ -26,20 +26,17 @@ from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_told, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
-from beardyn_ros.answers import StepService
-from beardyn_ros.credit import QUICK_S, Credit
 from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
 from beardyn_ros.frames import frame_of
 from beardyn_ros.identity import run_instance
-from beardyn_ros.live_filter import LowPass
-from beardyn_ros.live_load import encode_shaft, encode_wrench
+from beardyn_ros.live_load import LowPass, encode_shaft, encode_wrench
 from beardyn_ros.load_parameters import PARAMETERS
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import ParameterValues
-from beardyn_ros.replay import Replay
-from beardyn_ros.replay_clock import ReplayClock
+from beardyn_ros.replay import QUICK_S, Credit, Replay, ReplayClock
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, scene_scenario, truth_text
+from beardyn_ros.services import StepService
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 ScenarioLoader = Callable[[str, str, float], Scenario]

@@ -26,10 +26,9 @@ from beardyn_ros.identity import run_instance
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.parameters import NodeParameter, ParameterValues
 from beardyn_ros.recording import Recording, free_name, is_recorded
-from beardyn_ros.run_file import RunFile, run_id_of
+from beardyn_ros.run_file import RunFile, SharedFiles, run_id_of
 from beardyn_ros.run_state import END_STATES, LEFT
 from beardyn_ros.runtime import EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
-from beardyn_ros.shared_file import SharedFiles
 from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, SourcedHandler, TopicPublishers
 

@@ -1,10 +1,15 @@
 """A scenario as an endless stream: sample numbers and stamps go on while the position in it moves.
 
-A loop or a seek moves the position with a cross-fade, so that the load never jumps.
+A loop or a seek moves the position with a cross-fade, so that the load never jumps. How far the stream has
+come says the wall clock in live mode (`ReplayClock`), and the twin in lockstep, by what it has used
+(`Credit`).
 """
 
 from __future__ import annotations
 
+import math
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +20,10 @@ from beardyn_core.scene.load import LoadHistory
 
 LAST_SAMPLE = 2**32 - 1  # `sample` on the wire is uint32: five days at 10 kHz
 UNEVEN = "the samples of this load are not evenly spaced in time: it can only be replayed straight through"
+QUICK_S = 0.005
+LEISURELY_S = 0.05
+USED_SHARE = 0.2  # of the lead that the twin may use until the next look
+FORGETTING = 0.8  # of the rate from look to look: the credit moves in steps
 
 
 @dataclass(frozen=True)
@@ -220,3 +229,96 @@ class Replay:
 
     def _begin_passage(self, fade_s: float) -> None:
         self.passages.append(Passage(self.next_sample, self.next_ns, self.position_s, fade_s))
+
+
+class ReplayClock:
+    """Seconds of the stream that have passed.
+
+    Parameters
+    ----------
+    pace : float
+        Seconds of the stream per wall second.
+    now : callable
+        Wall clock, [s].
+    """
+
+    def __init__(self, pace: float, now: Callable[[], float] = time.monotonic) -> None:
+        self._pace = pace
+        self._now = now
+        self._paused = False
+        self.restart()
+
+    def restart(self) -> None:
+        """Stop at 0 until `start`."""
+        self._passed = 0.0
+        self._since: float | None = None
+
+    def start(self) -> None:
+        """Begin to run, once."""
+        if self._since is None:
+            self._since = self._now()
+
+    def passed(self) -> float:
+        """Compute the seconds of the stream since the start."""
+        if self._since is None or self._paused:
+            return self._passed
+        return self._passed + (self._now() - self._since) * self._pace
+
+    def set_pace(self, pace: float) -> None:
+        """Go on at another pace from now on."""
+        self._settle()
+        self._pace = pace
+
+    def pause(self, paused: bool) -> None:
+        """Stop the stream, or let it go on."""
+        self._settle()
+        self._paused = paused
+
+    def _settle(self) -> None:
+        self._passed = self.passed()
+        if self._since is not None:
+            self._since = self._now()
+
+
+class Credit:
+    """Time up to which a twin has used its load, as it tells.
+
+    Attributes
+    ----------
+    time_ns : int
+        In the time of the load, [ns].
+    changed_at, heard_at : float
+        When it has moved, and when the twin has told it, on the monotonic clock, [s].
+    """
+
+    def __init__(self) -> None:
+        self.heard_at = -math.inf
+        self.begin(0)
+
+    def begin(self, time_ns: int) -> None:
+        """Begin a stream of load at a time."""
+        self.time_ns = self._seen_ns = time_ns
+        self.changed_at = self._seen_at = time.monotonic()
+        self._rate = 0.0
+
+    def hear(self, time_ns: int) -> None:
+        """Take what the twin has told."""
+        self.heard_at = time.monotonic()
+        if time_ns != self.time_ns:
+            self.time_ns, self.changed_at = time_ns, self.heard_at
+
+    def look_period(self, lead: float, quick: float = QUICK_S) -> float:
+        """Choose when to look again, [s]: a twin in real time keeps its lead for long.
+
+        Parameters
+        ----------
+        lead : float
+            By how much the load may be ahead of the twin, beyond what one message holds, [s].
+        quick : float
+            Shortest period, [s].
+        """
+        now = time.monotonic()
+        used, passed = (self.time_ns - self._seen_ns) * 1e-9, max(now - self._seen_at, 1e-6)
+        self._seen_ns, self._seen_at = self.time_ns, now
+        self._rate = max(used / passed, FORGETTING * self._rate)
+        return LEISURELY_S if self._rate * LEISURELY_S < USED_SHARE * lead else quick

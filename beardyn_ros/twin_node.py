@@ -17,14 +17,14 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic
-from beardyn_ros.answers import StepService
 from beardyn_ros.car import lone_box_rig
-from beardyn_ros.description_publisher import DescriptionPublisher
 from beardyn_ros.diagnostics import TWIN, diagnostic_name, needs_attention
 from beardyn_ros.frames import frame_of
 from beardyn_ros.identity import Namesakes
 from beardyn_ros.load_intake import LoadIntake
+from beardyn_ros.message_guard import Sources
 from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.robot_description import DescriptionPublisher
 from beardyn_ros.run_state import (
     END_STATES,
     FINISHED,
@@ -36,9 +36,8 @@ from beardyn_ros.run_state import (
     scene_rig,
 )
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
+from beardyn_ros.services import SimulationServices, StepService, interfaces
 from beardyn_ros.session import TwinSession
-from beardyn_ros.simulation_services import SimulationServices, interfaces
-from beardyn_ros.sources import Sources
 from beardyn_ros.twin_parameters import PARAMETERS
 from beardyn_ros.twin_report import TwinReporter
 from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from beardyn_core.scene.tier import TIER_NAMES
-from beardyn_ros.description_publisher import DESCRIPTION_PARAMETERS
 from beardyn_ros.frames import FRAME_ID
 from beardyn_ros.parameters import NodeParameter
+from beardyn_ros.robot_description import DESCRIPTION_PARAMETERS
 from beardyn_ros.run_state import SCENE_OWN
 
 BOX = NodeParameter(

@@ -24,7 +24,7 @@ import numpy as np
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import TOPICS, topic
-from beardyn_ros.sources import ANYBODY
+from beardyn_ros.message_guard import ANYBODY
 from evidence.ros.hostile import Hostile
 from test.ros.graph import Graph
 

@@ -22,9 +22,8 @@ from beardyn_core.scene.chord_polynomials import PASSED
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
-from beardyn_ros.held_load import HeldLoad
-from beardyn_ros.live_line import LiveLine
-from beardyn_ros.live_load import encode_shaft, encode_wrench
+from beardyn_ros.live_load import HeldLoad, encode_shaft, encode_wrench
+from beardyn_ros.load_feed import LiveLine
 
 BLOCK_NS = 20_000_000
 STEPS = 1024

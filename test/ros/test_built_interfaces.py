@@ -18,7 +18,7 @@ pytestmark = pytest.mark.ros
 def test_frames_of_a_box_form_one_tree_and_its_cone_turns(built_interfaces: None, graph: Graph) -> None:
     from tf2_msgs.msg import TFMessage
 
-    from beardyn_ros.description_publisher import LATCHED
+    from beardyn_ros.robot_description import LATCHED
 
     moving: list[Any] = []
     graph.node.create_subscription(TFMessage, "/tf", moving.append, 1000)

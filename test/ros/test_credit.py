@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from beardyn_ros import credit
-from beardyn_ros.credit import LEISURELY_S, QUICK_S, Credit
+from beardyn_ros import replay
+from beardyn_ros.replay import LEISURELY_S, QUICK_S, Credit
 
 LEAD_S = 0.9  # of the default horizon, less one message
 BLOCK_S = 0.02
@@ -24,7 +24,7 @@ class Clock:
 def periods(monkeypatch: pytest.MonkeyPatch, rate: float, lead: float = LEAD_S) -> list[float]:
     """Periods of two seconds beside a twin that uses ``rate`` seconds of load a second, block by block."""
     clock = Clock()
-    monkeypatch.setattr(credit, "time", clock)
+    monkeypatch.setattr(replay, "time", clock)
     held = Credit()
     held.begin(0)
     begin, found = clock.now, []
@@ -54,7 +54,7 @@ def test_a_short_lead_is_looked_after_in_real_time_too(monkeypatch: pytest.Monke
 
 def test_silence_is_told_from_credit_that_does_not_move(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock()
-    monkeypatch.setattr(credit, "time", clock)
+    monkeypatch.setattr(replay, "time", clock)
     held = Credit()
     held.hear(5)
     clock.now += 1.0

@@ -15,11 +15,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.record.messages import decode
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.defect import MissingRoller
-from beardyn_ros.description import joints_of, sensor_places, urdf
-from beardyn_ros.frames import frame_of
-from beardyn_ros.poses import Pose, pose_from
-from beardyn_ros.stl import part_meshes, stl_bytes, write_meshes
-from beardyn_ros.transforms import TRANSFORMS, TurningFrames, encode_fixed
+from beardyn_ros.frames import TRANSFORMS, Pose, TurningFrames, encode_fixed, frame_of, pose_from
+from beardyn_ros.robot_description import joints_of, part_meshes, sensor_places, stl_bytes, urdf, write_meshes
 from test.record.synthetic_run import SHAPE, description
 from test.ros.graph import Graph
 
@@ -161,7 +158,7 @@ def test_frames_differ_by_namespace_unless_they_are_given() -> None:
 
 def latched(graph: Graph, name: str) -> list[str]:
     """Texts of a latched topic, for a listener that comes late."""
-    from beardyn_ros.description_publisher import LATCHED
+    from beardyn_ros.robot_description import LATCHED
     from beardyn_ros.wire import message_class
 
     texts: list[str] = []

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.load_check import problem_with
-from beardyn_ros.held_load import LiveLoad
+from beardyn_ros.live_load import LiveLoad
 from beardyn_ros.load_gate import LoadGate, Refusals
 
 STEP_NS = 500_000

@@ -225,7 +225,7 @@ def test_live_load_is_filtered_before_it_is_sampled(
 
 
 def test_delay_of_live_load_is_the_stated_one() -> None:
-    from beardyn_ros.live_filter import LowPass, filter_delay
+    from beardyn_ros.live_load import LowPass, filter_delay
 
     low_pass, steps = LowPass(10.0), np.full(4000, 1e-3)
     times = np.cumsum(steps)
@@ -241,7 +241,7 @@ def test_delay_of_live_load_is_the_stated_one() -> None:
 def test_filter_of_live_load_is_the_bessel_filter_however_its_samples_are_spaced(bandwidth: float) -> None:
     from scipy.signal import bessel, freqs_zpk
 
-    from beardyn_ros.live_filter import LowPass
+    from beardyn_ros.live_load import LowPass
 
     zeros, poles, gain = bessel(4, 2 * np.pi * bandwidth, analog=True, norm="mag", output="zpk")
     steps = np.random.default_rng(3).uniform(0.2e-3, 1.8e-3, 8000) / bandwidth * 10.0

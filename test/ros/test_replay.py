@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.replay import Replay
-from beardyn_ros.replay_clock import ReplayClock
+from beardyn_ros.replay import Replay, ReplayClock
 
 STEP_NS = 500_000
 BEGIN_NS = 7_000_000

@@ -148,7 +148,7 @@ def test_left_and_right_share_the_load_of_the_wheelset_as_in_a_desk_run(train: A
 
 
 def test_a_shared_file_has_what_each_box_said_once_and_ends_with_the_last(tmp_path: Path) -> None:
-    from beardyn_ros.shared_file import SharedFiles
+    from beardyn_ros.run_file import SharedFiles
 
     path = tmp_path / "run.mcap"
     shared = SharedFiles(("/car/a", "/car/b"))
@@ -179,7 +179,7 @@ def test_a_shared_file_has_what_each_box_said_once_and_ends_with_the_last(tmp_pa
 
 
 def test_a_shared_file_says_which_box_had_no_run(tmp_path: Path) -> None:
-    from beardyn_ros.shared_file import SharedFiles
+    from beardyn_ros.run_file import SharedFiles
 
     shared = SharedFiles(("/car/a", "/car/b"))
     box = shared.writer(shared.path_of(1, lambda: tmp_path / "run.mcap"), "/car/a")

@@ -12,8 +12,8 @@ import pytest
 pytest.importorskip("rclpy", reason="rclpy is not installed (pip install .[ros])")
 
 from beardyn_ros.run_state import SessionOptions
+from beardyn_ros.services import FEATURES, SimulationServices
 from beardyn_ros.session import TwinSession
-from beardyn_ros.simulation_services import FEATURES, SimulationServices
 from test.ros.fake_twin import fake_history, fake_rig
 
 PATIENCE_S = 20.0

@@ -24,10 +24,10 @@ from beardyn_core.record.published import published_before
 from beardyn_core.record.topics import topic
 from beardyn_ros.identity import Namesakes
 from beardyn_ros.live_load import encode_wrench
+from beardyn_ros.message_guard import Sources
 from beardyn_ros.recording import Recording, free_name, plain_name
 from beardyn_ros.run_file import RunFile
 from beardyn_ros.scenario import says_paused
-from beardyn_ros.sources import Sources
 from test.examples import examples
 from test.record.synthetic_run import description
 
@@ -240,7 +240,7 @@ def test_a_stranger_on_truth_does_not_stand_for_a_twin_that_has_gone(
     before: list[str], then: list[str], counts: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = 0.0
-    monkeypatch.setattr("beardyn_ros.sources.time.monotonic", lambda: now)
+    monkeypatch.setattr("beardyn_ros.message_guard.time.monotonic", lambda: now)
     node = GraphNode(*before)
     sources = Sources(node)
     first = sources.count("truth")

@@ -1,21 +1,27 @@
-"""Services of the package simulation_interfaces, where it is installed, beside those of std_srvs.
+"""Services that answer when the work is done, while their node goes on.
 
-``get_simulator_features``, ``get_simulation_state``, ``set_simulation_state``, ``step_simulation`` and
-``reset_simulation`` in the namespace of the twin. A step answers when it is done, as the package asks.
+``step`` is one of std_srvs; where the package simulation_interfaces is installed, the twin offers the
+standard services of a simulator as well, in its namespace: ``get_simulator_features``,
+``get_simulation_state``, ``set_simulation_state``, ``step_simulation`` and ``reset_simulation``.
 """
 
 from __future__ import annotations
 
+import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.task import Future
+from std_srvs.srv import Trigger
 
 from beardyn_ros.run_state import COMPILING, END_STATES, IDLE, PAUSED
-from beardyn_ros.session import TwinSession
+
+if TYPE_CHECKING:
+    from beardyn_ros.session import TwinSession
 
 PACKAGE = "simulation_interfaces"
 # what a twin can do; a name that an older version of the package does not have is left out
@@ -29,6 +35,52 @@ FEATURES = (
 )
 MOST_STEPS = 100_000  # half an hour of simulated time
 INFO = "one step is a block of 20 ms; a reset takes time and state back together; see docs/nodes.md"
+PATIENCE_S = 10.0
+
+
+class StepService:
+    """Service ``step`` of one more piece of work, answered when the piece is done.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+    name : str
+    order : callable
+        Orders a piece; a sentence when that is not possible, '' otherwise.
+    done : str
+        What the answer says then.
+    """
+
+    def __init__(self, node: Any, name: str, order: Callable[[], str], done: str) -> None:
+        self._order = order
+        self._done = done
+        self._waiting: deque[tuple[float, Future[str]]] = deque()
+        # a group of its own: an answer that waits must not hold up the other callbacks of the node
+        node.create_service(Trigger, name, self._on_request, callback_group=ReentrantCallbackGroup())
+
+    async def _on_request(self, _request: Any, response: Any) -> Any:
+        problem = self._order()
+        if not problem:
+            answer: Future[str] = Future()
+            self._waiting.append((time.monotonic() + PATIENCE_S, answer))
+            problem = await answer or ""
+        response.success, response.message = not problem, problem or self._done
+        return response
+
+    def complete(self) -> None:
+        """Answer the oldest order: it is done."""
+        if self._waiting:
+            self._waiting.popleft()[1].set_result("")
+
+    def fail(self, problem: str) -> None:
+        """Answer every order: it will not be done."""
+        while self._waiting:
+            self._waiting.popleft()[1].set_result(problem)
+
+    def fail_late(self, problem: str) -> None:
+        """Answer the orders that have waited for longer than `PATIENCE_S` seconds."""
+        while self._waiting and self._waiting[0][0] < time.monotonic():
+            self._waiting.popleft()[1].set_result(problem)
 
 
 @dataclass
