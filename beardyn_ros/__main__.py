@@ -9,20 +9,24 @@ from importlib import import_module
 from beardyn_ros.environment import MISSING_ROS, missing_requirements, prepare_environment, ros_available
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_CODES, leave
 
+# where the main function of each is, and what it is for
 PROGRAMS = {
-    "twin": ("twin_node", "simulate the bearing and publish what its sensors read"),
-    "load": ("load_node", "replay a scene's operation or a CSV as load of the twin"),
-    "recorder": ("recorder_node", "record every topic into a crash-safe MCAP file"),
-    "viewer": ("viewer_node", "live view in rerun"),
-    "monitor": ("monitor_node", "monitoring algorithm on vibration, shaft, load and temperature"),
-    "follower": ("follower_node", "load, end play and spall from vibration and shaft, with a twin beside"),
-    "car_twin": ("car_twin", "the twins of all axleboxes of a scene, or of a car, in one process"),
-    "car_load": ("car_load", "the load of each of these axleboxes from one scenario, all in step"),
+    "twin": ("twin_node.main", "simulate the bearing and publish what its sensors read"),
+    "load": ("load_node.main", "replay a scene's operation or a CSV as load of the twin"),
+    "recorder": ("recorder_node.main", "record every topic into a crash-safe MCAP file"),
+    "viewer": ("viewer_node.main", "live view in rerun"),
+    "monitor": ("monitor_node.main", "monitoring algorithm on vibration, shaft, load and temperature"),
+    "follower": (
+        "follower_node.main",
+        "load, end play and spall from vibration and shaft, with a twin beside",
+    ),
+    "car_twin": ("car.run_twins", "the twins of all axleboxes of a scene, or of a car, in one process"),
+    "car_load": ("car.run_loads", "the load of each of these axleboxes from one scenario, all in step"),
     "car_recorder": (
-        "car_recorder",
+        "car.run_recorders",
         "record each of these axleboxes: one file for those of a scene, else a file each",
     ),
-    "demo": ("demo", "all of them as separate processes on one scene"),
+    "demo": ("demo.main", "all of them as separate processes on one scene"),
 }
 
 
@@ -48,7 +52,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if {"-h", "--help"} & set(rest) and name != "demo":
         print(node_help(name))
         return 0
-    return int(import_module(f"beardyn_ros.{PROGRAMS[name][0]}").main(rest))
+    module, _, function = PROGRAMS[name][0].rpartition(".")
+    return int(getattr(import_module(f"beardyn_ros.{module}"), function)(rest))
 
 
 def usage() -> str:
@@ -61,9 +66,10 @@ def usage() -> str:
 
 def node_help(name: str) -> str:
     """Describe the parameters of a node, from its table."""
-    module, purpose = PROGRAMS[name]
-    lines = [f"{name}: {purpose}", "", "parameters (--ros-args -p NAME:=VALUE):"]
-    for parameter in import_module(f"beardyn_ros.{module}").PARAMETERS:
+    from beardyn_ros.node_parameters import PARAMETERS
+
+    lines = [f"{name}: {PROGRAMS[name][1]}", "", "parameters (--ros-args -p NAME:=VALUE):"]
+    for parameter in PARAMETERS[name]:
         notes = [parameter.type_name, f"default {parameter.default!r}"]
         if parameter.choices:
             notes.append("one of " + ", ".join(parameter.choices))

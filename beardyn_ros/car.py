@@ -1,43 +1,48 @@
-"""The axleboxes of a scene, or the eight of a car: names, where they sit, one process for the nodes of all.
+"""The axleboxes of a scene, or the eight of a car: one process for their twins, loads or recorders.
 
-A scene says with ``axleboxes`` which there are; where it does not, they are those of a car of two bogies.
-Axle 1 leads; a box is called ``axle_<n>_<side>``.
+A member is a node of one box in its namespace, with all its topics, services and parameters. What the members
+are made of is imported when they are made: a process has one kind of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import time
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from std_srvs.srv import SetBool
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.scene.axleboxes import AXLES_OF_A_CAR, Axleboxes, Box
-from beardyn_ros.parameters import NodeParameter, ParameterValues
-from beardyn_ros.run_state import Rig, scene_rig
-from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE
-
-CAR = Axleboxes(axles=AXLES_OF_A_CAR)
-EIGHT_BOXES = tuple(box.name for box in CAR.boxes)
-NAMESPACE = "car"
-MOST_TOLD = 8
-HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
-
-BOXES = NodeParameter(
-    "boxes",
-    "",
-    "some of the axleboxes, each a namespace below that of this node: axle_<number>_<left or right>, axle 1 "
-    "leads; '': all that the axleboxes of the scene say, or all eight of a car",
+from beardyn_core.scene.axleboxes import Axleboxes, Box
+from beardyn_ros.node_parameters import (
+    CAR_LOAD,
+    CAR_RECORDER,
+    CAR_TWIN,
+    LOAD_OF_A_BOX,
+    PARENT,
+    POSE,
+    PUBLISH_CLOCK,
+    RECORDER,
+    TWIN_OF_A_BOX,
 )
+from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.rig import CAR, axleboxes_of, box_rig, boxes_named, place_of
+from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE, run_node
 
+if TYPE_CHECKING:
+    from beardyn_ros.run_file import SharedFiles
 
-def axleboxes_of(scene: str) -> Axleboxes | None:
-    """Read which axleboxes a scene has, given by name or path; ``None`` for one that is of one box."""
-    from beardyn_core.config import read_scene
-
-    return read_scene(scene).scene.axleboxes
+NAMESPACE = "car"
+QUICK_S = 0.02  # shortest period of a load node among several
+SAID_BY_AXLEBOXES = {
+    "axle_distance": "axle_distance_m",
+    "bogie_distance": "bogie_distance_m",
+    "wheel_defects_on": "faulty",
+}
 
 
 def train_of(values: ParameterValues, said: Mapping[str, str]) -> Axleboxes | None:
@@ -65,85 +70,6 @@ def train_of(values: ParameterValues, said: Mapping[str, str]) -> Axleboxes | No
             ]
         )
     return train
-
-
-def boxes_named(text: str, train: Axleboxes = CAR, parameter: str = "boxes") -> tuple[Box, ...]:
-    """Read a parameter of boxes: names with blanks or commas in between; all boxes where it has none.
-
-    Raises
-    ------
-    InputError
-        With every name that is none, or comes twice.
-    """
-    known = {box.name: box for box in train.boxes}
-    names = text.replace(",", " ").split()
-    allowed = list(known) if len(known) <= MOST_TOLD else [f"{next(iter(known))} to {list(known)[-1]}"]
-    problems = [
-        f"parameter '{parameter}': '{name}' is none of the axleboxes; allowed are {', '.join(allowed)}"
-        for name in names
-        if name not in known
-    ]
-    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1 and name in known]
-    problems += [f"parameter '{parameter}': '{name}' comes twice" for name in twice]
-    if problems:
-        raise InputError(problems)
-    return tuple(known[name] for name in names or known)
-
-
-def place_of(train: Axleboxes, box: Box) -> str:
-    """Write where a box is, for the parameter ``pose_in_parent``, [m].
-
-    x goes forwards from the middle of the first car, y left, z up from the top of the rail.
-    """
-    last = max((each for each in train.boxes if each.axle <= AXLES_OF_A_CAR), key=train.behind)
-    x = 0.5 * train.behind(last) - train.behind(box)
-    return f"{x:g} {HALF_AXLE_M if box.side == 'left' else -HALF_AXLE_M:g} {AXLE_HEIGHT_M:g} 0 0 0"
-
-
-def box_rig(train: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of one box, see `TwinNode`."""
-    from beardyn_core.config.boxes import scene_of_box
-
-    place = {
-        "name": box.name,
-        "axle": box.axle,
-        "side": box.side,
-        "behind_first_wheel_m": train.behind(box),
-    }
-
-    def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        build = scene_rig(
-            scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=train), box)
-        )
-
-        def build_box() -> Rig:
-            rig = build()
-            truth = {**rig.description.truth, "box": place}
-            description = replace(rig.description, truth=truth)
-            return replace(rig, description=description, pictures=train.pictures)
-
-        return build_box
-
-    return load
-
-
-def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of a box whose twin has a process of its own.
-
-    It is as the scene's axleboxes say; where the scene has none, a box of a car with the scene's defects.
-    """
-
-    def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        train = axleboxes_of(scene)
-        boxes = boxes_named(name, train or CAR, "box")
-        if len(boxes) > 1:
-            raise InputError(
-                f"parameter 'box': '{name}' is not one box; node car_twin has the twins of several"
-            )
-        train = train or replace(CAR, faulty=(boxes[0].name,))
-        return box_rig(train, boxes[0])(scene, tier, effects)
-
-    return load
 
 
 class NodeGroup(Node):
@@ -192,3 +118,142 @@ class NodeGroup(Node):
         for member in self.members:
             member.destroy_node()
         super().destroy_node()
+
+
+class CarTwinNode(NodeGroup):
+    """Simulates all boxes.
+
+    Each has the scene of its box as `beardyn simulate` makes it of a scene with ``axleboxes``: another
+    bearing of the lot, the right ones mirrored, the scene's defects in the faulty ones alone.
+    """
+
+    def __init__(self) -> None:
+        from beardyn_ros.twin_node import TwinNode
+
+        super().__init__("twin")
+        values = ParameterValues(self, CAR_TWIN)
+        train = train_of(values, {"faulty": "faulty"})
+        if train is None:
+            named = boxes_named(values.faulty, CAR, "faulty") if values.faulty.strip() else ()
+            train = replace(CAR, faulty=tuple(box.name for box in named))
+            strangers = [box for box in named if box not in boxes_named(values.boxes)]
+            if strangers:
+                raise InputError(
+                    f"node twin: faulty has {', '.join(box.name for box in strangers)}; the boxes are "
+                    f"{', '.join(box.name for box in boxes_named(values.boxes))}"
+                )
+        boxes = boxes_named(values.boxes, train)
+        given = {each.name: getattr(values, each.name) for each in TWIN_OF_A_BOX}
+        given[PARENT.name] = values.parent_frame or self.get_namespace().strip("/")
+        self.members = [
+            TwinNode(
+                box_rig(train, box),
+                **self.of_member(
+                    box, {**given, POSE.name: place_of(train, box), PUBLISH_CLOCK: box is boxes[0]}
+                ),
+            )
+            for box in boxes
+        ]
+
+
+class CarLoadNode(NodeGroup):
+    """Feeds the twins of all boxes with one scenario, all in step.
+
+    Nobody is sent load further ahead than the horizon of the slowest twin: eight twins stay together within
+    it.
+    """
+
+    def __init__(self) -> None:
+        from beardyn_ros.load_node import LoadNode
+        from beardyn_ros.scenario import CarScenario
+
+        super().__init__("load")
+        values = ParameterValues(self, CAR_LOAD)
+        train = train_of(values, SAID_BY_AXLEBOXES)
+        boxes = boxes_named(values.boxes, train or CAR)
+        scenario = CarScenario(boxes, train or _car(values, boxes), values.scene, values.csv, values.duration)
+        given = {each.name: getattr(values, each.name) for each in LOAD_OF_A_BOX}
+
+        def member_of(box: Box) -> LoadNode:
+            return LoadNode(lambda *_: scenario.of(box), QUICK_S, **self.of_member(box, given))
+
+        self.members = [member_of(box) for box in boxes]
+        for member in self.members:
+            member.company = self.members
+        self.create_service(SetBool, "load/pause", self._on_pause)
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        for member in self.members:
+            response = member._on_pause(request, response)
+        return response
+
+
+def _car(values: ParameterValues, boxes: Sequence[Box]) -> Axleboxes:
+    """Make the car that the parameters say, for a scene that has one axlebox."""
+    names = [box.name for box in boxes]
+    if values.wheel_defects_on and values.wheel_defects_on not in names:
+        raise InputError(
+            f"node load: wheel_defects_on '{values.wheel_defects_on}' is none of the boxes {', '.join(names)}"
+        )
+    return replace(
+        CAR,
+        axle_distance=values.axle_distance,
+        bogie_distance=values.bogie_distance,
+        faulty=(values.wheel_defects_on,) if values.wheel_defects_on else (),
+    )
+
+
+class CarRecorderNode(NodeGroup):
+    """Records every box: one crash-safe file for those of a scene, one a box for a car."""
+
+    def __init__(self) -> None:
+        from beardyn_ros.recorder_node import RecorderNode
+        from beardyn_ros.run_file import SharedFiles
+
+        super().__init__("recorder")
+        values = ParameterValues(self, CAR_RECORDER)
+        given = {each.name: getattr(values, each.name) for each in RECORDER}
+        train = axleboxes_of(values.scene) if values.scene else None
+        boxes = boxes_named(values.boxes, train or CAR)
+        self._shared: SharedFiles | None = None
+        if train is not None and not (values.max_file_size or values.max_file_duration):
+            spaces = [str(self.of_member(box, {})["namespace"]) for box in boxes]
+            self._shared = SharedFiles(spaces, replace=values.replace)
+        members, problems = [], []
+        for box in boxes:
+            own = given if self._shared else {**given, "output": file_of(values.output, box.name)}
+            try:
+                members.append(RecorderNode(self._shared, **self.of_member(box, own)))
+            except InputError as error:
+                problems += error.problems
+        if problems:
+            raise InputError(list(dict.fromkeys(problems)))
+        self.members = members
+
+    def close(self) -> bool:
+        """Close every member, then the file that they share."""
+        alive = super().close()
+        if self._shared is not None:
+            self._shared.close()
+        return alive
+
+
+def file_of(output: str, box: str) -> str:
+    """Name the file of a box: ``run.mcap`` becomes ``run_axle_1_left.mcap``; '' takes ``car_<date>.mcap``."""
+    path = Path(output or f"car_{time.strftime('%Y%m%d_%H%M%S')}.mcap")
+    return str(path.with_name(f"{path.stem}_{box}{path.suffix or '.mcap'}"))
+
+
+def run_twins(argv: Sequence[str]) -> int:
+    """Run the twins until every run is over."""
+    return run_node(CarTwinNode, argv)
+
+
+def run_loads(argv: Sequence[str]) -> int:
+    """Run the loads until everything is replayed to every box."""
+    return run_node(CarLoadNode, argv)
+
+
+def run_recorders(argv: Sequence[str]) -> int:
+    """Run the recorders until every twin has ended."""
+    return run_node(CarRecorderNode, argv)

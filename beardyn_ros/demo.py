@@ -17,7 +17,7 @@ from beardyn_core.record.messages import Diagnostic, decode_diagnostics
 from beardyn_core.study.demo_console import Progress, add_arguments, say
 from beardyn_ros.environment import MISSING_ROS, prepare_environment, ros_available, this_machine_only
 from beardyn_ros.processes import Processes, free_domain_id, local_environment
-from beardyn_ros.run_state import SCENE_OWN
+from beardyn_ros.rig import SCENE_OWN
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 
 EXIT_FAILED, EXIT_INTERRUPTED = 1, 130

@@ -1,34 +1,28 @@
-"""Reports of the nodes as diagnostics."""
+"""What nodes know of each other by ``/diagnostics``: names of statuses, the twin's run, twins of one name."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+import math
+import time
+import uuid
+from collections.abc import Callable
+from typing import Any
 
-from beardyn_core.record.messages import Diagnostic
-from beardyn_core.record.published import published_values
-from beardyn_ros.load_gate import RefusalReport
-from beardyn_ros.replay import Replay
-from beardyn_ros.run_state import (
-    COMPILING,
-    END_STATES,
-    FINISHED,
-    STOPPED,
-    WAITING_FOR_LOAD,
-    SessionReport,
-)
-
-if TYPE_CHECKING:
-    from beardyn_ros.message_guard import MessageGuard
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics
+from beardyn_ros.run_state import END_STATES, FINISHED, LEFT
 
 OK, WARN, ERROR = 0, 1, 2
 TWIN = "twin"
+LOAD = "load"
 RECORDER = "recorder"
 MONITOR = "monitor"
+FOLLOWER = "follower"
 LAG = "lag"
-LONGEST_LIVE_LAG_S = 0.5
-LARGEST_LAG_S = 0.1
+VANISHED_AFTER_S = 3.0
+SILENT_AFTER_S = 2.0
+NAMESAKE_SILENT_AFTER_S = 1.0
+MOST_OTHERS = 16  # runs whose status is kept until their truth comes
+LONGEST_TIME = 20  # digits of a time in nanoseconds
 
 
 def diagnostic_name(namespace: str, part: str) -> str:
@@ -36,144 +30,143 @@ def diagnostic_name(namespace: str, part: str) -> str:
     return f"{namespace.strip('/')}/{part}" if namespace.strip("/") else part
 
 
-@dataclass(frozen=True)
-class NodeStanding:
-    """What a twin's node knows of itself beside the run.
+def run_instance(run_id: str) -> str:
+    """Return the part of a run id that its twin keeps through resets."""
+    return run_id.rpartition("-")[0]
+
+
+class TwinWatch:
+    """Follows the diagnostics of one twin and the presence of its publishers.
 
     Parameters
     ----------
-    instance, since_ns : str, int
-        Which of several twins of one name it is, and since when on the wall clock, [ns].
-    mode : str
-    speed_factor : float
-    load_publishers : int
-    sent : mapping of str to int
-        Messages of the run so far, by topic.
-    lost_messages : int
-        Given up by the middleware.
-    warnings : tuple of str
-        Sentences about what is wrong now.
+    name : str
+        Full name of the twin's status, as `diagnostic_name` makes it: ``axlebox/twin``.
+    publisher_count : callable
+        How many publishers one of the twin's topics has.
     """
 
-    instance: str
-    since_ns: int
-    mode: str
-    speed_factor: float
-    load_publishers: int
-    sent: Mapping[str, int]
-    lost_messages: int
-    warnings: tuple[str, ...]
+    def __init__(self, name: str, publisher_count: Callable[[], int]) -> None:
+        self.name = name
+        self._publisher_count = publisher_count
+        self._run_id = ""
+        self._told = False
+        self._heard_at = -math.inf
+        self.speaks = False
+        self._seen = False
+        self._absent_since: float | None = time.monotonic()
+        self.last: Diagnostic | None = None
+        self._others: dict[str, Diagnostic] = {}  # last statuses of other runs by run id
+
+    def begin_run(self, run_id: str) -> None:
+        """Follow the run that a ``truth`` has told; what was said about others is forgotten.
+
+        Topics are not ordered among each other: what the twin said about this run may have come before.
+        """
+        if self.last is None or self.last.value("run_id") != run_id:
+            self.last = self._others.get(run_id)
+        self._others.clear()
+        self._run_id, self._told = run_id, bool(run_id)
+
+    def take_statuses(self, statuses: tuple[Diagnostic, ...]) -> None:
+        """Take the statuses of one diagnostics message; those of other twins and other runs are left."""
+        for status in statuses:
+            if status.name != self.name:
+                continue
+            run_id = status.value("run_id") or ""
+            if not self._told and run_id:
+                self._run_id = run_id
+            if run_id == self._run_id:
+                self.last, self._heard_at, self.speaks = status, time.monotonic(), True
+            else:
+                self._others[run_id] = status
+                while len(self._others) > MOST_OTHERS:
+                    del self._others[next(iter(self._others))]
+
+    def look(self) -> None:
+        """Note whether the twin speaks of its run; to be called when everything that has come is taken."""
+        self.speaks = time.monotonic() - self._heard_at < SILENT_AFTER_S
+
+    def value(self, key: str, default: Any = None) -> Any:
+        """Look up a value of the twin's last status."""
+        found = self.last.value(key) if self.last else None
+        return default if found is None else found
+
+    @property
+    def ended(self) -> bool:
+        """Whether the twin has said that its run is over, and no reset begins another."""
+        left = self.last is not None and self.last.message.startswith(LEFT)
+        return self.value("state") in END_STATES and not left
+
+    @property
+    def end_sentence(self) -> str:
+        """Empty when the run ended as asked."""
+        return "" if self.value("state") == FINISHED or self.last is None else self.last.message
+
+    def absent_for(self) -> float:
+        """Compute for how long the twin has been seen to be away, or the watch has waited for it, [s]."""
+        if self._publisher_count() > 0:
+            self._seen, self._absent_since = True, None
+            return 0.0
+        if self._absent_since is None:
+            self._absent_since = time.monotonic()
+        return time.monotonic() - self._absent_since
+
+    def vanished(self) -> bool:
+        """Check whether the twin was there and is gone without a word."""
+        return self.absent_for() > VANISHED_AFTER_S and self._seen
 
 
-def twin_diagnostic(
-    name: str, report: SessionReport, refused: RefusalReport, standing: NodeStanding
-) -> Diagnostic:
-    """Report the state of the twin: progress, pace, load, validity; the last word counts its messages."""
-    level, sentence = OK, report.sentence
-    ended = report.state in END_STATES
-    if report.state == STOPPED:
-        level = ERROR
-    else:
-        told = [*standing.warnings, *filter(None, [report.load_lacks])]
-        lags = standing.mode == "live" and report.lag_s > LONGEST_LIVE_LAG_S
-        if lags and not ended:
-            told.append(f"the run is {report.lag_s:.2f} s behind the wall clock")
-        if refused.recent:
-            told.append(f"{refused.count} load message(s) refused, the last: {refused.last_sentence}")
-        if ended and standing.lost_messages:
-            told.append(f"{standing.lost_messages} message(s) could not be published")
-        level = WARN if told or lags else OK
-        sentence = "; ".join([sentence, *told])
-    values = [
-        ("state", report.state),
-        ("run_id", report.run_id),
-        ("instance", standing.instance),
-        ("since", str(standing.since_ns)),
-        ("mode", standing.mode),
-        ("speed_factor", f"{standing.speed_factor:g}"),
-        ("simulated_time", f"{report.simulated_s:.3f}"),
-        ("blocks", str(report.blocks)),
-        ("waveform_samples", str(report.waveform_samples)),
-        ("late_blocks", str(report.late_blocks)),
-        ("load_publishers", str(standing.load_publishers)),
-        ("lost_messages", str(standing.lost_messages)),
-        ("status", str(report.status)),
-    ]
-    if report.blocks:
-        total = report.simulated_s / max(report.wall_s, 1e-9)
-        simulated = max(report.simulated_s, 1e-9)
-        values += [
-            ("real_time_factor", f"{report.simulated_s / max(report.busy_s, 1e-9):.4g}"),
-            ("kernel_real_time_factor", f"{report.simulated_s / max(report.compute_s, 1e-9):.4g}"),
-            ("processor_time_per_simulated_time", f"{report.processor_s / simulated:.4g}"),
-            ("pace", f"{(total if ended else report.window_rtf):.4g}"),
-            ("wall_time", f"{report.wall_s:.3f}"),
-            ("waited_for_load", f"{report.waited_for_load_s:.3f}"),
-        ]
-    if report.energy_residual is not None:
-        values.append(("energy_residual", f"{report.energy_residual:.3e}"))
-    if standing.mode == "live":
-        values.append(("load_age", f"{report.load_age:.3f}"))
-    else:
-        values += [
-            ("load_queue", str(report.load_waiting)),
-            ("load_queue_time", f"{report.load_waiting_s:.3f}"),
-        ]
-    if standing.speed_factor > 0.0:
-        values += [("lag", f"{report.lag_s:.3f}"), ("worst_lag", f"{report.worst_lag_s:.4f}")]
-    values.append(("refused_messages", str(refused.count)))
-    values += [(f"refused: {reason}", str(count)) for reason, count in refused.by_reason]
-    if ended:
-        values += published_values(standing.sent)
-    return Diagnostic(name, level, sentence, tuple(values))
+class Namesakes:
+    """Finds other live twins under the same full name by their diagnostics.
 
+    Parameters
+    ----------
+    name : str
+        Of the status, as `diagnostic_name` makes it.
+    """
 
-def lag_diagnostic(name: str, report: SessionReport, speed_factor: float) -> Diagnostic:
-    """Report by how much simulated time is behind the pace that was asked for, [s] of simulated time."""
-    lag = report.lag_s * speed_factor
-    level, sentence = OK, "simulated time keeps its pace"
-    if speed_factor == 0.0:
-        sentence = "no pace is asked for"
-    elif report.state in END_STATES:
-        sentence = f"the run was at most {report.worst_lag_s * speed_factor:.3f} s behind its pace"
-    elif report.lag_s > LARGEST_LAG_S:
-        level, sentence = WARN, f"simulated time is {lag:.2f} s behind its pace"
-    values = [
-        ("run_id", report.run_id),
-        ("lag", f"{lag:.4f}"),
-        ("worst_lag", f"{report.worst_lag_s * speed_factor:.4f}"),
-        ("late_blocks", str(report.late_blocks)),
-        ("pace", f"{report.window_rtf:.4g}"),
-    ]
-    return Diagnostic(name, level, sentence, tuple(values))
+    def __init__(self, name: str) -> None:
+        self.instance = uuid.uuid4().hex[:8]
+        self.since_ns = time.time_ns()
+        self._name = name
+        self._mark = name.encode() + b"\0"
+        self._own = self.instance.encode() + b"\0"
+        self._older_at = self._younger_at = -NAMESAKE_SILENT_AFTER_S
 
+    def is_named_in(self, cdr: bytes) -> bool:
+        """Check whether a diagnostics message has the status of another twin of this name.
 
-def load_diagnostic(
-    name: str,
-    state: str,
-    replay: Replay,
-    lead: float,
-    lost_messages: int,
-    sent: Mapping[str, int],
-    guard: MessageGuard,
-) -> Diagnostic:
-    """Report the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
-    values = (
-        ("state", state),
-        ("position", f"{replay.position_s:.4f}"),
-        ("sample", str(replay.next_sample)),
-        ("stamp", f"{replay.next_ns * 1e-9:.4f}"),
-        ("lead", f"{lead:.3f}"),
-        ("passages", str(len(replay.passages))),
-        ("loop", str(replay.loop).lower()),
-        ("lost_messages", str(lost_messages)),
-        *published_values(sent),
-        *guard.values(),
-    )
-    said = "; ".join(filter(None, (f"the load is {state}", guard.sentence())))
-    return Diagnostic(name, WARN if lost_messages or guard.total else OK, said, values)
+        A sentence in the status of another part may name the twin too, even at its end.
+        """
+        if self._mark not in cdr or self._own in cdr:
+            return False
+        statuses = decode_diagnostics(cdr)[1]
+        return any(each.name == self._name and each.value("instance") != self.instance for each in statuses)
 
+    def hear(self, cdr: bytes) -> None:
+        """Take one diagnostics message of a node of this name."""
+        if not self.is_named_in(cdr):
+            return
+        for status in decode_diagnostics(cdr)[1]:
+            instance = status.value("instance")
+            if status.name != self._name or instance in (None, self.instance):
+                continue
+            since = status.value("since") or "0"
+            if not since.isdecimal() or len(since) > LONGEST_TIME:
+                continue
+            other = (int(since), instance)
+            if other < (self.since_ns, self.instance):
+                self._older_at = time.monotonic()
+            else:
+                self._younger_at = time.monotonic()
 
-def needs_attention(report: SessionReport) -> bool:
-    """Check whether a person would want to know this state at once."""
-    return report.state in (COMPILING, WAITING_FOR_LOAD, FINISHED, STOPPED)
+    @property
+    def older(self) -> bool:
+        """Whether a twin that was here before has spoken within the last second."""
+        return time.monotonic() - self._older_at < NAMESAKE_SILENT_AFTER_S
+
+    @property
+    def younger(self) -> bool:
+        """Whether a twin that came later has spoken within the last second."""
+        return time.monotonic() - self._younger_at < NAMESAKE_SILENT_AFTER_S

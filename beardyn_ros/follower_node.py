@@ -37,38 +37,18 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_ros.diagnostics import OK, WARN, diagnostic_name
+from beardyn_ros.diagnostics import FOLLOWER, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.node_parameters import PARAMETERS
+from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
-from beardyn_ros.train_signals import BEARING, EXIT_WHEN_DONE, Hearer, TrainSignals
+from beardyn_ros.train_signals import Hearer, TrainSignals
 from beardyn_ros.wire import TopicPublishers
 
-FOLLOWER = "follower"
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
 LAST_COMPARISON_S = 15.0  # longest wait at the end; the recorder waits 20 s for the last word
 KEPT_ROWS = 4  # stretches that are compared with the twin beside
-
-PARAMETERS = (
-    BEARING,
-    NodeParameter("estimator", "", "file of `beardyn train`; empty: the one shipped for the bearing"),
-    NodeParameter("mileage", 0.0, "of the bearing so far", "km", minimum=0.0, maximum=1e8),
-    NodeParameter(
-        "wheel_diameter", 920.0, "running diameter of the wheel", "mm", minimum=300.0, maximum=1500.0
-    ),
-    NodeParameter("twin", "", "sound scene of this axlebox on its track, a twin beside; empty: none"),
-    NodeParameter("twin_tier", "quasistatic", "of the twin beside", choices=("lumped", "quasistatic")),
-    NodeParameter(
-        "twin_period",
-        6.0,
-        "time from one comparison with the twin to the next",
-        "s",
-        minimum=1.0,
-        maximum=1e6,
-    ),
-    EXIT_WHEN_DONE,
-)
 
 
 class FollowerNode(Node):
@@ -78,7 +58,7 @@ class FollowerNode(Node):
         super().__init__(FOLLOWER, namespace="axlebox")
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["follower"])
         self._service = Service(1e3 * self._values.mileage, 1e-3 * self._values.wheel_diameter)
         self._worker = ThreadPoolExecutor(1)
         self._out = TopicPublishers(self, "follower/estimate", "follower/residual", "/diagnostics")

@@ -20,13 +20,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.errors import InputError
 from beardyn_core.record.messages import header, make, serialize
 from beardyn_core.record.topics import FRAME
-from beardyn_ros.parameters import NodeParameter
 
-FRAME_ID = NodeParameter(
-    "frame_id",
-    "",
-    "frame of the axlebox, origin at the bearing centre; empty: the namespace, so that several boxes differ",
-)
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _STAMP = struct.Struct("<iI")
 

@@ -9,9 +9,8 @@ import numpy as np
 
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.load_stream import decode_load
-from beardyn_core.record.messages import decode, decode_string, header_stamp
+from beardyn_core.record.messages import decode, decode_string, header_frame, header_stamp
 from beardyn_core.record.topics import TWIST, WRENCH, topic
-from beardyn_ros.identity import wrong_frame
 from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC, LiveLoad
 from beardyn_ros.load_feed import LoadFeed
 from beardyn_ros.message_guard import Sources
@@ -131,3 +130,14 @@ class LoadIntake:
     def _report(self, sentence: str | None) -> None:
         if sentence is not None:
             self._node.get_logger().warning(sentence, throttle_duration_sec=1.0)
+
+
+def wrong_frame(cdr: bytes, frame: str) -> tuple[str, str] | None:
+    """Give reason and sentence when a message is of another frame; one that names no frame is taken."""
+    found = header_frame(cdr)
+    if found in ("", frame):
+        return None
+    return (
+        "wrong frame",
+        f"its frame is '{found}', this twin takes load in '{frame}' (parameter frame_id)",
+    )

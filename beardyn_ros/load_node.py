@@ -26,16 +26,15 @@ from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_told, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
-from beardyn_ros.diagnostics import diagnostic_name, load_diagnostic
+from beardyn_ros.diagnostics import diagnostic_name, run_instance
 from beardyn_ros.frames import frame_of
-from beardyn_ros.identity import run_instance
 from beardyn_ros.live_load import LowPass, encode_shaft, encode_wrench
-from beardyn_ros.load_parameters import PARAMETERS
 from beardyn_ros.message_guard import MessageGuard
+from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.replay import QUICK_S, Credit, Replay, ReplayClock
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node, wall_timer
-from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, scene_scenario, truth_text
+from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, load_diagnostic, scene_scenario, truth_text
 from beardyn_ros.services import StepService
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
@@ -61,15 +60,26 @@ class LoadNode(Node):
     ----------
     load_scenario : callable or None
         ``load_scenario(scene, csv, duration)``; ``None``: scenes of the config room.
+    quick : float
+        Shortest period in lockstep, [s].
     **of_node
         Passed on to the node: another namespace, parameters.
+
+    Attributes
+    ----------
+    company : sequence of LoadNode
+        Load nodes of the same process that stay together: the slowest of their twins holds back all.
     """
 
-    def __init__(self, load_scenario: ScenarioLoader | None = None, **of_node: Any) -> None:
+    company: Sequence[LoadNode] = ()
+
+    def __init__(
+        self, load_scenario: ScenarioLoader | None = None, quick: float = QUICK_S, **of_node: Any
+    ) -> None:
         super().__init__("load", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["load"])
         values = self._values
         self._frame = frame_of(self.get_namespace(), values.frame_id)
         if values.block >= values.horizon:
@@ -110,7 +120,7 @@ class LoadNode(Node):
             f"{len(self._scenario.history)} load samples over {self._replay.length_s:.2f} s, "
             "waiting for a twin"
         )
-        self._quick_s = 1.0 / values.live_rate if self._live else QUICK_S
+        self._quick_s = 1.0 / values.live_rate if self._live else quick
         self._timer = wall_timer(self, IDLE_PERIOD_S, self._on_timer)
         wall_timer(self, REPORT_PERIOD_S, self._report)
         self.create_service(SetBool, "load/pause", self._on_pause)
@@ -323,7 +333,7 @@ class LoadNode(Node):
 
     def _latest_credit(self) -> int:
         """Find the time up to which the load is used, from where the horizon counts, [ns]."""
-        return self._credit.time_ns
+        return min((each._credit.time_ns for each in self.company), default=self._credit.time_ns)
 
     def _pump(self) -> None:
         if not (self._twin_listens() or self._ended):

@@ -16,13 +16,12 @@ from typing import Any
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics
 from beardyn_core.record.topics import Topic
-from beardyn_ros.diagnostics import MONITOR, TWIN, diagnostic_name
+from beardyn_ros.diagnostics import FOLLOWER, LOAD, MONITOR, TWIN, diagnostic_name
 from beardyn_ros.wire import SourcedHandler
 
 WARN_PERIOD_S = 5.0
 LOOK_PERIOD_S, NEW_LOOK_PERIOD_S = 1.0, 0.05  # a look at the graph costs as much as a hundred messages
 SILENT_AFTER_S = 2.0
-FOLLOWER, LOAD = "follower", "load"
 SPEAKERS = (TWIN, LOAD, MONITOR, FOLLOWER)
 _OF_NODES = {
     "load/blocks": LOAD,

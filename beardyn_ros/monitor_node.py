@@ -32,24 +32,15 @@ from beardyn_core.record.topics import WRENCH
 from beardyn_core.study.monitored_recording import HOT_BOX, UNEXPLAINED, WAITING, Finding, Tally
 from beardyn_ros.diagnostics import MONITOR, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.node_parameters import PARAMETERS
+from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
-from beardyn_ros.train_signals import BEARING, EXIT_WHEN_DONE, Hearer, TrainSignals
+from beardyn_ros.train_signals import Hearer, TrainSignals
 from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
 ZERO_CELSIUS = 273.15
-
-PARAMETERS = (
-    BEARING,
-    NodeParameter(
-        "algorithm",
-        "",
-        "module:function in place of the reference chain, a beardyn_core.monitor.chain.Chain for one",
-    ),
-    EXIT_WHEN_DONE,
-)
 
 
 class MonitorNode(Node):
@@ -59,7 +50,7 @@ class MonitorNode(Node):
         super().__init__("monitor", namespace="axlebox")
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["monitor"])
         problems = []
         try:
             self._bearing = load_bearing(self._values.bearing)

@@ -20,16 +20,15 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.record.published import MissingMessages, missing_sentence
 from beardyn_core.record.topics import TOPICS, Topic, topic
-from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, diagnostic_name
+from beardyn_ros.diagnostics import OK, RECORDER, TWIN, WARN, TwinWatch, diagnostic_name, run_instance
 from beardyn_ros.frames import frame_of
-from beardyn_ros.identity import run_instance
 from beardyn_ros.message_guard import MessageGuard
-from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.node_parameters import PARAMETERS
+from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.recording import Recording, free_name, is_recorded
 from beardyn_ros.run_file import RunFile, SharedFiles, run_id_of
 from beardyn_ros.run_state import END_STATES, LEFT
 from beardyn_ros.runtime import EXIT_INCOMPLETE, EXIT_LOAD_LOST, run_node, wall_timer
-from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, SourcedHandler, TopicPublishers
 
 TICK_S = 0.05
@@ -55,36 +54,6 @@ TWIN_TOPICS = (
     "contacts",
 )
 
-PARAMETERS = (
-    NodeParameter(
-        "output",
-        "",
-        "file to write; further runs get _2, _3; empty: <scene>_<date>.mcap here",
-    ),
-    NodeParameter("replace", False, "replace the file when it exists, instead of refusing to start"),
-    NodeParameter(
-        "max_file_size",
-        0.0,
-        "largest file, at least 1; a run is then a folder, named as output without its ending, with files "
-        "NAME_0.mcap, NAME_1.mcap and metadata.yaml; 0: no limit",
-        "MB",
-        minimum=0.0,
-        maximum=1e6,
-    ),
-    NodeParameter(
-        "max_file_duration",
-        0.0,
-        "longest simulated time in a file, else as max_file_size; 0: no limit",
-        "s",
-        minimum=0.0,
-        maximum=1e6,
-    ),
-    NodeParameter("exit_when_done", True, "close the file and end the process when the twin has ended"),
-    NodeParameter(
-        "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
-    ),
-)
-
 
 class RecorderNode(Node):
     """Every topic of one axlebox into files.
@@ -102,7 +71,7 @@ class RecorderNode(Node):
         self._shared = shared
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["recorder"])
         self._splitting = Splitting(
             round(self._values.max_file_size * 1e6), round(self._values.max_file_duration * 1e9)
         )

@@ -34,7 +34,6 @@ from beardyn_core.record.meshes import CUT_OPEN, ROW_SIDE, Mesh
 from beardyn_core.record.messages import decode, decode_string, encode_string, header_stamp
 from beardyn_core.record.topics import JOINTS
 from beardyn_ros.frames import ORIGIN, TRANSFORMS, Pose, TurningFrames, encode_fixed, pose_from
-from beardyn_ros.parameters import NodeParameter
 from beardyn_ros.wire import message_class
 
 COLOURS = {
@@ -53,19 +52,6 @@ LATCHED = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
-)
-PARENT = NodeParameter(
-    "parent_frame", "", "frame that the axlebox stands in, a vehicle's for one; empty: in none"
-)
-POSE = NodeParameter("pose_in_parent", "", "place there: x y z roll pitch yaw, m and rad; empty: the origin")
-DESCRIPTION_PARAMETERS = (
-    PARENT,
-    POSE,
-    NodeParameter(
-        "joint_tf",
-        False,
-        "publish /tf of cone, cages and rollers every 20 ms, where no robot_state_publisher does it",
-    ),
 )
 
 
@@ -344,7 +330,7 @@ class DescriptionPublisher:
     frame : str
         Of the axlebox.
     values : ParameterValues
-        With `DESCRIPTION_PARAMETERS`.
+        With the pose, and whether there is ``/tf``.
 
     Raises
     ------

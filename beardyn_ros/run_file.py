@@ -17,7 +17,7 @@ from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import McapWriter
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_stamp
+from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_frame, header_stamp
 from beardyn_core.record.published import (
     BLOCKS,
     MissingMessages,
@@ -26,7 +26,7 @@ from beardyn_core.record.published import (
     published_counts,
 )
 from beardyn_core.record.topics import STRING, Topic
-from beardyn_ros.strands import STEP_NS, TEMPERATURE, frame_bytes
+from beardyn_ros.strands import STEP_NS, TEMPERATURE
 
 COUNTED_CLOUDS = ("force_waveform", "bodies", "load/blocks")
 DIAGNOSTICS = "/diagnostics"
@@ -211,7 +211,7 @@ class RunFile:
         self.loss = LossWatch()
         self.last_ns: dict[str, int] = {}
         self._first_ns: dict[str, int] = {}
-        self._parts: set[bytes] = set()  # that have a temperature
+        self._parts: set[str] = set()  # that have a temperature
         self._simulated_ns = 0
         self._writer = writer
         if truth is None:
@@ -233,7 +233,7 @@ class RunFile:
         elif entry.name in SIMULATED:
             self._simulated_ns = max(self._simulated_ns, stamp)
         if entry.name == TEMPERATURE:
-            self._parts.add(frame_bytes(cdr))
+            self._parts.add(header_frame(cdr))
         last = self.last_ns.get(entry.name, 0)
         if entry.name == "load/blocks" and stamp < last:
             stamp = last  # the empty block that ends the stream carries no time

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-from beardyn_core.record.description import RunDescription
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from beardyn_core.scene.scene import Scene
+    pass
 
 IDLE = "idle"
 COMPILING = "compiling"
@@ -24,77 +21,6 @@ STOPPED = "stopped"
 INTERRUPTED = "interrupted"
 END_STATES = (FINISHED, STOPPED, INTERRUPTED)
 LEFT = "the run was left by a reset"  # begins the last word of such a run
-
-SCENE_OWN = "scene"
-
-
-@dataclass(frozen=True)
-class Rig:
-    """A twin and the description of its run.
-
-    Parameters
-    ----------
-    twin : beardyn_core.twin.Twin
-        Or anything that keeps its contract.
-    description : RunDescription
-    background : str
-        Name of a background with forces on the journal, which come with the load; empty without one.
-    pictures : bool
-        Whether bodies and contacts are published.
-    """
-
-    twin: Any
-    description: RunDescription
-    background: str = ""
-    pictures: bool = True
-
-
-def scene_rig(
-    scene_name: str,
-    tier: str = SCENE_OWN,
-    effects: str = SCENE_OWN,
-    of_box: Callable[[Scene], Scene] | None = None,
-) -> Callable[[], Rig]:
-    """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
-
-    What it leaves open is chosen when the first rig is built.
-
-    Parameters
-    ----------
-    scene_name : str
-    tier : str
-        `SCENE_OWN` for the scene's own.
-    effects : str
-        Preset, file or ``auto``; `SCENE_OWN` for the scene's own.
-    of_box : callable, optional
-        Makes the scene of one axlebox of several.
-
-    Raises
-    ------
-    InputError
-        With every mistake in the scene, or it has several axleboxes and ``of_box`` is not given.
-    """
-    from beardyn_core.choice.load import closed
-    from beardyn_core.config import read_scene
-    from beardyn_core.record.description import RunDescription
-    from beardyn_core.twin import Twin
-    from beardyn_ros.one_box import check_one_box
-
-    given = {("tier",): tier, ("effects",): effects}
-    found = read_scene(scene_name, {place: value for place, value in given.items() if value != SCENE_OWN})
-    if of_box is None:
-        instead = "the parameter box of the twin names one of them, node car_twin has the twins of all"
-        check_one_box(found.scene, scene_name, "twin", instead)
-    background = found.scene.background
-    forces = background.name if background is not None and background.forces else ""
-
-    def build() -> Rig:
-        whole = closed(found, outside_load=True)
-        scene = whole if of_box is None else of_box(whole)
-        twin = Twin(scene)
-        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)
-
-    return build
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What the load node replays: the load, and the truth about it."""
+"""What the load node replays, for one axlebox or for several: the load, and the truth about it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,17 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.plain_json import read_object
 from beardyn_core.rail.events import events_of
+from beardyn_core.record.messages import Diagnostic
+from beardyn_core.record.published import published_values
+from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory
+from beardyn_ros.diagnostics import OK, WARN
 from beardyn_ros.replay import Replay
+from beardyn_ros.rig import check_one_box
 
 if TYPE_CHECKING:
     from beardyn_core.scene.scene import Scene
+    from beardyn_ros.message_guard import MessageGuard
 
 PLAYING = "playing"
 PAUSED = "paused"
@@ -56,21 +62,66 @@ def scene_scenario(scene_name: str, csv: str, duration: float) -> Scenario:
     """
     from beardyn_core.config import read_scene
     from beardyn_core.rail.build import load_of_scene
-    from beardyn_core.rail.measured import read_measurement
-    from beardyn_core.scene.operation import MeasuredOperation
-    from beardyn_ros.one_box import check_one_box
 
     scene = read_scene(scene_name).scene  # of which only the load matters
     check_one_box(scene, scene_name, "load node", "node car_load has the loads of all")
-    length = duration or scene.duration
-    if csv:
-        path = Path(csv)
-        scene = replace(scene, operation=MeasuredOperation(path))
-        if not duration:
-            time_s = read_measurement(path).time
-            length = float(time_s[-1] - time_s[0])
+    scene, length = _replayed(scene, csv, duration)
     history = load_of_scene(scene, length)
     return Scenario(history, scenario_events(replace(scene, duration=length)))
+
+
+class CarScenario:
+    """Loads of all boxes of a car out of one scene or CSV.
+
+    Parameters
+    ----------
+    boxes : tuple of Box
+    car : Axleboxes
+    scene : str
+    csv : str
+        '' for the scene's operation.
+    duration : float
+        Of the streams, 0 for the scene's own, or the whole CSV, [s].
+
+    Raises
+    ------
+    InputError
+        The train does not get far enough, or turns back.
+    """
+
+    def __init__(self, boxes: tuple[Box, ...], car: Axleboxes, scene: str, csv: str, duration: float) -> None:
+        from beardyn_core.config import read_scene
+        from beardyn_core.rail.train import TrainLoads
+
+        found, length = _replayed(read_scene(scene).scene, csv, duration)
+        self._loads = TrainLoads(found, car, boxes, length)
+
+    def of(self, box: Box) -> Scenario:
+        """Make the load of one box, with the truth about it."""
+        load = self._loads.of(box)
+        events: Mapping[str, Any] = {
+            **scenario_events(replace(load.scene, duration=self._loads.length)),
+            "box": {
+                "name": box.name,
+                "behind_first_wheel_m": load.behind,
+                "begins_in_scene_s": load.begins,
+                "events_are_of": "the first wheel, in the time of the scene",
+            },
+        }
+        return Scenario(load.history, events)
+
+
+def _replayed(scene: Scene, csv: str, duration: float) -> tuple[Scene, float]:
+    """Put a CSV in the place of a scene's operation; how long the load is, [s]."""
+    from beardyn_core.rail.measured import read_measurement
+    from beardyn_core.scene.operation import MeasuredOperation
+
+    if not csv:
+        return scene, duration or scene.duration
+    if not duration:
+        time_s = read_measurement(Path(csv)).time
+        duration = float(time_s[-1] - time_s[0])
+    return replace(scene, operation=MeasuredOperation(Path(csv))), duration
 
 
 def scenario_events(scene: Scene) -> dict[str, Any]:
@@ -112,6 +163,32 @@ def truth_text(scenario: Scenario, replay: Replay, state: str, run_id: str) -> s
         },
     }
     return json.dumps(content, default=str)
+
+
+def load_diagnostic(
+    name: str,
+    state: str,
+    replay: Replay,
+    lead: float,
+    lost_messages: int,
+    sent: Mapping[str, int],
+    guard: MessageGuard,
+) -> Diagnostic:
+    """Report the load node: where the stream stands in the scenario, how far ahead of the credit, [s]."""
+    values = (
+        ("state", state),
+        ("position", f"{replay.position_s:.4f}"),
+        ("sample", str(replay.next_sample)),
+        ("stamp", f"{replay.next_ns * 1e-9:.4f}"),
+        ("lead", f"{lead:.3f}"),
+        ("passages", str(len(replay.passages))),
+        ("loop", str(replay.loop).lower()),
+        ("lost_messages", str(lost_messages)),
+        *published_values(sent),
+        *guard.values(),
+    )
+    said = "; ".join(filter(None, (f"the load is {state}", guard.sentence())))
+    return Diagnostic(name, WARN if lost_messages or guard.total else OK, said, values)
 
 
 def says_paused(truth: str) -> bool:

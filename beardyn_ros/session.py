@@ -20,6 +20,7 @@ from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
 from beardyn_core.sensors.block import Block
 from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
+from beardyn_ros.rig import Rig
 from beardyn_ros.run_state import (
     COMPILING,
     END_STATES,
@@ -32,7 +33,6 @@ from beardyn_ros.run_state import (
     RUNNING,
     STOPPED,
     Outgoing,
-    Rig,
     SessionOptions,
     SessionReport,
 )

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import monotonic
 
-from beardyn_core.record.messages import header_stamp
+from beardyn_core.record.messages import header_frame, header_stamp
 from beardyn_core.record.topics import Topic
 
 STEP_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
@@ -65,13 +65,13 @@ class Strand:
     extended_at: float = field(default_factory=monotonic)
     waiting: list[Waiting] = field(default_factory=list)
     source: bytes = b""
-    _parts: set[bytes] = field(default_factory=set)
+    _parts: set[str] = field(default_factory=set)
 
     def leap_to(self, name: str, stamp: int, cdr: bytes) -> int | None:
         """Compute how far ahead a message is, [ns]; ``None`` when it does not go on from here."""
         leap = stamp - self.last_ns
         if name == TEMPERATURE and leap == 0:
-            return None if frame_bytes(cdr) in self._parts else 0
+            return None if header_frame(cdr) in self._parts else 0
         return leap if 0 < leap <= self.window_ns else None
 
     def extend(self, name: str, stamp: int, cdr: bytes, serial: int) -> None:
@@ -79,7 +79,7 @@ class Strand:
         if name == TEMPERATURE:
             if stamp != self.last_ns:
                 self._parts.clear()
-            self._parts.add(frame_bytes(cdr))
+            self._parts.add(header_frame(cdr))
         self.last_ns, self.extended, self.extended_at = stamp, serial, monotonic()
         self.count += 1
 
@@ -227,9 +227,3 @@ class TopicStrands:
 def step_of(name: str) -> int:
     """Return the usual step of the stamps of a topic, [ns]."""
     return STEP_NS.get(name, TEMPERATURE_NS if name == TEMPERATURE else BLOCK_NS)
-
-
-def frame_bytes(cdr: bytes) -> bytes:
-    """Take the frame of a message that begins with a header: its length stands behind the stamp."""
-    length = int.from_bytes(cdr[12:16], "little")
-    return cdr[16 : 16 + length]

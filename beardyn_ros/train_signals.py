@@ -18,16 +18,10 @@ from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import decode, decode_diagnostics, header_stamp
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.topics import TEMPERATURE, topic
-from beardyn_ros.diagnostics import TWIN, diagnostic_name
+from beardyn_ros.diagnostics import TWIN, TwinWatch, diagnostic_name
 from beardyn_ros.message_guard import MessageGuard
-from beardyn_ros.parameters import NodeParameter
-from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake
 
-BEARING = NodeParameter(
-    "bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"
-)
-EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
 _MEASURED = ("vibration", "shaft")  # without these nothing is heard
 _BOX = "axlebox"  # of the temperatures, that of the box is measured
 

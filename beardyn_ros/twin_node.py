@@ -1,6 +1,6 @@
 """The lifecycle node of the twin.
 
-Parameters: `twin_parameters`. Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
+Services: ``~/../pause`` (SetBool), ``step`` and ``reset`` (Trigger), all in
 the node's namespace. Exit codes: `beardyn_ros.runtime.EXIT_CODES`.
 """
 
@@ -17,29 +17,19 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import encode_clock, encode_time
 from beardyn_core.record.topics import topic
-from beardyn_ros.car import lone_box_rig
-from beardyn_ros.diagnostics import TWIN, diagnostic_name, needs_attention
+from beardyn_ros.diagnostics import TWIN, Namesakes, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.identity import Namesakes
 from beardyn_ros.load_intake import LoadIntake
 from beardyn_ros.message_guard import Sources
+from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
+from beardyn_ros.rig import Rig, lone_box_rig, scene_rig
 from beardyn_ros.robot_description import DescriptionPublisher
-from beardyn_ros.run_state import (
-    END_STATES,
-    FINISHED,
-    LEFT,
-    PAUSED,
-    Outgoing,
-    Rig,
-    SessionOptions,
-    scene_rig,
-)
+from beardyn_ros.run_state import END_STATES, FINISHED, LEFT, PAUSED, Outgoing, SessionOptions
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.services import SimulationServices, StepService, interfaces
 from beardyn_ros.session import TwinSession
-from beardyn_ros.twin_parameters import PARAMETERS
-from beardyn_ros.twin_report import TwinReporter
+from beardyn_ros.twin_report import TwinReporter, needs_attention
 from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers
 
 RigLoader = Callable[[str, str, str], Callable[[], Rig]]
@@ -80,7 +70,7 @@ class TwinNode(LifecycleNode):
         super().__init__("twin", **{"namespace": "axlebox", **of_node})
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["twin"])
         box = self._values.box
         self._load_rig = load_rig or (lone_box_rig(box) if box else scene_rig)
         self._frame = frame_of(self.get_namespace(), self._values.frame_id)

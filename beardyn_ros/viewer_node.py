@@ -14,12 +14,12 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
-from beardyn_ros.diagnostics import OK, TWIN, WARN, diagnostic_name
+from beardyn_ros.diagnostics import OK, TWIN, WARN, TwinWatch, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.message_guard import MessageGuard
-from beardyn_ros.parameters import NodeParameter, ParameterValues
+from beardyn_ros.node_parameters import PARAMETERS
+from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
-from beardyn_ros.twin_watch import TwinWatch
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 TICK_S = 0.1
@@ -43,13 +43,6 @@ DRAWN = (
     "follower/residual",
 )
 
-PARAMETERS = (
-    NodeParameter("target", "window", "where to draw", choices=("window", "web", "file")),
-    NodeParameter("output", "run.rrd", "file for target file"),
-    NodeParameter("port", 0, "port of the page for target web, 0 for a free one", minimum=0, maximum=65535),
-    NodeParameter("exit_when_done", False, "end the process when the twin has ended"),
-)
-
 
 class ViewerNode(Node):
     """Feeds a `LiveView` with every message."""
@@ -58,7 +51,7 @@ class ViewerNode(Node):
         super().__init__("viewer", namespace="axlebox")
         self.finished = False
         self.exit_code = 0
-        self._values = ParameterValues(self, PARAMETERS)
+        self._values = ParameterValues(self, PARAMETERS["viewer"])
         if self._values.target == "window" and not has_display():
             raise InputError(
                 "node viewer: no display is set (DISPLAY, WAYLAND_DISPLAY): use `-p target:=web` for a page "

@@ -1,15 +1,12 @@
-"""Write docs/nodes.md from the tables that the nodes themselves use: ``python docs/write_nodes.py``.
-
-Needs rclpy (the node modules import it).
-"""
+"""Write docs/nodes.md from the tables that the nodes themselves use: ``python docs/write_nodes.py``."""
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 
 from beardyn_core.record.topics import TOPICS
 from beardyn_ros.__main__ import PROGRAMS
+from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.runtime import EXIT_CODES
 
 PAGE = Path(__file__).with_name("nodes.md")
@@ -246,7 +243,7 @@ SIGINT is no failure. They stop nothing that another launch file, which includes
 def parameter_rows(node: str) -> list[str]:
     """Table rows of one node's parameters."""
     rows = []
-    for parameter in import_module(f"beardyn_ros.{PROGRAMS[node][0]}").PARAMETERS:
+    for parameter in PARAMETERS[node]:
         allowed = ", ".join(parameter.choices) if parameter.choices else parameter.allowed_range
         allowed = {"no range": parameter.unit}.get(allowed, allowed)
         default = f"`{parameter.default}`" if parameter.default != "" else ""

@@ -32,8 +32,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.axleboxes import Box
-from beardyn_ros.car import CAR, boxes_named, place_of
 from beardyn_ros.launching import failure_of
+from beardyn_ros.rig import CAR, boxes_named, place_of
 
 PATIENCE_S, GRACE_S = 20.0, 5.0
 

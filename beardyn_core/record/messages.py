@@ -26,6 +26,8 @@ DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 _SECOND = 1_000_000_000
 _ENCAPSULATION = b"\x00\x01\x00\x00"
 _STAMP = struct.Struct("<iI")
+_LENGTH = struct.Struct("<I")
+_FRAME_AT = 12  # behind the encapsulation and the stamp
 
 
 @cache
@@ -64,6 +66,13 @@ def header_stamp(cdr: bytes) -> int:
     """Read the stamp of a message that begins with a header (or is a time), without decoding it, [ns]."""
     seconds, nanoseconds = _STAMP.unpack_from(cdr, 4)
     return int(seconds) * _SECOND + int(nanoseconds)
+
+
+def header_frame(cdr: bytes) -> str:
+    """Read the frame of a message that begins with a header, without decoding it."""
+    (length,) = _LENGTH.unpack_from(cdr, _FRAME_AT)
+    begin = _FRAME_AT + _LENGTH.size
+    return cdr[begin : begin + max(length - 1, 0)].decode("utf-8", errors="replace")
 
 
 def encode_time(stamp_ns: int) -> bytes:

@@ -110,7 +110,7 @@ class FakeTwin:
 
 
 def fake_rig(scene: str, _tier: str, _effects: str = "") -> Callable[[], Any]:
-    from beardyn_ros.run_state import Rig
+    from beardyn_ros.rig import Rig
 
     if scene not in SCENES:
         raise InputError(f"scene '{scene}' does not exist, there are {', '.join(SCENES)}")
@@ -144,10 +144,10 @@ def main(words: Sequence[str]) -> int:
 
         return load_main(words[1:], fake_scenario)
     if words[0] == "car_twin":
-        from beardyn_ros import car_twin
+        from beardyn_ros import car
 
-        car_twin.box_rig = lambda train, box: lambda *_: fake_rig("fake", "")
-        return car_twin.main(words[1:])
+        car.box_rig = lambda train, box: lambda *_: fake_rig("fake", "")
+        return car.run_twins(words[1:])
     from beardyn_ros.twin_node import main as twin_main
 
     return twin_main(words[1:], fake_rig)

@@ -18,7 +18,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.record.reading import read_run
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.car import EIGHT_BOXES, NodeGroup, boxes_named
+from beardyn_ros.car import NodeGroup
+from beardyn_ros.rig import EIGHT_BOXES, boxes_named
 from test.ros.graph import Graph
 
 TWO = ("axle_1_left", "axle_4_right")
@@ -92,7 +93,7 @@ def test_boxes_are_named_by_axle_and_side() -> None:
 
 
 def test_the_right_rail_is_another_one_and_a_wheel_defect_stays_with_its_wheel() -> None:
-    from beardyn_ros.car_scenario import CarScenario
+    from beardyn_ros.scenario import CarScenario
 
     boxes = boxes_named("axle_1_left axle_2_left axle_1_right")
     car = Axleboxes(axles=4, faulty=("axle_2_left",))
@@ -263,7 +264,7 @@ def test_twins_of_a_car_refuse_boxes_that_there_are_not(graph: Graph) -> None:
 
 def test_a_twin_that_is_told_its_box_is_mirrored_on_the_right() -> None:
     """As `beardyn simulate` makes it of a scene with axleboxes; the defect stays, in the mirrored row."""
-    from beardyn_ros.car import lone_box_rig
+    from beardyn_ros.rig import lone_box_rig
 
     rows = [
         lone_box_rig(name)("cup_spall", "lumped", "standard")().description.truth["faults"][0]["row"]

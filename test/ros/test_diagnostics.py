@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from beardyn_ros.diagnostics import NodeStanding, twin_diagnostic
 from beardyn_ros.load_gate import RefusalReport
 from beardyn_ros.run_state import SessionReport
+from beardyn_ros.twin_report import NodeStanding, twin_diagnostic
 
 STANDING = NodeStanding("", 0, "lockstep", 0.0, 1, {}, 0, ())
 NONE_REFUSED = RefusalReport(0, (), "", recent=False)

@@ -9,7 +9,7 @@ import pytest
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load
 from beardyn_core.config import load_effects
-from beardyn_ros.run_state import scene_rig
+from beardyn_ros.rig import scene_rig
 
 pytestmark = pytest.mark.usefixtures("shipped_configuration")
 

@@ -14,7 +14,7 @@ from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
-from beardyn_ros import twin_watch
+from beardyn_ros import diagnostics
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
 from beardyn_ros.wire import LONGEST_SWEEP, RawIntake
 from test.record.test_broken_files import told
@@ -85,8 +85,8 @@ def test_a_twin_that_was_there_all_the_time_is_gone_from_when_it_is_first_missed
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now, publishers = 0.0, 1
-    monkeypatch.setattr(twin_watch.time, "monotonic", lambda: now)
-    watch = twin_watch.TwinWatch("axlebox/twin", lambda: publishers)
+    monkeypatch.setattr(diagnostics.time, "monotonic", lambda: now)
+    watch = diagnostics.TwinWatch("axlebox/twin", lambda: publishers)
     now = 600.0
     assert not watch.vanished()
     now, publishers = 900.0, 0

@@ -28,9 +28,9 @@ from beardyn_core.record.published import MissingMessages, last_published
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import TOPICS, topic
+from beardyn_ros.diagnostics import TwinWatch
 from beardyn_ros.recording import Recording, free_name
 from beardyn_ros.run_state import FINISHED, INTERRUPTED, LEFT
-from beardyn_ros.twin_watch import TwinWatch
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 

@@ -35,7 +35,7 @@ def train() -> Axleboxes:
 
 
 def test_a_twin_or_a_load_of_one_box_says_what_to_start_instead() -> None:
-    from beardyn_ros.run_state import scene_rig
+    from beardyn_ros.rig import scene_rig
     from beardyn_ros.scenario import scene_scenario
 
     instead = (
@@ -71,7 +71,7 @@ def test_refusals_end_the_nodes_with_2_and_a_sentence(graph: Graph) -> None:
 
 
 def test_parameters_choose_among_the_boxes_of_the_scene(train: Axleboxes) -> None:
-    from beardyn_ros.car import boxes_named
+    from beardyn_ros.rig import boxes_named
 
     assert tuple(box.name for box in boxes_named("", train)) == FOUR
     assert [box.name for box in boxes_named("axle_2_left, axle_1_left", train)] == [
@@ -87,7 +87,7 @@ def test_parameters_choose_among_the_boxes_of_the_scene(train: Axleboxes) -> Non
 
 
 def test_boxes_stand_about_the_middle_of_a_car_where_the_scene_has_them(train: Axleboxes) -> None:
-    from beardyn_ros.car import CAR, place_of
+    from beardyn_ros.rig import CAR, place_of
 
     assert [place_of(train, box).split()[:2] for box in train.boxes] == [
         ["1.25", "1"],
@@ -100,7 +100,7 @@ def test_boxes_stand_about_the_middle_of_a_car_where_the_scene_has_them(train: A
 
 
 def test_a_twin_that_is_told_its_box_is_that_of_the_scene() -> None:
-    from beardyn_ros.car import lone_box_rig
+    from beardyn_ros.rig import lone_box_rig
 
     def truth(box: str) -> dict[str, Any]:
         return dict(lone_box_rig(box)("bogie", "lumped", "standard")().description.truth)
@@ -119,7 +119,7 @@ def test_a_twin_that_is_told_its_box_is_that_of_the_scene() -> None:
 
 
 def test_twins_of_a_scene_without_pictures_publish_none(tmp_path: Path) -> None:
-    from beardyn_ros.car import axleboxes_of, box_rig
+    from beardyn_ros.rig import axleboxes_of, box_rig
 
     text = Path("config/scenes/bogie.yaml").read_text(encoding="utf-8")
     mine = tmp_path / "mine.yaml"
@@ -131,7 +131,7 @@ def test_twins_of_a_scene_without_pictures_publish_none(tmp_path: Path) -> None:
 
 
 def test_left_and_right_share_the_load_of_the_wheelset_as_in_a_desk_run(train: Axleboxes) -> None:
-    from beardyn_ros.car_scenario import CarScenario
+    from beardyn_ros.scenario import CarScenario
 
     scenario = CarScenario(train.boxes, train, "bogie", "", 0.5)
     desk = TrainLoads(read_scene("bogie").scene, train, train.boxes, 0.5)

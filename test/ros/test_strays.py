@@ -22,7 +22,7 @@ from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics, encode_string
 from beardyn_core.record.published import published_before
 from beardyn_core.record.topics import topic
-from beardyn_ros.identity import Namesakes
+from beardyn_ros.diagnostics import Namesakes
 from beardyn_ros.live_load import encode_wrench
 from beardyn_ros.message_guard import Sources
 from beardyn_ros.recording import Recording, free_name, plain_name
