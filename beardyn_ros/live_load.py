@@ -20,7 +20,6 @@ from beardyn_ros.load_gate import Refusals, unphysical
 
 # Poles of the Bessel filter of order 4 that has its half-power point at 1 rad/s, one of each pair.
 POLES = np.array([-1.3700678306 + 0.4102497175j, -0.9952087644 + 1.2571057395j])
-DELAY = 2.1139176749  # of slow signals, in units of 1 / (2 pi bandwidth)
 # A stamp may run ahead of the one before it by so much, and by so many seconds for each that has passed.
 LARGEST_LEAP_S = 10.0
 FASTEST_PACE = 1000.0
@@ -42,11 +41,6 @@ def encode_shaft(speed: float, stamp_ns: int, frame: str = FRAME) -> bytes:
     turning = make("geometry_msgs/msg/Vector3", x=0.0, y=speed, z=0.0)
     content = make("geometry_msgs/msg/Twist", linear=zero, angular=turning)
     return serialize(make(TWIST, header=header(stamp_ns, frame), twist=content))
-
-
-def filter_delay(bandwidth: float) -> float:
-    """Compute by how much the filter delays everything below its bandwidth [Hz], [s]."""
-    return DELAY / (2.0 * np.pi * bandwidth)
 
 
 class LowPass:

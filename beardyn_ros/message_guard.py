@@ -129,12 +129,6 @@ class Sources:
             self._named.add(name)
         return own if name in self._named else count
 
-    def forget(self, *names: str) -> None:
-        """Follow whoever comes next on some topics."""
-        for name in names:
-            self._followed.pop(name, None)
-            self._own.pop(name, None)
-
     def _problem(self, name: str, key: str, part: str, source: bytes) -> str:
         followed = self._followed.get(key)
         if followed == source:

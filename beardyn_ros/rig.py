@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 SCENE_OWN = "scene"
 CAR = Axleboxes(axles=AXLES_OF_A_CAR)
-EIGHT_BOXES = tuple(box.name for box in CAR.boxes)
 MOST_TOLD = 8
 HALF_AXLE_M, AXLE_HEIGHT_M = 1.0, 0.46
 

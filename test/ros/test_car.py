@@ -19,9 +19,10 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.scene.axleboxes import Axleboxes, Box
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.car import NodeGroup
-from beardyn_ros.rig import EIGHT_BOXES, boxes_named
+from beardyn_ros.rig import CAR, boxes_named
 from test.ros.graph import Graph
 
+EIGHT = tuple(box.name for box in CAR.boxes)
 TWO = ("axle_1_left", "axle_4_right")
 RADIUS = 0.46
 
@@ -76,14 +77,14 @@ def test_a_train_that_stands_or_turns_back_is_refused_with_a_sentence() -> None:
 
 
 def test_boxes_are_named_by_axle_and_side() -> None:
-    assert len(boxes_named(" ".join(EIGHT_BOXES))) == 8
+    assert len(boxes_named(" ".join(EIGHT))) == 8
     assert boxes_named("axle_3_left, axle_4_right") == (
         Box("axle_3_left", 3, "left"),
         Box("axle_4_right", 4, "right"),
     )
     car = Axleboxes(axles=5)
     assert [car.behind(box) for box in car.boxes[::2]] == [0, 2.5, 17.5, 20, 25.0]
-    assert [box.name for box in boxes_named("")] == list(EIGHT_BOXES)
+    assert [box.name for box in boxes_named("")] == list(EIGHT)
     for text, sentence in (
         ("axle_9_left", "'axle_9_left' is none of the axleboxes; allowed are axle_1_left, axle_1_right"),
         ("axle_1_left " * 2, "twice"),
@@ -315,11 +316,11 @@ def test_eight_boxes_of_a_car_run_to_the_end_and_one_of_them_is_spalled(graph: G
     scenes = [load_scene(name, tier="lumped", outside_load=True) for name in ("smooth_run", "cup_spall")]
     for scene in scenes:
         Twin(scene).warm()
-    car = Car(graph, EIGHT_BOXES, "duration:=1.0", "faulty_box:=axle_2_left", fake=False)
+    car = Car(graph, EIGHT, "duration:=1.0", "faulty_box:=axle_2_left", fake=False)
     graph.until(lambda: graph.processes.exit_code("car") is not None, "the end", timeout=280.0)
     car.end()
     assert car.exits() == dict.fromkeys(car.names(), 0)
-    for box in EIGHT_BOXES:
+    for box in EIGHT:
         run = read_run(car.file(box))
         assert len(run.vibration) == 50 * 512 - lookahead(scenes[0])  # of the filter of the sensor
         assert bool(run.truth["faults"]) == (box == "axle_2_left")
