@@ -23,6 +23,9 @@ import numpy as np
 from numba.core import types
 from numba.core.dispatcher import Dispatcher
 
+# whose version stands for them in the name of a kernel
+_LIBRARIES = {"numba", "llvmlite", "numpy", *sys.stdlib_module_names}
+
 _PLAIN = (bool, int, float, complex, str, bytes, type(None), type(Ellipsis), np.dtype, np.generic)
 
 
@@ -32,14 +35,14 @@ def code_digest(function: Callable[..., Any]) -> str:
     Parameters
     ----------
     function : callable
-        In plain Python; everything in its top package is followed.
+        In plain Python; all that it reads is followed, but for numba, NumPy and what comes with Python.
 
     Raises
     ------
     TypeError
         When a function reads an object of which it is not known how it reaches machine code.
     """
-    return _reader(function.__module__.partition(".")[0]).function(function)
+    return _READER.function(function)
 
 
 def spelled_type(kind: Any) -> str:
@@ -53,22 +56,14 @@ def spelled_type(kind: Any) -> str:
         return f"({', '.join(map(spelled_type, kind.types))})"
     if isinstance(kind, types.Optional):
         return f"{spelled_type(kind.type)} or none"
-    package = type(kind).__module__.partition(".")[0]
-    if package == "numba":
-        return str(kind)
-    return f"{kind} of {_reader(package).module(sys.modules[type(kind).__module__])}"
-
-
-@cache
-def _reader(package: str) -> _Reader:
-    return _Reader(package)
+    home = type(kind).__module__
+    return f"{kind} of {_READER.module(sys.modules[home])}" if _is_followed(home) else str(kind)
 
 
 class _Reader:
-    """Reads functions of one package; what it has read it remembers."""
+    """Reads functions; what it has read it remembers."""
 
-    def __init__(self, package: str) -> None:
-        self._package = package
+    def __init__(self) -> None:
         self._functions: dict[Callable[..., Any], str] = {}
 
     def function(self, function: Callable[..., Any]) -> str:
@@ -100,8 +95,8 @@ class _Reader:
                 yield str(each.argval)
 
     def _read(self, value: Any, names: Iterable[str]) -> str:
-        """Spell what a function reads; of a module of the package what it may read there."""
-        if not isinstance(value, ModuleType) or not self._is_ours(value.__name__):
+        """Spell what a function reads; of a module what it may read there."""
+        if not isinstance(value, ModuleType) or not _is_followed(value.__name__):
             return self.value(value)
         found = {name: vars(value)[name] for name in names if name in vars(value)}
         return ", ".join(f"{name} = {self._read(each, names)}" for name, each in found.items())
@@ -128,7 +123,7 @@ class _Reader:
 
     def _named(self, value: Any) -> str:
         name = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None) or ""
-        if not self._is_ours(name):
+        if not _is_followed(name):
             return (
                 f"{name}.{getattr(value, '__qualname__', getattr(value, '__name__', type(value).__name__))}"
             )
@@ -142,7 +137,7 @@ class _Reader:
 
     @cache  # noqa: B019  a reader lives as long as the program
     def module(self, module: ModuleType) -> str:
-        """Hash a whole module, and those of the package that it takes something from."""
+        """Hash a whole module, and those that it takes something from."""
         waiting, reached = [module], dict[str, str]()
         while waiting:
             each = waiting.pop()
@@ -160,11 +155,17 @@ class _Reader:
     def _taken_from(self, module: ModuleType) -> Iterator[ModuleType]:
         for value in vars(module).values():
             name = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None)
-            if isinstance(name, str) and self._is_ours(name) and name in sys.modules:
+            if isinstance(name, str) and _is_followed(name) and name in sys.modules:
                 yield sys.modules[name]
 
-    def _is_ours(self, module: str) -> bool:
-        return module.partition(".")[0] == self._package
+
+_READER = _Reader()
+
+
+def _is_followed(module: str) -> bool:
+    """Whether a module counts by what is in it and not by its name."""
+    source = getattr(sys.modules.get(module), "__file__", None) or ""
+    return module.partition(".")[0] not in _LIBRARIES and source.endswith(".py")
 
 
 def _hashed(parts: Iterable[str]) -> str:

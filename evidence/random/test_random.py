@@ -159,7 +159,7 @@ def test_results_are_of_all_modules_that_a_run_goes_through() -> None:
     files = {path.as_posix() for path in book.sources()}
     ours = [name for name in loaded.split() if name.startswith("beardyn_core.")]
     missing = [name for name in ours if not any(f"/{name.replace('.', '/')}" in path for path in files)]
-    assert {name.split(".")[1] for name in missing} <= {"study", "follow"}
+    assert {name.split(".")[1] for name in missing} <= {"study", "follow", "monitor"}
     assert len(ours) > 100
 
 

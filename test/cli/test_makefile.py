@@ -60,6 +60,6 @@ def test_a_missing_interpreter_is_named(repository: Path, tmp_path: Path) -> Non
 def test_the_wheels_are_left_out_inside_a_sourced_ros(repository: Path, tmp_path: Path) -> None:
     wheels = make(repository, tmp_path, "--dry-run", "demo")
     sourced = make(repository, tmp_path, "--dry-run", "demo", ROS_DISTRO="kilted")
-    assert "-e '.[ros]'" in wheels.stdout
-    assert "-e '.'" in sourced.stdout
+    assert "-e '.[ros,view,plot]'" in wheels.stdout
+    assert "-e '.[view,plot]'" in sourced.stdout
     assert "--system-site-packages" in sourced.stdout

@@ -243,7 +243,7 @@ def test_what_is_shipped_keeps_the_limits(name: str) -> None:
         assert not list(rules_of(noun)) or isinstance(noun, Scene), noun
 
 
-HEAVY = ("numba", "llvmlite", "scipy", "matplotlib", "rerun", "mcap", "beardyn_core.physics")
+HEAVY = ("numba", "llvmlite", "scipy", "matplotlib", "rerun", "mcap", "beardyn_core.physics.lanes")
 
 
 def test_the_room_itself_is_light() -> None:

@@ -23,7 +23,9 @@ print(json.dumps(code_digest(advance.py_func)))
 """
 SMALL = {
     "__init__.py": "",
-    "layout.py": '"""Where numbers stand."""\nFIRST = 0\nTHIRD = 2\nBUILT = 5\n',
+    "../other/__init__.py": "",
+    "../other/layout.py": "FIRST = 0\n",
+    "layout.py": '"""Where numbers stand."""\nTHIRD = 2\nBUILT = 5\n',
     "deep/__init__.py": "",
     "deep/tuples/__init__.py": "",
     "deep/tuples/ribs.py": "from typing import NamedTuple\n\n\nclass Rib(NamedTuple):\n    stiffness: float\n"
@@ -31,9 +33,10 @@ SMALL = {
     "deep/force.py": "from beardyn_core.base.jit import inline\n\n_SMALLEST = 1e-15\n\n\n@inline\n"
     'def force(rib, gap):\n    """Give the force."""\n'
     "    # against the way\n    return rib.stiffness * max(gap - rib.play, _SMALLEST)\n",
-    "step.py": "from beardyn_core.base.jit import entry\nfrom small import layout\n"
+    "step.py": "from beardyn_core.base.jit import entry\nfrom other import layout as far\n"
+    "from small import layout\n"
     'from small.deep.force import force\n\n\n@entry\ndef step(state, rib):\n    """Advance."""\n'
-    "    state[layout.THIRD] += force(rib, state[layout.FIRST])\n    return state[layout.THIRD]\n",
+    "    state[layout.THIRD] += force(rib, state[far.FIRST])\n    return state[layout.THIRD]\n",
     "run.py": "import json\n\nimport numpy as np\n\nfrom small.deep.tuples.ribs import build\n"
     "from small.step import step\nfrom beardyn_core.base.jit import when_compiling\n\n"
     "with when_compiling(lambda: None) as compiled:\n"
@@ -118,7 +121,7 @@ def _moved_entry(small: Small) -> None:
 
 def _split(small: Small) -> None:
     small.move("layout.py", "numbers.py")
-    small.edit("step.py", "import layout", "import numbers as layout")
+    small.edit("step.py", "small import layout", "small import numbers as layout")
 
 
 @pytest.mark.parametrize(
@@ -157,6 +160,10 @@ def test_what_cannot_reach_machine_code_keeps_it(small: Small, change: Callable[
         pytest.param("deep/force.py", "1e-15", "2e-3", 1.0 + 1e8 * 2e-3, id="constant"),
         pytest.param("layout.py", "THIRD = 2", "THIRD = 1", 1e8 * (1e-3 - 1e-5), id="layout"),
         pytest.param(
+            *("../other/layout.py", "FIRST = 0", "FIRST = 2", 1.0 + 1e8 * (1.0 - 1e-5)),
+            id="layout of another package",
+        ),
+        pytest.param(
             *(
                 "deep/tuples/ribs.py",
                 "    stiffness: float\n    play: float",
@@ -171,7 +178,7 @@ def test_what_cannot_reach_machine_code_keeps_it(small: Small, change: Callable[
             id="field of a tuple",
         ),
         pytest.param(
-            *("step.py", "state[layout.FIRST])", "state[layout.FIRST] + 1e-3)"),
+            *("step.py", "state[far.FIRST])", "state[far.FIRST] + 1e-3)"),
             1.0 + 1e8 * (2e-3 - 1e-5),
             id="entry",
         ),
@@ -229,7 +236,7 @@ def digest_after(folder: Path, name: str, old: str, new: str) -> str:
 @pytest.mark.parametrize(
     ("name", "old", "new", "changes"),
     [
-        ("physics/pocket.py", "0.5 * cage.stiffness", "0.6 * cage.stiffness", True),
+        ("physics/pocket.py", "stored = 0.5 * cage", "stored = 0.6 * cage", True),
         ("physics/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
         ("physics/bodies/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
         ("physics/lanes/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
