@@ -25,7 +25,6 @@ twin        a scene that advances block by block
 run         the one loop: load, kernels, equilibrium, blocks to the end
 record      the topic table, MCAP files, runs as arrays, the rerun view
 measured    files of measuring programs as recordings and runs
-engine      many runs at once, on all cores or a Dask cluster
 study       desk runs, ladders, trials, summaries, pictures
 population  sweeps: sets of labelled runs, and a learner to compare with
 follow      load, end play and spall from vibration, with intervals
@@ -33,6 +32,7 @@ calibration the scene of one measured axlebox
 api         the functions of this module
 cli         the beardyn command, a module a subcommand
 physics     contacts, bodies, statics and the steps of every tier: an idea a file
+experiments a set of runs: one plan, one engine, one store, one loop
 =========== =====================================================================
 
 Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract. This module imports

@@ -9,14 +9,14 @@ import importlib.util
 import site
 import sys
 import sysconfig
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from types import ModuleType
 
 _CORE = Path(__file__).resolve().parents[1]
-_NUMBERS = ("numpy", "numba", "llvmlite", "scipy")
+NUMBERS = ("numpy", "numba", "llvmlite", "scipy")
 _LENGTH = 16
 
 
@@ -40,11 +40,16 @@ def monitor_digest(name: str) -> str:
 @cache
 def simulator_digest() -> str:
     """Hash the sources of this package and the versions of what its numbers depend on."""
+    return files_digest(_CORE.rglob("*.py"), _CORE, ("beardyn", *NUMBERS))
+
+
+def files_digest(paths: Iterable[Path], root: Path, packages: Sequence[str] = NUMBERS) -> str:
+    """Hash files with their places below a folder, Python's version and those of packages."""
     digest = hashlib.sha256(sys.version.encode())
-    for package in ("beardyn", *_NUMBERS):
+    for package in packages:
         digest.update(_versioned(package).encode())
-    for path in sorted(_CORE.rglob("*.py")):
-        digest.update(f"\n{path.relative_to(_CORE)}\n".encode())
+    for path in sorted(paths):
+        digest.update(f"\n{path.relative_to(root)}\n".encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:_LENGTH]
 

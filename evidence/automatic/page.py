@@ -23,6 +23,7 @@ import beardyn_core
 from beardyn_core.choice.rule import Choice, percent
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet
+from beardyn_core.experiments.code_digest import files_digest
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.ladder import REFERENCE_RUNS, climb, comparison_of, compile_levels
 from beardyn_core.study.ladder_levels import (
@@ -234,24 +235,18 @@ class Kept:
 
 def digest_of(scene: Scene, choices: Sequence[Choice]) -> str:
     """Give what a result depends on: the code without its rules, what is asked, and all that was chosen."""
-    digest = hashlib.sha256(_CODE)
+    digest = hashlib.sha256(_CODE.encode())
     for choice, case in zip(choices, CASES[scene.name], strict=True):
         digest.update(scene_text(choice.applied(scene)).encode())
         digest.update(json.dumps(asdict(case)).encode())
     return digest.hexdigest()[:12]
 
 
-def _digest_of_code() -> bytes:
-    """Hash the package without its rules, as it is when this process begins."""
-    digest = hashlib.sha256()
-    package = Path(beardyn_core.__path__[0])
-    for path in sorted(package.rglob("*.py")):
-        if not path.is_relative_to(package / "choice"):
-            digest.update(path.read_bytes())
-    return digest.digest()
-
-
-_CODE = _digest_of_code()
+_PACKAGE = Path(beardyn_core.__path__[0])
+# without its rules, as it is when this process begins
+_CODE = files_digest(
+    (path for path in _PACKAGE.rglob("*.py") if not path.is_relative_to(_PACKAGE / "choice")), _PACKAGE
+)
 
 
 def main() -> None:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, fields
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from beardyn_core.experiments import Cluster, Engine
+from beardyn_core.experiments.code_digest import files_digest
 from beardyn_core.experiments.loop import Progress, run_plan
 from beardyn_core.experiments.plan import Plan
 from beardyn_core.experiments.store import Entry, Layout, Store
@@ -29,13 +27,7 @@ _NOUNS = ("backgrounds", "bearings", "effects", "lubricants", "structures", "veh
 
 def code() -> str:
     """Hash all that a result depends on: what a run goes through, and how scenes are drawn and judged."""
-    digest = hashlib.sha256()
-    digest.update(sys.version.encode())
-    for package in ("numba", "numpy", "scipy", "llvmlite"):
-        digest.update(version(package).encode())
-    for path in sources():
-        digest.update(f"\n{path.relative_to(_ROOT)}\n".encode() + path.read_bytes())
-    return digest.hexdigest()[:12]
+    return files_digest(sources(), _ROOT)
 
 
 def sources() -> list[Path]:
