@@ -34,7 +34,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--output",
         metavar="FILE",
         required=True,
-        help="file to write, without default; its ending is the format: .parquet, .csv, .npz, .h5 or .wav",
+        help="file to write; its ending is the format: .parquet, .csv, .npz, .h5 or .wav; no default",
     )
     parser.add_argument(
         "--signals",

@@ -37,7 +37,7 @@ _PARAMETER = re.compile(r"^(\w+(?:, \w+)*)(?: :.*)?$")
 class Parameter:
     """A parameter of a function, as a command line can give it."""
 
-    hint: A[Any, "type without ``None``"]
+    hint: A[Any, "type, with ``None`` where nothing need be given"]
     default: A[Any, "`inspect.Parameter.empty` where it must be given"]
     words: A[str, "in the docstring, all sentences"]
 
@@ -122,6 +122,7 @@ def add_parameter(
     parameter: str,
     *flags: str,
     usual: str = "",
+    suffix: str = "",
     **differences: Any,
 ) -> None:
     """Add an argument of a command from the parameter of a function.
@@ -138,6 +139,8 @@ def add_parameter(
         option.
     usual : str
         Default of the command in words, where it differs.
+    suffix : str
+        What the command says besides.
     **differences
         Of the command from the function: ``metavar``, ``nargs``, ``required``, and what else argparse takes.
     """
@@ -150,7 +153,7 @@ def add_parameter(
         default = None if known.default is inspect.Parameter.empty else known.default
         keywords["default"] = list(default or ()) if keywords.get("action") == "append" else default
     keywords |= differences
-    target.add_argument(*flags, **{"help": known.help_of(keywords, usual), **keywords})
+    target.add_argument(*flags, **{"help": known.help_of(keywords, usual) + suffix, **keywords})
 
 
 def add_field(target: Any, place: Place, suffix: str = "", **differences: Any) -> None:

@@ -25,8 +25,16 @@ DONE, DIFFERS, INTERRUPTED = 0, 3, 130
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = add_command(subparsers, "sweep", sweep)
-    needless = "none, for --verify alone"
-    add_parameter(parser, sweep, "sweep", "sweep", metavar="SWEEP", nargs="?", type=str, usual=needless)
+    add_parameter(
+        parser,
+        sweep,
+        "sweep",
+        "sweep",
+        metavar="SWEEP",
+        nargs="?",
+        type=str,
+        suffix="; needed but for --verify",
+    )
     add_parameter(parser, sweep, "output", "-o", "--output", metavar="DIR", required=True)
     parser.add_argument("--runs", metavar="N", type=int, help="how many runs; default the sweep's")
     parser.add_argument("--seed", metavar="N", type=int, help="of all draws; default the sweep's")

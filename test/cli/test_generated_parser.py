@@ -109,10 +109,15 @@ def test_types_choices_and_defaults_are_those_of_the_signature(capsys: pytest.Ca
 
 
 def test_a_command_differs_where_it_says_so() -> None:
-    parser = parser_of(others={"nargs": "+"}, turns={"default": 7, "metavar": "COUNT"})
+    parser = parser_of(
+        others={"nargs": "+"},
+        turns={"default": 7, "metavar": "COUNT"},
+        tier={"usual": "any", "suffix": "; or none"},
+    )
     assert parser.parse_args(["run.mcap", "--others", "a", "b"]).others == [Path("a"), Path("b")]
     assert parser.parse_args(["run.mcap"]).turns == 7
     assert helps(parser)["turns"] == "YAML or none; default 7"
+    assert helps(parser)["tier"] == "YAML or none; default any; or none"
 
 
 def test_every_parameter_of_a_function_is_read_with_its_words() -> None:
