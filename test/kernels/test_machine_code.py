@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
-import subprocess
-import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from test.forks import Forks
 
 CORE = Path(__file__).resolve().parents[2] / "beardyn_core"
 # the step of the full tier: what it comes from, and the types of all that it may be called with
@@ -48,8 +47,8 @@ SMALL = {
 class Small:
     """A small package with kernels of its own, and a cache of its own."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, forks: Forks) -> None:
+        self._folder, self._forks = folder, forks
         for name, text in SMALL.items():
             path = folder / "small" / name
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -57,21 +56,13 @@ class Small:
 
     def run(self) -> tuple[Any, ...]:
         """Tell whether anything was compiled, and give the number that came out."""
-        environment = {
-            **os.environ,
-            "PYTHONPATH": f"{self._folder}:{CORE.parent}",
-            "BEARDYN_CACHE_DIR": str(self._folder / "cache"),
-        }
-        done = subprocess.run(
-            [sys.executable, "-m", "small.run"],
-            env=environment,
-            cwd=self._folder,
-            capture_output=True,
-            text=True,
-            check=False,
+        printed = self._forks.run(
+            "import small.run",
+            self._folder,
+            (self._folder, CORE.parent),
+            {"BEARDYN_CACHE_DIR": str(self._folder / "cache")},
         )
-        assert done.returncode == 0, done.stderr
-        compiled, value = json.loads(done.stdout)
+        compiled, value = json.loads(printed)
         return compiled, value
 
     def edit(self, name: str, old: str, new: str) -> None:
@@ -90,16 +81,22 @@ class Small:
 
 
 @pytest.fixture(scope="module")
-def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def forks() -> Iterator[Forks]:
+    with Forks("numba") as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory: pytest.TempPathFactory, forks: Forks) -> Path:
     folder = tmp_path_factory.mktemp("compiled")
-    assert Small(folder).run() == (True, pytest.approx(1.0 + 1e8 * (1e-3 - 1e-5)))
+    assert Small(folder, forks).run() == (True, pytest.approx(1.0 + 1e8 * (1e-3 - 1e-5)))
     return folder
 
 
 @pytest.fixture
-def small(compiled: Path, tmp_path: Path) -> Small:
+def small(compiled: Path, tmp_path: Path, forks: Forks) -> Small:
     shutil.copytree(compiled, tmp_path / "copy")
-    found = Small(tmp_path / "copy")
+    found = Small(tmp_path / "copy", forks)
     assert not found.run()[0]  # nor does it matter where it lies
     return found
 
@@ -209,34 +206,38 @@ def test_a_folder_that_cannot_be_written_keeps_nothing(small: Small, tmp_path: P
 # --- the step of the full tier ---------------------------------------------------------------------
 
 
-def digest_after(folder: Path, name: str, old: str, new: str) -> str:
-    """Digest of `advance` in a copy of the package with one edit."""
-    core = folder / "beardyn_core"
-    if not core.exists():
-        shutil.copytree(CORE, core, ignore=shutil.ignore_patterns("__pycache__"))
-    path = core / (name or "base/jit.py")
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new, 1))
-    try:
-        environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-        done = subprocess.run(
-            [sys.executable, "-c", DIGEST],
-            env=environment,
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-    finally:
-        path.write_text(text)
-    return str(json.loads(done.stdout))
+class Copied:
+    """A copy of the package, in which one thing is edited at a time."""
+
+    def __init__(self, folder: Path, forks: Forks) -> None:
+        self._folder, self._forks = folder, forks
+        shutil.copytree(CORE, folder / CORE.name, ignore=shutil.ignore_patterns("__pycache__"))
+        self.digest = self._digest()
+
+    def digest_after(self, name: str, old: str, new: str) -> str:
+        """Digest of `advance` with one edit."""
+        path = self._folder / CORE.name / name
+        text = path.read_text()
+        assert old in text
+        path.write_text(text.replace(old, new, 1))
+        try:
+            return self._digest()
+        finally:
+            path.write_text(text)
+
+    def _digest(self) -> str:
+        return str(json.loads(self._forks.run(DIGEST, self._folder, (self._folder,))))
+
+
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory: pytest.TempPathFactory, forks: Forks) -> Copied:
+    return Copied(tmp_path_factory.mktemp("copied"), forks)
 
 
 @pytest.mark.parametrize(
     ("name", "old", "new", "changes"),
     [
-        ("physics/pocket.py", "stored = 0.5 * cage", "stored = 0.6 * cage", True),
+        ("physics/pocket.py", "0.5 * cage.stiffness * inside", "0.6 * cage.stiffness * inside", True),
         ("physics/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
         ("physics/bodies/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
         ("physics/lanes/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
@@ -247,8 +248,6 @@ def digest_after(folder: Path, name: str, old: str, new: str) -> str:
     ],
 )
 def test_the_step_of_the_full_tier_follows_what_reaches_it(
-    tmp_path_factory: pytest.TempPathFactory, name: str, old: str, new: str, changes: bool
+    copied: Copied, name: str, old: str, new: str, changes: bool
 ) -> None:
-    folder = tmp_path_factory.getbasetemp() / "copied"
-    folder.mkdir(exist_ok=True)
-    assert (digest_after(folder, name, old, new) != digest_after(folder, "", "", "")) is changes
+    assert (copied.digest_after(name, old, new) != copied.digest) is changes
