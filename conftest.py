@@ -20,7 +20,7 @@ STANDARD_CONFIGURATION = REPOSITORY / ".pytest_cache" / "standard_config"
 # Tests of nodes, browsers and signals leave their core idle for two thirds of their time.
 WAITING = ("test/ros/", "test/browser/", "test/cli/test_interrupts.py")
 # Files of these folders share what takes long to make.
-TOGETHER = ("test/population/",)
+TOGETHER = ("test/population/", "test/follow/")
 # Files that take longer than about twenty seconds, once compiled or before, the longest first.
 LONG_FILES = (
     "test/ros/test_load_stream.py",

@@ -13,14 +13,14 @@ from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import judged_by
 from beardyn_core.follow.learning import known, widened
 from beardyn_core.follow.quantities import BY_NAME
-from test.follow.synthetic import NAMES, drawn, taught
+from test.follow.synthetic import NAMES, drawn, standard_estimator, taught
 
 FOUR_SIGMA = 4.0
 
 
 @pytest.fixture(scope="module")
 def estimator() -> Estimator:
-    return taught(drawn(200, 2))
+    return standard_estimator()
 
 
 def inside(share: float, level: float, count: int, calibrated: int = 200) -> bool:

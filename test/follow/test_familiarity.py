@@ -12,14 +12,14 @@ from beardyn_core.follow.descriptors import AXES, places_of
 from beardyn_core.follow.estimator import Estimator, within_learnt
 from beardyn_core.follow.familiarity import familiarity_of
 from beardyn_core.follow.quantities import BY_NAME
-from test.follow.synthetic import drawn, taught
+from test.follow.synthetic import drawn, standard_estimator
 
 FOUR_SIGMA = 4.0
 
 
 @pytest.fixture(scope="module")
 def estimator() -> Estimator:
-    return taught(drawn(200, 2))
+    return standard_estimator()
 
 
 def test_one_in_twenty_runs_of_the_kind_learnt_from_is_strange(estimator: Estimator) -> None:
