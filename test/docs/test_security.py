@@ -6,6 +6,7 @@ import ast
 import contextlib
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,16 +26,25 @@ SOURCES = {
 }
 
 
-TREES = {place: ast.parse(source) for place, source in SOURCES.items()}
-CALLS = {
-    place: [node for node in ast.walk(tree) if isinstance(node, ast.Call)] for place, tree in TREES.items()
-}
-CALLED = {place: {ast.unparse(node.func) for node in found} for place, found in CALLS.items()}
+@cache
+def calls() -> dict[str, list[ast.Call]]:
+    """Calls of every module; read when a test asks, for each process collects all tests."""
+    trees = {place: ast.parse(source) for place, source in SOURCES.items()}
+    return {
+        place: [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        for place, tree in trees.items()
+    }
+
+
+@cache
+def names_called() -> dict[str, set[str]]:
+    """What every module calls, by name."""
+    return {place: {ast.unparse(node.func) for node in found} for place, found in calls().items()}
 
 
 def where(*names: str) -> set[str]:
     """Modules that call one of these."""
-    return {place for place, called in CALLED.items() if called & set(names)}
+    return {place for place, called in names_called().items() if called & set(names)}
 
 
 def test_pickles_are_read_from_the_cache_alone() -> None:
@@ -57,7 +67,7 @@ def test_nothing_is_evaluated_and_no_shell_is_started() -> None:
 
 def test_modules_by_a_name_that_a_user_gives_are_monitors_alone() -> None:
     computed = set()
-    for place, found in CALLS.items():
+    for place, found in calls().items():
         for node in found:
             if ast.unparse(node.func).endswith("import_module"):
                 first = ast.unparse(node.args[0])
@@ -145,15 +155,14 @@ def test_a_live_view_starts_the_viewer_by_these_alone() -> None:
     rerun = {place for place, source in SOURCES.items() if "import rerun" in source}
     assert rerun
     for place in rerun:
-        assert not [name for name in CALLED[place] if re.search(r"(spawn|serve_grpc|serve_web\w*)$", name)], (
-            place
-        )
+        called = names_called()[place]
+        assert not [name for name in called if re.search(r"(spawn|serve_grpc|serve_web\w*)$", name)], place
 
 
 def test_dask_of_this_machine_listens_on_this_machine_only() -> None:
     (made,) = (
         node
-        for node in CALLS["beardyn_core/experiments/local.py"]
+        for node in calls()["beardyn_core/experiments/local.py"]
         if ast.unparse(node.func) == "LocalCluster"
     )
     said = {keyword.arg: ast.unparse(keyword.value) for keyword in made.keywords}
