@@ -34,9 +34,10 @@ from beardyn_core.physics.bodies.layout import (
 )
 from benchmarks.runs import Table
 from test.kernels import naive, naive_step
-from test.kernels.rig import Rig, standard_scene
-from test.kernels.test_raceway import lamina_friction
-from test.kernels.test_step import cartesian, ring_of
+from test.kernels.naive_traction import lamina_friction
+from test.kernels.rig import Rig
+from test.kernels.states import cartesian, ring_of
+from test.scenes import standard_scene
 
 Float = NDArray[np.float64]
 _BODY_VALUES = 4 * BODY_STATES

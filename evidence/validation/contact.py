@@ -9,8 +9,9 @@ import numpy as np
 
 from evidence.validation.anchor import Anchor
 from test.kernels import naive
+from test.kernels.naive_traction import SIDES
 from test.kernels.states import only
-from test.kernels.test_raceway import SIDES, brute_force_gap, contacts, motions, parameters
+from test.kernels.test_raceway import brute_force_gap, contacts, motions, parameters
 
 DERIVED = "derived: 0.07 nm in one pass, 0.002 nm in two"
 

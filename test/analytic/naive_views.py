@@ -31,6 +31,7 @@ from beardyn_core.physics.bodies.layout import (
     VELOCITY,
 )
 from beardyn_core.physics.tiers.parameters import RollerParams
+from test.arrays import quaternion_product
 
 Float = NDArray[np.float64]
 SIDE = np.array([-1.0, 1.0])
@@ -145,13 +146,6 @@ def ring_twist(bodies: Float) -> Float:
     """Velocity and angular velocity of cup, cone and cages, shape [time, 4, 6]."""
     omega = bodies[..., ANGULAR : ANGULAR + 3] + _Y * bodies[..., RATE, None]
     return np.concatenate([bodies[..., LINEAR : LINEAR + 3], omega], axis=-1)
-
-
-def quaternion_product(a: Float, b: Float) -> Float:
-    """Product of quaternions x, y, z, w: the turn `b` followed by `a`."""
-    vector = a[..., 3:] * b[..., :3] + b[..., 3:] * a[..., :3] + np.cross(a[..., :3], b[..., :3])
-    scalar = a[..., 3:] * b[..., 3:] - np.sum(a[..., :3] * b[..., :3], axis=-1, keepdims=True)
-    return np.concatenate([vector, scalar], axis=-1)
 
 
 def quaternion_of(frame: Float) -> Float:

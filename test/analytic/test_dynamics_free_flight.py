@@ -23,8 +23,9 @@ from beardyn_core.physics.bodies.layout import (
     VELOCITY,
 )
 from test.kernels import naive_step
-from test.kernels.rig import Rig, scene_with, standard_scene
-from test.kernels.test_step import cartesian, shaken
+from test.kernels.rig import Rig
+from test.kernels.states import cartesian, shaken
+from test.scenes import scene_with, standard_scene
 
 Float = NDArray[np.float64]
 FAR = 10.0

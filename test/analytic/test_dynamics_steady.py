@@ -13,8 +13,10 @@ from beardyn_core.config import load_bearing
 from beardyn_core.physics.bodies.layout import ANGLE, CONTACT_OUTPUT, RADIUS, VELOCITY
 from beardyn_core.physics.defect import surface_radius
 from beardyn_core.scene.defect import Spall
-from test.kernels.rig import SPEED, Rig, standard_scene
-from test.kernels.runs import Float, shipped
+from test.arrays import first_axis
+from test.kernels.rig import Rig
+from test.runs import Float, shipped
+from test.scenes import SPEED, standard_scene
 
 SCENES = ("static_80kN", "static_5kN")
 
@@ -108,7 +110,7 @@ def test_rib_slides_with_the_relative_spin_times_the_contact_height() -> None:
     assert pressed.sum() >= 6
     pose = block.body_pose[-1]
     twist = block.body_twist[-1]
-    axes = rotated_axes(pose[4:, 3:]).reshape(2, -1, 3)
+    axes = first_axis(pose[4:, 3:]).reshape(2, -1, 3)
     middle = pose[4:, :3].reshape(2, -1, 3)
     centre = middle + bearing.roller_mass_offset * axes
     rollers = twist[4:].reshape(2, -1, 6)
@@ -120,12 +122,6 @@ def test_rib_slides_with_the_relative_spin_times_the_contact_height() -> None:
     nominal = roller_cone_spin(bearing, float(run.mean("shaft_speed"))) * bearing.rib_contact_height
     assert nominal == pytest.approx(1.2, abs=0.05)
     assert float(np.median(slip[pressed])) == pytest.approx(nominal, rel=0.25)
-
-
-def rotated_axes(quaternion: Float) -> Float:
-    """Body x axis turned by quaternions x, y, z, w."""
-    x, y, z, w = np.moveaxis(quaternion, -1, 0)
-    return np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)], axis=-1)
 
 
 def test_roller_does_a_quarter_of_the_pitch_circle_in_30_ms() -> None:

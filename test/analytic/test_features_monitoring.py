@@ -4,55 +4,14 @@ import itertools
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
 
-from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.monitor.chain import REFERENCE, MonitorResult, MonitorSettings, Stretch
 from beardyn_core.monitor.streaming import Monitor
-
-RATE = 25_600.0
-ROLLERS = 17
-ORDERS = frequencies(ROLLERS, 185.0, 26.7, np.deg2rad(10.5))
-SETTINGS = MonitorSettings()
-NOISE = 0.02 * np.sqrt(RATE / 2)  # deviation of 0.02 m/s^2/sqrt(Hz)
-
-
-def _signal(fault, seed, duration=3.0, speed=(19.2, 19.2), noise=1.0, slip=0.0, coloured=False):
-    """Impulses with 1 % jitter through a 4.5 kHz resonance, modulated as the fault's load is.
-
-    Returns time [s], shaft angle [rad], acceleration [m/s^2].
-    """
-    random = np.random.default_rng(seed)
-    count = int(duration * RATE)
-    time = np.arange(count) / RATE
-    revolution = speed[0] * time + 0.5 * (speed[1] - speed[0]) * time**2 / duration
-    background = random.normal(size=(count, 3))
-    if coloured:
-        background = lfilter([1.0], [1.0, -1.2, 0.7], background, axis=0)
-        background /= background.std()  # the same power, with its peak at 3 kHz in the band
-    acceleration = noise * NOISE * background
-    acceleration[:, 2] += 9.8 + 5.0 * np.sin(2 * np.pi * revolution)
-    if fault:
-        order = {"cup": ORDERS.bpfo, "cone": ORDERS.bpfi, "roller": 2 * ORDERS.bsf}[fault] * (1 + slip)
-        number = np.arange(1, int(revolution[-1] * order))
-        place = (number + random.normal(0.0, 0.01, len(number))) / order
-        strength = random.uniform(0.8, 1.2, len(number))
-        if fault == "cone":  # through the load zone once a revolution
-            strength *= np.maximum(0.0, np.cos(2 * np.pi * place + 1.0))
-        if fault == "roller":  # with the cage, and weaker on the cone
-            strength *= np.maximum(0.0, np.cos(2 * np.pi * ORDERS.ftf * place + 1.0))
-            strength *= np.where(number % 2, 1.0, 0.7)
-        impulses = np.zeros(count)
-        at = (np.interp(place, revolution, time) * RATE).astype(int)
-        np.add.at(impulses, np.clip(at, 0, count - 1), strength)
-        decay = np.arange(400) / RATE
-        ringing = np.exp(-1500 * decay) * np.sin(2 * np.pi * 4500 * decay)
-        acceleration += 20.0 * np.convolve(impulses, ringing)[:count, None] * [0.4, 0.2, 1.0]
-    return time, 2 * np.pi * revolution, acceleration
+from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal, feed_monitor
 
 
 def _analyse(*args, **kwargs):
-    time, angle, acceleration = _signal(*args, **kwargs)
+    time, angle, acceleration = fault_signal(*args, **kwargs)
     end_ns = round(time[-1] * 1e9)
     return REFERENCE(Stretch(RATE, acceleration, angle, 8e4, end_ns), ORDERS, ROLLERS, SETTINGS)
 
@@ -125,32 +84,16 @@ def test_no_false_alarm_on_much_noise(situation):
 
 
 def test_impulses_that_match_no_fault_frequency_are_unexplained():
-    _, angle, acceleration = _signal("cup", 7, slip=0.12)
+    _, angle, acceleration = fault_signal("cup", 7, slip=0.12)
     result = REFERENCE(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
     assert result.strongest_level > 20.0
     assert result.verdict == "unexplained"
     assert result.comb_order == pytest.approx(1.12 * ORDERS.bpfo, rel=2e-3)
 
 
-def _feed(monitor, signal, block=512, skip=()):
-    """Stream a signal block by block, tachometer at 400 Hz with wrapped angle; all results."""
-    time, angle, acceleration = signal
-    time_ns = np.round(time * 1e9).astype(np.int64)
-    results = []
-    for number, start in enumerate(range(0, len(time), block)):
-        part = slice(start, start + block)
-        if number not in skip:
-            monitor.push_vibration(time_ns[part], acceleration[part])
-        tach = slice(start + (-start) % 64, start + block, 64)
-        monitor.push_shaft(time_ns[tach], np.angle(np.exp(1j * angle[tach])))
-        monitor.push_load(time_ns[tach], np.full(len(time_ns[tach]), 8e4))
-        results.append(monitor.update())
-    return [result for result in results if result is not None]
-
-
 def test_stream_waits_then_finds_the_fault_through_a_speed_change():
     monitor = Monitor(ORDERS, ROLLERS)
-    results = _feed(monitor, _signal("cup", 8, duration=4.0, speed=(18.0, 22.0)))
+    results = feed_monitor(monitor, fault_signal("cup", 8, duration=4.0, speed=(18.0, 22.0)))
     verdicts = [result.verdict for result in results]
     assert verdicts[0] == "waiting"
     assert set(verdicts[2:]) == {"cup"}
@@ -161,9 +104,9 @@ def test_stream_waits_then_finds_the_fault_through_a_speed_change():
 
 
 def test_result_does_not_depend_on_how_the_stream_is_cut():
-    signal = _signal("cone", 9, duration=2.0)
-    one = _feed(Monitor(ORDERS, ROLLERS), signal, block=512)[-1]
-    two = _feed(Monitor(ORDERS, ROLLERS), signal, block=256)[-1]
+    signal = fault_signal("cone", 9, duration=2.0)
+    one = feed_monitor(Monitor(ORDERS, ROLLERS), signal, block=512)[-1]
+    two = feed_monitor(Monitor(ORDERS, ROLLERS), signal, block=256)[-1]
     assert one.end_ns == pytest.approx(two.end_ns, abs=20_000_000)
     assert one.verdict == two.verdict == "cone"
     assert one.fault_order == pytest.approx(two.fault_order, rel=1e-3)
@@ -171,7 +114,7 @@ def test_result_does_not_depend_on_how_the_stream_is_cut():
 
 def test_gap_is_counted_and_what_is_before_it_is_dropped():
     monitor = Monitor(ORDERS, ROLLERS)
-    results = _feed(monitor, _signal("cup", 10, duration=3.0), skip=(50,))
+    results = feed_monitor(monitor, fault_signal("cup", 10, duration=3.0), skip=(50,))
     assert monitor.lost == 1
     assert results[-1].verdict == "cup"
     assert results[-1].revolutions < 2.0 * 19.2
@@ -192,7 +135,7 @@ def test_nan_and_time_that_runs_back_are_refused():
 @pytest.mark.parametrize("jump", [3600.0, -3600.0])
 def test_after_one_block_that_was_stamped_wrong_the_monitor_begins_anew(late, jump):
     monitor = Monitor(ORDERS, ROLLERS)
-    time, angle, acceleration = _signal("cup", 1, duration=8.0)
+    time, angle, acceleration = fault_signal("cup", 1, duration=8.0)
     stamps = 7_200_000_000_000 + np.round(time * 1e9).astype(np.int64)
     verdicts = []
     for number, part in enumerate(np.array_split(np.arange(len(time)), 400)):
@@ -224,7 +167,7 @@ def test_a_monitor_says_that_the_time_jumped_back():
 def test_standstill_keeps_waiting_with_bounded_memory():
     monitor = Monitor(ORDERS, ROLLERS, settings=MonitorSettings(longest_window=1.0))
     time = np.arange(int(4 * RATE)) / RATE
-    results = _feed(monitor, (time, np.zeros_like(time), np.zeros((len(time), 3))))
+    results = feed_monitor(monitor, (time, np.zeros_like(time), np.zeros((len(time), 3))))
     assert {result.verdict for result in results} == {"waiting"}
     assert len(monitor._vibration) <= 1.6 * RATE
 
@@ -245,14 +188,14 @@ def test_a_stream_that_the_others_do_not_follow_takes_bounded_memory(stream):
 
 
 def test_running_backwards_is_analysed_alike():
-    time, angle, acceleration = _signal("cup", 11, duration=2.0)
-    assert _feed(Monitor(ORDERS, ROLLERS), (time, -angle, acceleration))[-1].verdict == "cup"
+    time, angle, acceleration = fault_signal("cup", 11, duration=2.0)
+    assert feed_monitor(Monitor(ORDERS, ROLLERS), (time, -angle, acceleration))[-1].verdict == "cup"
 
 
 def test_another_algorithm_takes_the_place_of_the_example():
     def mine(stretch, orders, roller_count, settings):
         return MonitorResult("roller", f"{len(stretch.acceleration)}", stretch.end_ns)
 
-    results = _feed(Monitor(ORDERS, ROLLERS, algorithm=mine), _signal(None, 12, duration=2.0))
+    results = feed_monitor(Monitor(ORDERS, ROLLERS, algorithm=mine), fault_signal(None, 12, duration=2.0))
     assert results[-1].verdict == "roller"
     assert all(two.end_ns > one.end_ns for one, two in itertools.pairwise(results))

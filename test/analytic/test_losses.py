@@ -31,9 +31,10 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import running_torque
-from test.analytic.test_momentum_pairs import momenta, world
-from test.kernels.rig import LOAD_80_KN, SPEED, Rig, scene_with
-from test.kernels.test_step import cartesian, shaken
+from test.kernels.momentum import momenta, world
+from test.kernels.rig import Rig
+from test.kernels.states import cartesian, shaken
+from test.scenes import LOAD_80_KN, SPEED, scene_with
 
 Float = NDArray[np.float64]
 LOSSY = replace(

@@ -28,9 +28,11 @@ from beardyn_core.scene.defect import MissingRoller
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
-from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
-from test.kernels.rig import SPEED, Rig, constant_load, scene_with, standard_scene, started
-from test.kernels.test_step import shaken
+from test.kernels.momentum import assert_momentum_is_exchanged
+from test.kernels.rig import Rig
+from test.kernels.states import shaken
+from test.runs import advance_blocks, constant_load, started
+from test.scenes import SPEED, scene_with, standard_scene
 
 Float = NDArray[np.float64]
 
@@ -56,9 +58,8 @@ SCENES = {"three missing rollers": without_rollers, "one row": one_row}
 
 
 @cache
-def run(name: str, tier: str = "full") -> tuple[Block, ...]:
-    twin = started(SCENES[name](tier), constant_load(RADIAL, SPEED))
-    return tuple(twin.advance() for _ in range(BLOCKS))
+def blocks(name: str, tier: str = "full") -> tuple[Block, ...]:
+    return advance_blocks(SCENES[name](tier), constant_load(RADIAL, SPEED), BLOCKS)
 
 
 @pytest.mark.parametrize("width", [8, 1])
@@ -90,7 +91,7 @@ def test_what_is_there_exchanges_momentum_with_the_rings(name: str, width: int) 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_energy_balance_closes(name: str) -> None:
-    audit = run(name)[-1].audit
+    audit = blocks(name)[-1].audit
     assert audit is not None
     assert audit.residual < 1e-3
     assert audit.dissipated > 0.1
@@ -160,7 +161,7 @@ def test_a_single_row_without_axial_support_is_refused_with_the_way_out() -> Non
 def test_prop_takes_the_thrust_of_the_single_row() -> None:
     """Rest: the prop's spring carries what the row thrusts out, the cup feels load and thrust."""
     scene = one_row()
-    block = run("one row")[-1]
+    block = blocks("one row")[-1]
     thrust = block.force[:, 1].mean()
     angle = scene.bearing.cup_angle
     cup = np.linalg.norm(block.contacts[:, 0, :, 0, 3:6], axis=-1).sum(axis=1).mean()
@@ -195,7 +196,7 @@ def test_prop_is_a_spring_with_a_damper_along_the_axle() -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_blocks_show_nothing_of_what_is_missing(name: str) -> None:
-    scene, block = SCENES[name](), run(name)[-1]
+    scene, block = SCENES[name](), blocks(name)[-1]
     absent = np.zeros((2, 17), dtype=bool)
     absent[scene.rows :] = True
     for each in scene.missing_rollers:
@@ -221,9 +222,9 @@ def test_truth_tells_missing_rollers_and_rows() -> None:
 
 def test_a_missing_roller_makes_the_force_pulsate_with_the_cage() -> None:
     """Once a turn of the cage the gap passes the load zone: the deflection is larger there."""
-    blocks = run("three missing rollers", "quasistatic")
-    assert blocks[-1].force[:, 2].mean() == pytest.approx(RADIAL[2], rel=0.02)
-    place = np.concatenate([block.body_pose[:, 1, 2] for block in blocks])
+    found = blocks("three missing rollers", "quasistatic")
+    assert found[-1].force[:, 2].mean() == pytest.approx(RADIAL[2], rel=0.02)
+    place = np.concatenate([block.body_pose[:, 1, 2] for block in found])
     assert np.ptp(place) > 0.03 * abs(place.mean())
 
 
@@ -231,10 +232,10 @@ def test_a_missing_roller_makes_the_force_pulsate_with_the_cage() -> None:
 @pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
 def test_fast_tiers_agree_with_the_full_one(name: str, tier: str) -> None:
     """Mean force to 1 %, deflection to 5 %: the lumped spring is that much off on its own."""
-    fast, full = run(name, tier), run(name)
+    fast, full = blocks(name, tier), blocks(name)
 
-    def means(blocks: tuple[Block, ...]) -> tuple[Any, float]:
-        late = blocks[BLOCKS // 2 :]
+    def means(run: tuple[Block, ...]) -> tuple[Any, float]:
+        late = run[BLOCKS // 2 :]
         force = np.concatenate([block.force[:, :3] for block in late]).mean(axis=0)
         return force, float(np.concatenate([block.body_pose[:, 1, 2] for block in late]).mean())
 

@@ -21,12 +21,7 @@ from beardyn_core.monitor.chain.verdict import Verdict, strongest_pattern, tempe
 from beardyn_core.monitor.chain.wheel import SECTORS, struck_sectors, without_wheel
 from beardyn_core.monitor.chain.whitening import by_cepstrum, not_whitened
 from beardyn_core.monitor.features import analytic_band, order_spectrum
-from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
-
-
-def _stretch(fault: str | None, seed: int, **situation: object) -> Stretch:
-    _, angle, acceleration = _signal(fault, seed, **situation)
-    return Stretch(RATE, acceleration, angle, 8e4, 0)
+from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_stretch
 
 
 def _with_flat(
@@ -49,7 +44,7 @@ def _with_flat(
 
 @pytest.mark.parametrize("fault", ["cup", "cone", "roller"])
 def test_kurtogram_finds_the_resonance_that_the_fault_excites(fault: str) -> None:
-    band = by_kurtogram(_stretch(fault, 20), SETTINGS)
+    band = by_kurtogram(fault_stretch(fault, 20), SETTINGS)
     assert band.low < 4500.0 < band.high
     assert band.high - band.low < 5000.0
     assert band.kurtosis > 5.0 * band.scatter
@@ -67,15 +62,15 @@ def test_kurtosis_of_noise_is_zero_within_its_scatter_however_the_axes_correlate
 
 
 def test_strikes_of_a_flat_are_told_from_a_spalled_cone() -> None:
-    flat = struck_sectors(_with_flat(_stretch(None, 21)), SETTINGS)
+    flat = struck_sectors(_with_flat(fault_stretch(None, 21)), SETTINGS)
     assert flat[int(0.3 * SECTORS)]
     assert 1 <= flat.sum() < SECTORS // 4
     for fault in (None, "cup", "cone", "roller"):
-        assert not struck_sectors(_stretch(fault, 21), SETTINGS).any()
+        assert not struck_sectors(fault_stretch(fault, 21), SETTINGS).any()
 
 
 def test_a_flat_that_rings_for_long_is_found_whichever_way_time_runs() -> None:
-    stretch = _with_flat(_stretch(None, 21), decay_rate=200.0)
+    stretch = _with_flat(fault_stretch(None, 21), decay_rate=200.0)
     struck = struck_sectors(stretch, SETTINGS)
     back = replace(
         stretch,
@@ -108,16 +103,16 @@ def test_what_comes_back_with_the_shaft_is_taken_out_and_a_fault_stays() -> None
 
 @pytest.mark.parametrize("seed", range(5))
 def test_a_flat_wheel_raises_no_alarm_and_hides_no_spall(seed: int) -> None:
-    healthy = REFERENCE(_with_flat(_stretch(None, 30 + seed)), ORDERS, ROLLERS, SETTINGS)
+    healthy = REFERENCE(_with_flat(fault_stretch(None, 30 + seed)), ORDERS, ROLLERS, SETTINGS)
     assert healthy.verdict == "healthy", healthy.reason
     assert healthy.crest > 10.0  # it is anything but quiet
-    spalled = REFERENCE(_with_flat(_stretch("cup", 30 + seed)), ORDERS, ROLLERS, SETTINGS)
+    spalled = REFERENCE(_with_flat(fault_stretch("cup", 30 + seed)), ORDERS, ROLLERS, SETTINGS)
     assert spalled.verdict == "cup", spalled.reason
 
 
 @pytest.mark.parametrize("resonance", [2400.0, 4800.0, 8000.0, 11_000.0])
 def test_strikes_as_loud_as_the_rollers_let_them_be_are_no_fault(resonance: float) -> None:
-    stretch = _with_flat(_stretch(None, 36), resonance, by_rollers=0.7)
+    stretch = _with_flat(fault_stretch(None, 36), resonance, by_rollers=0.7)
     assert struck_sectors(stretch, SETTINGS)[int(0.3 * SECTORS)]
     found = REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS)
     assert found.verdict == "healthy", found.reason
@@ -125,7 +120,7 @@ def test_strikes_as_loud_as_the_rollers_let_them_be_are_no_fault(resonance: floa
 
 
 def test_a_stretch_cut_off_in_a_strike_is_heard_like_any_other() -> None:
-    whole = _stretch(None, 51, noise=0.01)
+    whole = fault_stretch(None, 51, noise=0.01)
     last = np.clip(np.arange(len(whole.shaft_angle)) - len(whole.shaft_angle) + 0.02 * RATE, 0.0, None)
     cut = replace(whole, acceleration=whole.acceleration + 0.4 * last[:, None])  # up to 200 m/s² within 20 ms
     assert by_kurtogram(cut, SETTINGS) == by_kurtogram(whole, SETTINGS) == Band(*SETTINGS.band)
@@ -142,7 +137,7 @@ def test_strikes_of_the_wheel_do_not_make_a_fault_shallow() -> None:
         return strongest_pattern(found, stretch, settings)
 
     listening = Chain(select_band=lambda stretch, settings: Band(1600.0, 6400.0), decide=decide)
-    for stretch in (_stretch("cup", 52), _with_flat(_stretch("cup", 52))):
+    for stretch in (fault_stretch("cup", 52), _with_flat(fault_stretch("cup", 52))):
         assert listening(stretch, ORDERS, ROLLERS, SETTINGS).verdict == "cup"
     assert depths[1] == pytest.approx(depths[0], rel=0.15)
 
@@ -189,7 +184,7 @@ def test_evidence_goes_on_where_the_tail_is_no_number_any_more() -> None:
 
 
 def test_a_loud_tone_and_a_loud_resonance_hide_no_fault() -> None:
-    stretch = _stretch("cup", 44)
+    stretch = fault_stretch("cup", 44)
     time = np.arange(len(stretch.shaft_angle)) / RATE
     humming = np.random.default_rng(1).normal(size=(len(time), 3))
     pole = 0.995 * np.exp(2j * np.pi * 8000.0 / RATE)
@@ -203,7 +198,7 @@ def test_a_loud_tone_and_a_loud_resonance_hide_no_fault() -> None:
 
 def test_a_fault_that_strikes_like_clockwork_is_heard_as_measured() -> None:
     """Its strikes are tones, which whitening takes away."""
-    stretch = _stretch(None, 48, noise=0.1)
+    stretch = fault_stretch(None, 48, noise=0.1)
     passing = ORDERS.bpfo * 19.2
     since = np.mod(np.arange(len(stretch.shaft_angle)) / RATE * passing, 1.0) / passing
     strikes = 60.0 * np.exp(-since / 8e-4) * np.sin(2.0 * np.pi * 3400.0 * since)
@@ -214,7 +209,7 @@ def test_a_fault_that_strikes_like_clockwork_is_heard_as_measured() -> None:
 
 
 def test_whitening_leaves_every_frequency_of_every_axis_the_same_power() -> None:
-    stretch = _stretch("cup", 45)
+    stretch = fault_stretch("cup", 45)
     white = by_cepstrum(replace(stretch, acceleration=stretch.acceleration * [1.0, 1e-3, 1e3]), SETTINGS)
     power = np.mean(white.acceleration**2, axis=0)
     assert power == pytest.approx(np.ones(3), rel=1e-3)
@@ -234,7 +229,7 @@ def test_lines_that_another_bearing_explains_better_are_no_fault() -> None:
         found = comb_score(noise + 0.1 * own + beside * other, ORDERS, ROLLERS, 19.0, SETTINGS)
         cup = found.candidates[0]
         assert cup.score > cup.threshold
-        verdicts.append(strongest_pattern(found, _stretch(None, 46), SETTINGS))
+        verdicts.append(strongest_pattern(found, fault_stretch(None, 46), SETTINGS))
     assert [verdict.name for verdict in verdicts] == ["cup", "unexplained"]
     assert "a comb of order 4.100" in verdicts[1].reason
 
@@ -249,7 +244,7 @@ def test_a_roller_that_strikes_one_race_only_is_its_own_and_no_rival() -> None:
 
 
 def test_a_dead_axis_is_told_and_a_dead_accelerometer_is_no_healthy_bearing() -> None:
-    stretch = _stretch("cup", 47)
+    stretch = fault_stretch("cup", 47)
     one = REFERENCE(
         replace(stretch, acceleration=stretch.acceleration * [0.0, 1.0, 1.0]), ORDERS, ROLLERS, SETTINGS
     )
@@ -281,14 +276,14 @@ def test_a_dead_axis_is_told_and_a_dead_accelerometer_is_no_healthy_bearing() ->
 def test_what_may_hide_a_fault_is_not_called_healthy(
     fault: str | None, spoiled: Callable[[Float], Float], verdict: str, told: str
 ) -> None:
-    stretch = _stretch(fault, 54)
+    stretch = fault_stretch(fault, 54)
     found = REFERENCE(replace(stretch, acceleration=spoiled(stretch.acceleration)), ORDERS, ROLLERS, SETTINGS)
     assert found.verdict == verdict, found.reason
     assert told in found.reason
 
 
 def test_a_rate_that_is_too_low_is_not_diagnosable_and_says_which_is_needed() -> None:
-    stretch = replace(_stretch("cup", 55), rate=4000.0)
+    stretch = replace(fault_stretch("cup", 55), rate=4000.0)
     found = REFERENCE(stretch, ORDERS, ROLLERS, SETTINGS)
     assert found.verdict == "not_diagnosable"
     assert found.reason.startswith("the sampling rate is 4000 Hz; at least 6000 Hz are needed")
@@ -306,7 +301,7 @@ def test_one_line_alone_is_no_fault() -> None:
 
 
 def test_a_pattern_that_is_sure_but_shallow_is_no_fault_however_loud_it_is() -> None:
-    loud = _stretch("cup", 42)
+    loud = fault_stretch("cup", 42)
     far = replace(loud, acceleration=1e-3 * loud.acceleration)
     found = REFERENCE(loud, ORDERS, ROLLERS, SETTINGS)
     hum = (
@@ -325,7 +320,7 @@ def test_a_pattern_that_is_sure_but_shallow_is_no_fault_however_loud_it_is() -> 
 
 def test_noise_that_swells_as_the_rollers_pass_is_no_fault_and_short_strikes_are() -> None:
     """The same lines, the same share of the power: a hum has them in one harmonic, strikes in many."""
-    stretch = _stretch(None, 53)
+    stretch = fault_stretch(None, 53)
     passing = np.mod(ORDERS.bpfo * stretch.shaft_angle / (2.0 * np.pi), 1.0)
     noise = np.random.default_rng(8).normal(size=stretch.acceleration.shape)
     hum = np.sqrt(1.0 + 0.7 * np.cos(2.0 * np.pi * passing))
@@ -379,9 +374,9 @@ def test_temperature_rule(celsius: float, kelvin_a_minute: float, state: str) ->
 
 
 def test_a_hot_box_is_called_beside_the_lines() -> None:
-    hot = replace(_stretch(None, 40), temperature=400.0, heating=0.1)
+    hot = replace(fault_stretch(None, 40), temperature=400.0, heating=0.1)
     assert REFERENCE(hot, ORDERS, ROLLERS, SETTINGS).verdict == "hot_box"
-    spalled = replace(_stretch("cup", 40), temperature=400.0, heating=0.1)
+    spalled = replace(fault_stretch("cup", 40), temperature=400.0, heating=0.1)
     both = REFERENCE(spalled, ORDERS, ROLLERS, SETTINGS)
     assert (both.verdict, both.temperature_state) == ("cup", "hot")
     assert both.reason.startswith("hot box: 127 °C, rising by 6.0 K a minute; cup fault")
@@ -389,7 +384,7 @@ def test_a_hot_box_is_called_beside_the_lines() -> None:
 
 def test_a_step_of_ones_own_takes_its_place_in_the_chain() -> None:
     chain = Chain(select_band=lambda stretch, settings: Band(3000.0, 6000.0))
-    result = chain(_stretch("cup", 41), ORDERS, ROLLERS, SETTINGS)
+    result = chain(fault_stretch("cup", 41), ORDERS, ROLLERS, SETTINGS)
     assert result.band == (3000.0, 6000.0)
     assert result.verdict == "cup"
 

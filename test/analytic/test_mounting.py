@@ -26,7 +26,9 @@ from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import BOX_FIELDS, BoxCoupling, box_energy, kick_box, mounting_params
 from beardyn_core.physics.tiers.parameters import GravityParams
 from beardyn_core.scene.mounting import Mounting
-from test.kernels.rig import Float, constant_load, scene_with, standard_scene, started
+from test.kernels.rig import Float
+from test.runs import constant_load, started
+from test.scenes import scene_with, standard_scene
 
 BESIDE = Mounting(
     box_centre=(0.02, 0.03, -0.05), suspension_centre=(0.01, -0.04, 0.06), box_inertia=(3.0, 3.0, 3.0)

@@ -38,9 +38,7 @@ from beardyn_core.effects import (
     SmallRib,
     Thermal,
 )
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.tiers import build
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import Defect, Growth, MissingRoller, Patch, RollerError, WornPocket
 from beardyn_core.scene.mounting import Mounting
@@ -48,6 +46,7 @@ from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
+from test.kernels.rig import parameters_of
 
 Float = NDArray[np.float64]
 
@@ -220,7 +219,7 @@ def test_repeated_runs_have_the_same_bits() -> None:
 
 def test_tables_of_films_have_a_column_for_every_spring_of_a_damaged_contact() -> None:
     scene = scene_of("everything", "full")
-    effects = build_parameters(scene, Arrangement(scene.bearing.roller_count, 8), np.zeros(6)).effects
+    effects = parameters_of(scene).effects
     assert effects.faults.cup_damage is not None
     assert effects.film is not None
     assert effects.film.rigid is not None

@@ -11,7 +11,7 @@ from beardyn_core.measured.trending import remember, remembered
 from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.monitor.trend import ALARM, LEARNING, STEADY, Trend, record_levels
-from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, _feed, _signal
+from test.fault_signals import ORDERS, RATE, ROLLERS, fault_signal, feed_monitor
 
 
 def _states(trend, levels):
@@ -132,7 +132,7 @@ def test_steady_turning_is_one_leg():
 
 
 def test_a_shunting_train_gets_a_verdict_and_a_standing_one_waits():
-    time, angle, acceleration = _signal("cup", 31, duration=0.45)
+    time, angle, acceleration = fault_signal("cup", 31, duration=0.45)
     back = (time + 0.45, 2 * angle[-1] - angle[::-1], acceleration[::-1])
     stands = np.arange(int(RATE)) / RATE + 0.9
     rest = np.full(len(stands), 0.0)
@@ -141,6 +141,6 @@ def test_a_shunting_train_gets_a_verdict_and_a_standing_one_waits():
     turned = np.concatenate((angle, angle[::-1], rest))
     heard = np.concatenate((acceleration, acceleration[::-1], noise))
     monitor = Monitor(ORDERS, ROLLERS)
-    verdicts = [result.verdict for result in _feed(monitor, (there, turned, heard))]
+    verdicts = [result.verdict for result in feed_monitor(monitor, (there, turned, heard))]
     assert "cup" in verdicts
     assert verdicts[-1] == "waiting"

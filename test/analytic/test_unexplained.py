@@ -20,7 +20,7 @@ from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.tracking import logarithm_by_angle
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.study.monitored_recording import EXIT_CODES, Finding, conclude, worst
-from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
+from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal
 
 UNSURE = replace(SETTINGS, speed_uncertainty=0.03)
 NEIGHBOUR = load_plate("6203")  # no part of it has an order of ours
@@ -28,7 +28,7 @@ NEIGHBOUR = load_plate("6203")  # no part of it has an order of ours
 
 @cache
 def struck(fault: str | None) -> Stretch:
-    _, angle, acceleration = _signal(fault, 71)
+    _, angle, acceleration = fault_signal(fault, 71)
     return Stretch(RATE, acceleration, angle, 8e4, 0)
 
 

@@ -10,8 +10,9 @@ import pytest
 from beardyn_core.physics.bodies.layout import BODY_STATES, CONE_BODY, CUP_BODY, LINEAR
 from benchmarks.naive_model import NaiveModel, forces_against_kernel
 from benchmarks.runs import Table, straight_line
-from test.kernels.rig import Rig, standard_scene
-from test.kernels.test_step import shaken
+from test.kernels.rig import Rig
+from test.kernels.states import shaken
+from test.scenes import standard_scene
 
 
 def test_the_plain_model_has_the_forces_of_the_kernel() -> None:

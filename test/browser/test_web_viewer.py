@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from test.browser.chromium import EXECUTABLE, Chromium
-from test.record.conftest import write_recording
+from test.recordings import write_recording
 
 WIDTH, HEIGHT = 1120, 630
 PATIENCE = 240.0

@@ -25,18 +25,15 @@ from beardyn_core.cli import main as command
 from beardyn_core.config.folders import find
 from test.calibration.law import BASES, law
 from test.cli.json_page import check
+from test.recordings import import_noise
 
 RATE = 25_600.0
 SCENE = "service_high_speed"
 
 
 def recording(folder: Path, bearing: str = "HS130x230", rate: float = RATE, rpm: float = 1150.0) -> Path:
-    """Make a recording of noise that is measured on a bearing."""
-    noise = np.random.default_rng(1).normal(0.0, 1.0, (round(3.2 * rate), 3))
-    np.savez(folder / "measured.npz", acceleration=noise, fs=rate)
-    return bd.import_measured(
-        folder / "measured.npz", folder / "run.mcap", bearing=bearing, unit="m/s2", speed_rpm=rpm, force=True
-    )
+    """Make a recording that fits the scene where nothing else is asked for."""
+    return import_noise(folder / "run.mcap", bearing=bearing, rate=rate, speed_rpm=rpm, force=True)
 
 
 def fits(**values: float) -> tuple[Fit, ...]:

@@ -29,8 +29,8 @@ from beardyn_core.scene.defect import doubts_about, width_problem
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run
-from test.record.conftest import write_recording
 from test.record.synthetic_run import SyntheticRun
+from test.recordings import write_recording
 
 BEARING = load_bearing("HS130x230")
 SCENE = """scene: mine

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from beardyn_core.cli import main as command
-from test.record.conftest import write_recording
+from test.recordings import write_recording
 
 
 @pytest.fixture(scope="module")

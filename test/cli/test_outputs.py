@@ -22,8 +22,9 @@ from beardyn_core.rail.transfer_path import read_transfer_path
 from beardyn_core.record.mcap_scanning import recover, recovered_name
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.sinks import McapSink
-from test.record.conftest import files_of_at_most, write_recording
+from test.record.conftest import files_of_at_most
 from test.record.synthetic_run import SyntheticRun, description
+from test.recordings import write_recording
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = ("--duration", "0.02")

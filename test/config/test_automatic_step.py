@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import pytest
 import yaml
@@ -13,20 +12,15 @@ from beardyn_core.choice import explain_scene, load_scene, scene_from_text
 from beardyn_core.choice.usual_step import with_modes
 from beardyn_core.config import scene_text
 from beardyn_core.physics.tiers.friction_steps import StepChoice
-from beardyn_core.scene.scene import Scene
+from test.scenes import scene_with_keys
 
 AUTO = {"steps_per_sample": "auto"}
 SUSPENDED = {"cup": "suspended"}
 
 
-def scene(numerics: Any, **changes: Any) -> Scene:
-    data = yaml.safe_load(scene_text(load_scene("static_80kN")))
-    return scene_from_text(yaml.safe_dump({**data, **changes, "numerics": numerics}))
-
-
 @pytest.mark.parametrize(("quantities", "steps"), [(["torque"], 2), (["vibration"], 3)])
 def test_steps_follow_what_is_asked_for(quantities: list[str], steps: int) -> None:
-    found = scene(AUTO, mounting=SUSPENDED, quantities=quantities)
+    found = scene_with_keys(numerics=AUTO, mounting=SUSPENDED, quantities=quantities)
     assert found.numerics.steps_per_sample == steps
     assert found.numerics.laminae == 6
     assert found.effects == load_scene("static_80kN").effects
@@ -34,15 +28,15 @@ def test_steps_follow_what_is_asked_for(quantities: list[str], steps: int) -> No
 
 @pytest.mark.parametrize(("tier", "steps"), [("lumped", 1), ("quasistatic", 1)])
 def test_fast_tiers_keep_their_own_step(tier: str, steps: int) -> None:
-    assert scene(AUTO, tier=tier).numerics.steps_per_sample == steps
+    assert scene_with_keys(numerics=AUTO, tier=tier).numerics.steps_per_sample == steps
 
 
 def test_effects_matter() -> None:
-    assert scene(AUTO, effects="dry").numerics.steps_per_sample == 4
+    assert scene_with_keys(numerics=AUTO, effects="dry").numerics.steps_per_sample == 4
 
 
 def test_what_is_recorded_is_the_number_and_reads_back_as_the_same_scene() -> None:
-    found = scene(AUTO)
+    found = scene_with_keys(numerics=AUTO)
     assert yaml.safe_load(scene_text(found))["numerics"]["steps_per_sample"] == 2
     again = scene_from_text(scene_text(found))
     assert (again.numerics, again.effects, again.tier) == (found.numerics, found.effects, found.tier)
@@ -52,7 +46,7 @@ def test_what_is_recorded_is_the_number_and_reads_back_as_the_same_scene() -> No
 @pytest.mark.parametrize("value", ["automatic", 0, 101, 2.5, True])
 def test_a_wrong_number_is_told_what_is_allowed(key: str, value: object) -> None:
     with pytest.raises(InputError) as told:
-        scene({key: value})
+        scene_with_keys(numerics={key: value})
     (text,) = told.value.problems
     assert f"numerics.{key} is {value!r}; it must be" in text
 
@@ -98,10 +92,13 @@ BOX = {"preset": "standard", "structure": {"kind": "modes", "table": "high_speed
 @pytest.mark.parametrize(("steps", "needed", "turns"), [(1, 2, "5.1"), (4, 4, "10.2")])
 def test_modes_of_the_box_get_five_steps_a_turn(steps: int, needed: int, turns: str) -> None:
     """The highest free one below 10 kHz; none where none is heard or the box is rigid."""
-    boxed, given = scene({}, effects=BOX, mounting=SUSPENDED), StepChoice(steps, "as given")
+    boxed, given = (
+        scene_with_keys(numerics={}, effects=BOX, mounting=SUSPENDED),
+        StepChoice(steps, "as given"),
+    )
     found = with_modes(given, boxed, 1e4)
     assert found.steps_per_sample == needed
     assert f"modes of the box up to 10 kHz have {turns} steps a turn" in found.reason
     assert with_modes(given, boxed, 100.0) == given
-    assert with_modes(given, scene({}), 1e4) == given
+    assert with_modes(given, scene_with_keys(numerics={}), 1e4) == given
     assert with_modes(given, replace(boxed, tier="lumped"), 1e4) == found

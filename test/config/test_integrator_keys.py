@@ -4,29 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 import yaml
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
-from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.scene.scene import Scene
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with_keys
 
 REFERENCE = {"integrator": "explicit", "steps_per_sample": 391}
 
 
-def scene(numerics: Any, **changes: Any) -> Scene:
-    data = yaml.safe_load(scene_text(load_scene("static_80kN")))
-    return scene_from_text(yaml.safe_dump({**data, **changes, "numerics": numerics}))
-
-
 def parameters(numerics: Any) -> Parameters:
-    made = scene(numerics)
-    return build_parameters(made, Arrangement(made.bearing.roller_count, 8), np.zeros(6))
+    made = scene_with_keys(numerics=numerics)
+    return parameters_of(made)
 
 
 def test_a_scene_is_implicit_when_it_does_not_say() -> None:
@@ -41,7 +34,7 @@ def test_an_explicit_reference_has_steps_of_a_tenth_of_a_microsecond() -> None:
 
 
 def test_what_is_recorded_reads_back_as_the_same_integrator() -> None:
-    made = scene(REFERENCE)
+    made = scene_with_keys(numerics=REFERENCE)
     assert yaml.safe_load(scene_text(made))["numerics"]["integrator"] == "explicit"
     assert scene_from_text(scene_text(made)).numerics == made.numerics
 
@@ -68,7 +61,7 @@ def test_what_is_recorded_reads_back_as_the_same_integrator() -> None:
 )
 def test_a_mistake_is_one_sentence(numerics: Any, changes: dict[str, Any], words: list[str]) -> None:
     with pytest.raises(InputError) as told:
-        scene(numerics, **changes)
+        scene_with_keys(numerics=numerics, **changes)
     (text,) = told.value.problems
     for word in ["numerics.", *words]:
         assert word in text
@@ -76,5 +69,5 @@ def test_a_mistake_is_one_sentence(numerics: Any, changes: dict[str, Any], words
 
 def test_all_mistakes_are_told_at_once() -> None:
     with pytest.raises(InputError) as told:
-        scene({"integrator": "explicit", "laminae": 0}, tier="lumped")
+        scene_with_keys(numerics={"integrator": "explicit", "laminae": 0}, tier="lumped")
     assert len(told.value.problems) == 3

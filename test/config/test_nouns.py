@@ -5,11 +5,8 @@ from __future__ import annotations
 import json
 import math
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -31,6 +28,7 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.running import Curve, Stop, Timetable
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Band, Waviness
+from test.commands import run_python
 
 SCENES = ("curve", "waviness", "growing_spall", "freight_100", "static_80kN")
 
@@ -250,8 +248,7 @@ def test_the_room_itself_is_light() -> None:
     code = (
         "import beardyn_core.config, sys; print({'numpy', 'pydantic', 'yaml'} & set(sys.modules) or 'none')"
     )
-    found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
-    assert found.stdout.strip() == "none"
+    assert run_python(code).strip() == "none"
 
 
 @pytest.mark.parametrize(
@@ -265,11 +262,4 @@ def test_the_room_itself_is_light() -> None:
 )
 def test_reading_files_brings_no_compiler_along(statement: str) -> None:
     code = f"{statement}\nimport sys\nprint([name for name in {HEAVY!r} if name in sys.modules])"
-    found = subprocess.run(
-        [sys.executable, "-c", code],
-        check=True,
-        capture_output=True,
-        text=True,
-        cwd=Path(__file__).parents[2],
-    )
-    assert found.stdout.strip() == "[]"
+    assert run_python(code).strip() == "[]"

@@ -14,8 +14,9 @@ from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.tier import TIERS
 from test.examples import fast_ones
-from test.kernels.rig import SPEED, Float, Rig, scene_with, standard_scene
-from test.kernels.runs import Record, record
+from test.kernels.rig import Float, Rig
+from test.runs import Record, record
+from test.scenes import SPEED, scene_with, standard_scene
 
 DURATION = 0.002
 FINEST = 64

@@ -20,9 +20,11 @@ from beardyn_core.physics.tiers.parameters import ExplicitParams
 from beardyn_core.physics.tiers.roller import velocity_change
 from beardyn_core.physics.tiers.status import LARGEST_CHATTER_INDEX, chatter_index
 from beardyn_core.sensors.block import EnergyAudit
-from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
-from test.kernels.rig import SPEED, Float, Rig, scene_with
-from test.kernels.test_step import assert_step_is_that_of_dense_algebra, shaken
+from test.kernels.momentum import assert_momentum_is_exchanged
+from test.kernels.rig import Float, Rig
+from test.kernels.states import shaken
+from test.kernels.test_step import assert_step_is_that_of_dense_algebra
+from test.scenes import SPEED, scene_with
 
 SHORT, TINY = 2.0e-4, 1.0e-12
 

@@ -18,7 +18,7 @@ from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
-from test.kernels.rig import constant_load, started
+from test.runs import constant_load, started
 from test.tiers.momentum import momentum_of_rolling_parts
 from test.tiers.runs import Float, scene_of
 

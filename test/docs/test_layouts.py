@@ -15,7 +15,8 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from beardyn_core.cli.main import main
-from test.record.conftest import BLOCKS, write_recording
+from test.record.conftest import BLOCKS
+from test.recordings import write_recording
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs"))

@@ -6,10 +6,10 @@ A stand-in, no other system: a process in which what POSIX or Linux alone have i
 from __future__ import annotations
 
 import ast
-import subprocess
-import sys
 from importlib.util import find_spec
 from pathlib import Path
+
+from test.commands import run_python
 
 CORE = Path(__file__).parents[2] / "beardyn_core"
 POSIX_MODULES = {"fcntl", "resource", "pwd", "grp", "termios", "pty", "syslog", "posix"}
@@ -32,16 +32,7 @@ builtins.__import__ = without
 
 def run(text: str, folder: Path) -> str:
     """Run a program as on a system that is not POSIX; what it printed."""
-    done = subprocess.run(
-        [sys.executable, "-c", PRELUDE + text],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return run_python(PRELUDE + text, folder)
 
 
 def test_every_module_can_be_imported_elsewhere(tmp_path: Path) -> None:

@@ -18,8 +18,9 @@ import pytest
 from beardyn_core import physics
 from beardyn_core.base.jit import OPTIONS, inline
 from beardyn_core.physics.tiers import imex
-from test.effects.test_absent_effects import instruction_count
-from test.kernels.rig import Rig, scene_with
+from test.effects.fresh_kernels import instruction_count
+from test.kernels.rig import Rig
+from test.scenes import scene_with
 
 pytestmark = pytest.mark.slow
 

@@ -5,28 +5,22 @@ Every variant is compiled afresh (half a minute each), hence slow.
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
-from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
-from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import ContactDamping, EffectSet
 from beardyn_core.physics.bodies.layout import (
     AXIAL,
     CAGE_BODY,
     CONE,
-    CONTACT_OUTPUT,
     CUP,
     ENERGY_EXTERNAL,
     ENERGY_LOST,
     LINEAR,
     LOSSES,
-    OUTPUT_FIELDS,
     OUTPUT_FILM,
     OUTPUT_SLIP,
     POCKET,
@@ -36,33 +30,14 @@ from beardyn_core.physics.bodies.layout import (
     ROLLER_STATES,
     SIGNAL_TORQUE,
 )
-from beardyn_core.physics.tiers.imex import advance
-from test.kernels.rig import Float, Rig, scene_with
+from test.effects.fresh_kernels import Variant, run_afresh
+from test.kernels.rig import Float, Rig
+from test.scenes import scene_with
 
 pytestmark = pytest.mark.slow
 
 MEMBERS = EffectSet().names()  # what is absent by default has tests of its own
 STEPS = 512
-ARITHMETIC = re.compile(r"v(add|sub|mul|div|sqrt|max|min|cmp|gather|fn?madd|fn?msub)[0-9a-z]*[sp]d\s")
-
-
-@dataclass(frozen=True)
-class Variant:
-    """A run of 5 ms with freshly compiled kernels, and the size of their code."""
-
-    rig: Rig
-    signals: Float
-    instructions: int
-
-    def output(self, contact: int, field: int, count: int = 1) -> Float:
-        first = CONTACT_OUTPUT + contact * OUTPUT_FIELDS + field
-        return self.rig.fields()[first : first + count]
-
-
-def instruction_count(dispatcher: Any) -> int:
-    """Floating-point instructions of the compiled entry, moves and addresses left out."""
-    (listing,) = dispatcher.inspect_asm().values()
-    return sum(bool(ARITHMETIC.match(line.strip())) for line in listing.splitlines())
 
 
 def effects_without(member: str | None) -> EffectSet:
@@ -71,10 +46,7 @@ def effects_without(member: str | None) -> EffectSet:
 
 @cache
 def variant(member: str | None) -> Variant:
-    kernel = numba.njit(**OPTIONS)(advance.py_func)
-    rig = Rig.at_equilibrium(scene_with(effects_without(member)))
-    signals, _, _ = rig.run(STEPS, kernel=kernel)
-    return Variant(rig, signals, instruction_count(kernel))
+    return run_afresh(scene_with(effects_without(member)), STEPS)
 
 
 @pytest.mark.parametrize("member", MEMBERS)

@@ -7,12 +7,10 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
@@ -28,15 +26,16 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.pocket import cage_params
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.physics.tiers.imex import advance
 from beardyn_core.physics.tiers.status import Status
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
-from test.analytic.test_momentum_pairs import momenta
-from test.effects.test_absent_effects import instruction_count
-from test.kernels.rig import LOAD_80_KN, SPEED, Rig, constant_load, scene_with, started
-from test.kernels.test_step import shaken
+from test.effects.fresh_kernels import run_afresh
+from test.kernels.momentum import momenta
+from test.kernels.rig import Rig
+from test.kernels.states import shaken
+from test.runs import advance_blocks, constant_load, started
+from test.scenes import LOAD_80_KN, SPEED, scene_with
 
 pytestmark = pytest.mark.slow
 
@@ -65,8 +64,7 @@ def with_pocket(scene: Scene, clearance: float) -> Scene:
 
 @cache
 def blocks(kind: str) -> tuple[Block, ...]:
-    twin = started(scene_of(CAGES[kind]), constant_load(LOAD_80_KN, SPEED))
-    return tuple(twin.advance() for _ in range(25))
+    return advance_blocks(scene_of(CAGES[kind]), constant_load(LOAD_80_KN, SPEED), 25)
 
 
 def until_it_ends(twin: Twin, count: int) -> list[Block]:
@@ -176,9 +174,7 @@ def test_options_and_kinds_that_are_absent_leave_no_code() -> None:
     """Compiled afresh: what a cage does without, its step does not contain."""
     sizes = {}
     for kind in ("dry", "lubricated", "on the cup", "rotating", "kinematic"):
-        kernel = numba.njit(**OPTIONS)(advance.py_func)
-        Rig.at_equilibrium(scene_of(CAGES[kind])).run(2, kernel=kernel)
-        sizes[kind] = instruction_count(kernel)
+        sizes[kind] = run_afresh(scene_of(CAGES[kind]), 2).instructions
     assert sizes["kinematic"] < sizes["rotating"] < sizes["dry"]
     assert sizes["dry"] < sizes["lubricated"]
     assert sizes["dry"] < sizes["on the cup"]

@@ -17,11 +17,13 @@ from beardyn_core.physics.bodies.layout import CAGE_BODY, ENERGY_LOST, LOSS_NAME
 from beardyn_core.physics.tiers.status import is_fatal
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
-from test.analytic.test_momentum_pairs import momenta
 from test.effects.combination_scenes import FACTORS, OUTSIDE, ROWS, label, scene_of
 from test.effects.covering import pairs_of
-from test.kernels.rig import SPEED, Float, constant_load, started
-from test.kernels.test_step import shaken
+from test.kernels.momentum import momenta
+from test.kernels.rig import Float
+from test.kernels.states import shaken
+from test.runs import advance_blocks, constant_load, started
+from test.scenes import SPEED
 
 BLOCKS, BLOCKS_WITHOUT_RIB = 5, 2  # nothing but the rib keeps rollers from leaving sideways
 HEAVY, LIGHT = 8e4, 4e3
@@ -56,9 +58,8 @@ def scene(index: int) -> Scene:
 @cache
 def blocks(index: int, load: float) -> tuple[Block, ...]:
     """All blocks of a run; a fatal status raises."""
-    twin = started(scene(index), constant_load((0.0, 0.0, load), SPEED))
     count = BLOCKS if scene(index).effects.rib else BLOCKS_WITHOUT_RIB
-    return tuple(twin.advance() for _ in range(count))
+    return advance_blocks(scene(index), constant_load((0.0, 0.0, load), SPEED), count)
 
 
 def carried(given: Scene) -> float:

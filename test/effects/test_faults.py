@@ -34,7 +34,9 @@ from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPo
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from beardyn_core.twin import Twin
-from test.kernels.rig import SPEED, Float, Rig, constant_load, scene_with, standard_scene
+from test.kernels.rig import Float, Rig
+from test.runs import constant_load
+from test.scenes import SPEED, scene_with, standard_scene
 
 Z = 17
 STEP = 1.0 / (25_600 * 4)

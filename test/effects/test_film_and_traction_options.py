@@ -15,10 +15,11 @@ from beardyn_core.physics.film import RigidFilmParams, ThermalFilmParams
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.status import chatter_index
-from test.effects.test_absent_effects import instruction_count
+from test.effects.fresh_kernels import instruction_count
 from test.kernels.entries import frictions
-from test.kernels.rig import Float, Rig, scene_with
+from test.kernels.rig import Float, Rig
 from test.kernels.test_traction_laws import LOAD, SLIP, SPEED, parameters
+from test.scenes import scene_with
 
 BOTH = np.moveaxis(np.stack([LOAD, SLIP**2, SPEED]).reshape(3, -1, 8), 0, 1).copy()
 

@@ -22,7 +22,7 @@ from beardyn_core.effects.grease import (
     aged_layer,
 )
 from beardyn_core.physics.drag import drag_params
-from test.kernels.rig import standard_scene
+from test.scenes import standard_scene
 
 
 def test_running_goes_from_fresh_by_settled_to_channelled() -> None:

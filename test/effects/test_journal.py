@@ -52,9 +52,10 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.wheelset import Wheelset
 from beardyn_core.twin import Twin
-from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
-from test.kernels.rig import Float, Rig, constant_load, started, stepped_load
-from test.kernels.test_step import shaken
+from test.kernels.momentum import assert_momentum_is_exchanged
+from test.kernels.rig import Float, Rig
+from test.kernels.states import shaken
+from test.runs import constant_load, started, stepped_load
 
 LOAD = (0.0, 0.0, 6.7e4)
 SPEED_OF_SHAFT = 120.0

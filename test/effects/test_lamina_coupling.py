@@ -8,17 +8,15 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-import numba
 import numpy as np
 import pytest
 
-from beardyn_core.base.jit import OPTIONS
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.physics.tiers.imex import advance
-from test.effects.test_absent_effects import instruction_count
-from test.kernels.rig import Float, Rig, scene_with, standard_scene
-from test.kernels.runs import Record, record
+from test.effects.fresh_kernels import run_afresh
+from test.kernels.rig import Float, Rig
+from test.runs import Record, record
+from test.scenes import scene_with, standard_scene
 
 pytestmark = pytest.mark.slow
 
@@ -46,12 +44,10 @@ def test_coupling_is_felt() -> None:
 
 
 def test_absent_coupling_leaves_no_code() -> None:
-    counts = []
-    for coupling in (None, LaminaCoupling()):
-        kernel = numba.njit(**OPTIONS)(advance.py_func)
-        Rig.at_equilibrium(scene_with(with_coupling(coupling))).run(1, kernel=kernel)
-        counts.append(instruction_count(kernel))
-    assert counts[0] < counts[1]
+    without, coupled = (
+        run_afresh(scene_with(with_coupling(each)), 1).instructions for each in (None, LaminaCoupling())
+    )
+    assert without < coupled
 
 
 @cache

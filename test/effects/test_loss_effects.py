@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-import numba
 import numpy as np
 import pytest
 
-from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
 from beardyn_core.physics.bodies.layout import (
     ENERGY_LOST,
@@ -18,9 +16,9 @@ from beardyn_core.physics.bodies.layout import (
     LOSS_SEAL,
     ROLLER_STATES,
 )
-from beardyn_core.physics.tiers.imex import advance
-from test.effects.test_absent_effects import Variant, instruction_count
-from test.kernels.rig import Rig, scene_with
+from test.effects.fresh_kernels import Variant, run_afresh
+from test.kernels.rig import Rig
+from test.scenes import scene_with
 
 pytestmark = pytest.mark.slow
 
@@ -48,11 +46,8 @@ def run(effects: EffectSet) -> Rig:
 @cache
 def variant(member: str | None) -> Variant:
     """Freshly compiled with one of the effects, or with none."""
-    kernel = numba.njit(**OPTIONS)(advance.py_func)
     effects = EffectSet() if member is None else replace(EffectSet(), **{member: PRESENT[member]})  # type: ignore[arg-type]
-    rig = Rig.at_equilibrium(scene_with(effects))
-    signals, _, _ = rig.run(STEPS, kernel=kernel)
-    return Variant(rig, signals, instruction_count(kernel))
+    return run_afresh(scene_with(effects), STEPS)
 
 
 @pytest.mark.parametrize("member", PRESENT)

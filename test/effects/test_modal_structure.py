@@ -30,10 +30,12 @@ from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import digest, load_zone
 from beardyn_core.structure.modes import WAVES, Modes
 from beardyn_core.structure.table import ROWS, read_table
-from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
 from test.effects.test_structure_effect import frictionless, looked_at
-from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, started
-from test.kernels.test_step import shaken
+from test.kernels.momentum import assert_momentum_is_exchanged
+from test.kernels.rig import Float, Rig
+from test.kernels.states import shaken
+from test.runs import constant_load, started
+from test.scenes import LOAD_80_KN, scene_with
 
 BOXES = ("freight_adapter", "freight_box", "high_speed", "metro")
 MODES = replace(EffectSet(), structure=ModalStructure("high_speed"))

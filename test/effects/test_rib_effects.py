@@ -12,7 +12,6 @@ import pytest
 
 from beardyn_core.base.jit import OPTIONS
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import (
     AXIS,
     CAGE_BODY,
@@ -33,11 +32,12 @@ from beardyn_core.physics.bodies.layout import (
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.scene import Scene
-from test.analytic.test_momentum_pairs import momenta
 from test.kernels.entries import ribs
-from test.kernels.rig import SPEED, Rig, constant_load, scene_with, started
-from test.kernels.runs import Record
-from test.kernels.test_step import shaken
+from test.kernels.momentum import momenta
+from test.kernels.rig import Rig, parameters_of
+from test.kernels.states import shaken
+from test.runs import Record, constant_load, record_under
+from test.scenes import SPEED, scene_with
 
 STEPS = 512
 EVERYTHING = Rib(roller_end=True, drilling=True, lubrication=RibShearedFilm())
@@ -87,7 +87,7 @@ def test_options_that_are_absent_leave_no_code() -> None:
     counts = []
     for rib in (Rib(window=False, roller_end=False), Rib(), EVERYTHING):
         kernel = numba.njit(**{**OPTIONS, "cache": False})(ribs.py_func)
-        params = build_parameters(with_rib(rib), Arrangement(17, 8), np.zeros(6)).effects.rib
+        params = parameters_of(with_rib(rib)).effects.rib
         kernel(Lanes(8), np.ones((1, 22, 8)), np.zeros((1, 8, 8)), params, None)
         (listing,) = kernel.inspect_asm().values()
         lines = (line.strip() for line in listing.splitlines())
@@ -133,14 +133,11 @@ def test_rib_and_cone_exchange_one_force_and_one_moment(contact: str) -> None:
     assert np.abs(angular_after - angular + p.step * moment).max() < 1e-13 * size
 
 
-def run(scene: Scene, force: tuple[float, float, float], blocks: int) -> Record:
-    twin = started(scene, constant_load(force, SPEED))
-    return Record(scene, tuple(twin.advance() for _ in range(blocks)))
-
-
 @cache
 def record(rib: Rib) -> Record:
-    return run(with_rib(rib, SmallRib() if rib == EVERYTHING else None), (0.0, 1.5e4, 8e4), 8)
+    return record_under(
+        with_rib(rib, SmallRib() if rib == EVERYTHING else None), constant_load((0.0, 1.5e4, 8e4), SPEED), 8
+    )
 
 
 @pytest.mark.slow

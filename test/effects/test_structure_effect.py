@@ -33,9 +33,11 @@ from beardyn_core.physics.bodies.layout import (
 from beardyn_core.physics.oscillators import exact_oscillators
 from beardyn_core.physics.ring_modes import body_of
 from beardyn_core.physics.statics.static import solve
-from test.analytic.test_momentum_pairs import assert_momentum_is_exchanged
-from test.kernels.rig import LOAD_80_KN, Float, Rig, constant_load, scene_with, standard_scene, started
-from test.kernels.test_step import shaken
+from test.kernels.momentum import assert_momentum_is_exchanged
+from test.kernels.rig import Float, Rig
+from test.kernels.states import shaken
+from test.runs import constant_load, started
+from test.scenes import LOAD_80_KN, scene_with, standard_scene
 
 FLEXIBLE = replace(EffectSet(), structure=RingStructure())
 STEPS = 512

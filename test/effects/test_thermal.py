@@ -30,8 +30,9 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run
 from test.analytic.test_symmetries_of_effects import scene_of
-from test.kernels.rig import LOAD_80_KN, Float, constant_load, scene_with, standard_scene, started
-from test.stability.test_determinism import assert_same
+from test.kernels.rig import Float
+from test.runs import assert_same, constant_load, started
+from test.scenes import LOAD_80_KN, scene_with, standard_scene
 
 FILM = 7  # of the contact fields
 QUICK = Thermal(time_scale=2e3)

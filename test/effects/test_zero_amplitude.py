@@ -34,13 +34,13 @@ from beardyn_core.effects import (
     Seal,
     SmallRib,
 )
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import ROLLER_STATES
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import PATCH_KINDS, Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
-from test.kernels.rig import Float, Rig, scene_with, standard_scene
+from test.kernels.rig import Float, Rig, parameters_of
+from test.scenes import scene_with, standard_scene
 
 pytestmark = pytest.mark.slow
 
@@ -207,7 +207,7 @@ def numbers(scene: Scene) -> Float:
         elif value is not None:
             found.append(np.ravel(np.asarray(value, dtype=float)))
 
-    collect(build_parameters(scene, Arrangement(scene.bearing.roller_count, 8), np.zeros(6)).effects)
+    collect(parameters_of(scene).effects)
     return np.concatenate(found)
 
 

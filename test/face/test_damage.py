@@ -15,8 +15,8 @@ from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.run import Run
 from beardyn_core.record.tables import SIGNALS
 from beardyn_core.record.topics import relative_name
-from test.record.conftest import write_recording
 from test.record.synthetic_run import description
+from test.recordings import write_recording
 
 
 def answer(run: Run, name: str) -> object:

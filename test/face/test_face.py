@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import inspect
 import pickle
-import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -24,6 +22,7 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.study import desk_run
+from test.commands import run_python
 from test.face.test_one_run import spalled
 from test.study.test_desk_run import SENTENCE, PureRolling
 
@@ -32,8 +31,7 @@ HEAVY = ("numba", "rerun", "matplotlib", "rclpy", "pydantic", "scipy", "numpy", 
 
 def fresh(code: str) -> str:
     """Output of a new interpreter."""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    return done.stdout.strip()
+    return run_python(code).strip()
 
 
 def test_importing_is_light_and_quick() -> None:

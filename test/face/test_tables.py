@@ -13,21 +13,14 @@ from beardyn_core.cli.main import main
 from beardyn_core.record.exporting import KINDS, export
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
-from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.tables import SIGNALS, columns_of, parts_of, signal_of
 from test.record.conftest import files_of_at_most
-from test.record.synthetic_run import SyntheticRun, description
+from test.recordings import write_recording
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("tables") / "run.mcap"
-    sink = McapSink(path)
-    sink.open(description(0.2, ("axlebox_top", "axlebox_end")))
-    for block in SyntheticRun(sensor_count=2).blocks(10):
-        sink.write(block)
-    sink.close()
-    return path
+    return write_recording(tmp_path_factory.mktemp("tables") / "run.mcap", 10)
 
 
 @pytest.fixture(scope="module")

@@ -22,6 +22,7 @@ from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
 from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
+from test.recordings import import_signal
 
 SHAFT_HZ = 20.0
 ORDERS = PLATE.frequencies
@@ -42,12 +43,8 @@ def signal(seconds: float, rate: float = RATE, axes: int = 3) -> Float:
 
 def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
     """Make a recording of a measured file."""
-    np.savez(folder / "measured.npz", acceleration=values, fs=rate)
     axes: dict[str, Any] = {"channels": "z=acceleration"} if values.shape[1] == 1 else {}
-    return bd.import_measured(
-        folder / "measured.npz", folder / "run.mcap", bearing="HS130x230", unit="m/s2",
-        speed_rpm=60.0 * SHAFT_HZ, **axes,
-    )  # fmt: skip
+    return import_signal(folder / "run.mcap", values, rate=rate, speed_rpm=60.0 * SHAFT_HZ, **axes)
 
 
 def turning(values: Float, speed_hz: float = SHAFT_HZ, rate: float = RATE) -> Any:

@@ -6,7 +6,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import beardyn_core as bd
@@ -16,17 +15,12 @@ from beardyn_core.cli import main as command
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.residual import Residual, residual_of
 from test.cli.json_page import check
-from test.follow.synthetic import RATE, drawn, taught
+from test.follow.synthetic import drawn, taught
+from test.recordings import import_noise
 
 
-def recording(folder: Path, bearing: str, seed: int, seconds: float = 3.2) -> Path:
-    """Make a recording of noise that is measured on a bearing."""
-    noise = np.random.default_rng(seed).normal(0.0, 1.0, (round(seconds * RATE), 3))
-    np.savez(folder / "measured.npz", acceleration=noise, fs=RATE)
-    return bd.import_measured(
-        folder / "measured.npz", folder / f"{bearing}_{seed}.mcap", bearing=bearing, unit="m/s2",
-        speed_rpm=1200.0,
-    )  # fmt: skip
+def recording(folder: Path, bearing: str, seed: int) -> Path:
+    return import_noise(folder / f"{bearing}_{seed}.mcap", seed, bearing=bearing)
 
 
 def test_a_later_recording_of_another_bearing_is_refused(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from beardyn_core.choice import load_scene
-from test.kernels.runs import Record, record
+from test.runs import Record, record
 
 FILE = Path(__file__).with_name("static_80kN.json")
 DURATION_S = 0.1

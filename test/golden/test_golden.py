@@ -13,7 +13,7 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.scene.operation import ConstantOperation
 from test.golden.golden import DURATION_S, FILE, standard_statistics, statistics
-from test.kernels.runs import record
+from test.runs import record
 
 GOLDEN: dict[str, float] = json.loads(FILE.read_text())
 # What vanishes by symmetry is judged by the force and the friction moment behind it.

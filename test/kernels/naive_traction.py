@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from scipy.integrate import quad
 
 from beardyn_core.bearing.film_thickness import line_film, rigid_line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import CoulombTraction, LineFilm, LoadSharingTraction
+from beardyn_core.physics.tiers.parameters import Parameters
+from test.kernels import naive
 from test.kernels.naive import left_of_film
 
 
@@ -139,3 +142,33 @@ def shared_friction(
     share = -math.expm1(-1.8 * (thickness / lamina.roughness) ** 1.2)
     wet = film_friction(load, slip, speed, thickness, lamina, traction, options.thickening)
     return share * min(wet, full) + (1.0 - share) * asperities
+
+
+SIDES = ("cup", "cone")
+
+
+def lamina_friction(
+    scene: Any, p: Parameters, ring: int, k: int, load: float, slip: float, speed: float
+) -> float:
+    """Naive friction of a lamina of the standard scene."""
+    bearing = scene.bearing
+    place = p.laminae[0, k] + p.roller.mass_offset
+    length = bearing.effective_length / p.laminae.shape[1]
+    radius = equivalent_radius(bearing, place, SIDES[ring])
+    oil = scene.lubricant
+    lamina = naive.FilmLamina(
+        length, radius, bearing.material.contact_modulus, oil.dynamic_viscosity(scene.temperature),
+        oil.pressure_viscosity_at(scene.temperature), scene.effects.film,
+    )  # fmt: skip
+    thickness = naive.film_thickness(max(load, 1e-3), speed + 1e-3, lamina)
+    pressure = naive.mean_hertz_pressure(load, length, radius, bearing.material.contact_modulus)
+    return naive.mixed_friction(load, slip, thickness, pressure, p.effects.mixed, p.effects.film)
+
+
+def equivalent_radius(bearing: Any, place: float, side: str) -> float:
+    """Radii of curvature of the two cones in the plane square to the common generator."""
+    distance = bearing.apex_distance + place
+    roller = distance * math.tan(bearing.half_angle) / math.cos(bearing.half_angle)
+    angle = bearing.cup_angle if side == "cup" else bearing.cone_angle
+    raceway = distance / math.cos(bearing.half_angle) * math.tan(angle)
+    return 1.0 / (1.0 / roller + (-1.0 if side == "cup" else 1.0) / raceway)

@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.effects import EffectSet
-from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Patch
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import moving_contacts
-from test.kernels.rig import scene_with
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with
 
 NEAR, FAR = 0.3, 1.3
 ENERGY, LET_GO, STIFFNESS, PENETRATION, FORCE, MOMENT, ENERGY_SLOPE = range(7)
@@ -34,7 +33,7 @@ def pressed(
     Shape [azimuth, output of `moving_contacts` and the slope of the energy over the depth].
     """
     scene = scene_with(effects, defects=(patch,), laminae=laminae)
-    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))
+    p = parameters_of(scene, lanes.width)
     bearing = scene.bearing
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     axis = np.array([sine, 0.0, cosine])

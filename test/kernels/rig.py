@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cache
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.choice import load_scene
-from beardyn_core.effects import EffectSet
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.physics.defect import roller_oversize
@@ -25,50 +21,20 @@ from beardyn_core.physics.tiers.imex import advance
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.start import initial_state
 from beardyn_core.physics.tiers.state import Output, State, WorkSpace, work_space
-from beardyn_core.scene.defect import Defect
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.waviness import Waviness
-from beardyn_core.twin import Twin
+from test.scenes import LOAD_80_KN, SPEED
 
 Float = NDArray[np.float64]
 
-SPEED = 122.0
-LOAD_80_KN = (0.0, 0.0, 8.0e4)
+
+def parameters_of(scene: Scene, width: int = 8) -> Parameters:
+    """What the kernels of a scene take, with the cup in its place."""
+    return build_parameters(scene, arrangement_of(scene, width), np.zeros(6))
 
 
-@cache
-def standard_scene() -> Scene:
-    """The shipped 80 kN scene: cup held, no play, the effects of `EffectSet()`."""
-    return replace(load_scene("static_80kN"), effects=EffectSet())
-
-
-def scene_with(
-    effects: EffectSet | None = None,
-    *,
-    end_play: float | None = None,
-    defects: tuple[Defect, ...] = (),
-    waviness: tuple[Waviness, ...] = (),
-    laminae: int = 6,
-    steps_per_sample: int = 4,
-    roller_count: int | None = None,
-    **mounting: Any,
-) -> Scene:
-    """The standard scene with a few things changed."""
-    scene = standard_scene()
-    bearing = scene.bearing
-    if roller_count is not None:
-        bearing = replace(bearing, roller_count=roller_count)
-    return replace(
-        scene,
-        bearing=bearing,
-        effects=scene.effects if effects is None else effects,
-        end_play=scene.end_play if end_play is None else end_play,
-        defects=defects,
-        waviness=waviness,
-        mounting=replace(scene.mounting, **mounting),
-        numerics=replace(scene.numerics, laminae=laminae, steps_per_sample=steps_per_sample),
-    )
+def arrangement_of(scene: Scene, width: int = 8) -> Arrangement:
+    """How the rollers of a scene lie in lanes."""
+    return Arrangement(scene.bearing.roller_count, width, scene.rows, scene.missing_places)
 
 
 @dataclass
@@ -102,8 +68,8 @@ class Rig:
         cage_ratio: float = 1.0,
     ) -> Rig:
         bearing = scene.bearing
-        arrangement = Arrangement(bearing.roller_count, width, scene.rows, scene.missing_places)
-        parameters = build_parameters(scene, arrangement, np.zeros(6))
+        arrangement = arrangement_of(scene, width)
+        parameters = parameters_of(scene, width)
         static = solve(
             bearing,
             np.array(force),
@@ -148,26 +114,3 @@ class Rig:
         """Write roller states [ROLLER_STATES, row, roller]."""
         for field in range(ROLLER_STATES):
             self.state.rollers[:, field] = self.arrangement.to_lanes(fields[field])
-
-
-def constant_load(
-    force: tuple[float, float, float], speed: float, duration: float = 10.0, *moment: float
-) -> LoadHistory:
-    """One load and one speed."""
-    wrench = np.array([*force, *(moment or (0.0, 0.0, 0.0))])
-    times = np.array([0, round(duration * 1e9)], dtype=np.int64)
-    return LoadHistory(times, np.repeat(wrench[None], 2, axis=0), np.full(2, speed), np.zeros((2, 3)))
-
-
-def stepped_load(points: list[tuple[float, tuple[float, float, float], float]]) -> LoadHistory:
-    """Points of time [s], force on the journal [N] and shaft speed [rad/s], linear in between."""
-    times = np.array([round(time * 1e9) for time, _, _ in points], dtype=np.int64)
-    wrench = np.array([[*force, 0.0, 0.0, 0.0] for _, force, _ in points])
-    return LoadHistory(times, wrench, np.array([s for _, _, s in points]), np.zeros((len(points), 3)))
-
-
-def started(scene: Scene, load: LoadHistory) -> Twin:
-    """A twin at t = 0."""
-    twin = Twin(scene)
-    twin.start(load)
-    return twin

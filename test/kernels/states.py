@@ -8,9 +8,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.physics.bodies.layout import (
+    ANGLE,
+    ANGULAR,
+    AXIAL,
+    AXIS,
+    CAGE_BODY,
+    CHANGE,
+    CONE_BODY,
+    CUP_BODY,
+    LINEAR,
+    MOMENTUM,
+    POSITION,
+    RADIUS,
+    RATE,
+    ROLLER_STATES,
+    TILT,
+    TURN,
+    VELOCITY,
+)
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.scene.scene import Scene
+from test.kernels import naive_step
 from test.kernels.naive import Motion
+from test.kernels.rig import Rig
+from test.scenes import standard_scene
 
 Float = NDArray[np.float64]
 
@@ -73,3 +95,64 @@ def only(p: Parameters, **members: Any) -> Parameters:
     """Parameters with no effect but the given ones."""
     none = {name: None for name in p.effects._fields if name != "faults"}
     return p._replace(effects=p.effects._replace(**{**none, **members}))
+
+
+def in_row(vector: Float, row: int, *, axial: bool = False) -> Float:
+    """World x, y, z in the row's frame z, x, outward; row 0 is a mirror image, where axial vectors flip."""
+    side = 2 * row - 1
+    x, y, z = vector
+    return np.array([side * z, side * x, y]) if axial else np.array([z, x, side * y])
+
+
+def ring_of(bodies: Float, body: int, row: int, place: float) -> naive_step.Ring:
+    """Ring as a row sees it, from the cup's origin."""
+    state = bodies[body]
+    third = np.array([0.0, 1.0, 0.0])
+    axis = naive_step.rotated(state[TILT : TILT + 3], third)
+    origin = state[POSITION : POSITION + 3] - bodies[CUP_BODY, POSITION : POSITION + 3]
+    origin = in_row(origin, row) + np.array([0.0, 0.0, place])
+    is_cage = body >= CAGE_BODY
+    # cup and cone show where their velocities are going
+    motion = state[LINEAR : LINEAR + 6] + (0.0 if is_cage else state[CHANGE : CHANGE + 6])
+    omega = motion[3:] + state[RATE] * axis
+    shown = state[TILT : TILT + 3] if is_cage else axis
+    return naive_step.Ring(
+        origin, in_row(shown, row, axial=True), in_row(motion[:3], row),
+        in_row(omega, row, axial=True), in_row(state[LINEAR : LINEAR + 3], row), state[TURN],
+    )  # fmt: skip
+
+
+def cartesian(fields: Float) -> naive_step.RollerState:
+    angle = fields[ANGLE]
+    c, s = math.cos(angle), math.sin(angle)
+
+    def out(first: int) -> Float:
+        return naive_step.turned(angle, fields[first : first + 3])
+
+    centre = np.array([fields[RADIUS] * c, fields[RADIUS] * s, fields[AXIAL]])
+    return naive_step.RollerState(centre, out(AXIS), out(VELOCITY), out(MOMENTUM))
+
+
+def shaken(seed: int, width: int = 8, scene: Scene | None = None) -> Rig:
+    """The standard bearing under 80 kN with every place and velocity disturbed; all four contacts work."""
+    rig = Rig.at_equilibrium(scene or standard_scene(), width=width)
+    rng = np.random.default_rng(seed)
+    fields = rig.fields()[:ROLLER_STATES]
+    shape = fields.shape[1:]
+    fields[RADIUS] += rng.normal(0.0, 2e-6, shape)
+    fields[AXIAL] += rng.normal(0.0, 1e-5, shape)
+    fields[ANGLE] += rng.normal(0.0, 1.2e-3, shape)
+    fields[VELOCITY : VELOCITY + 3] += rng.normal(0.0, 0.02, (3, *shape))
+    fields[AXIS : AXIS + 2] += rng.normal(0.0, 2e-4, (2, *shape))
+    fields[AXIS : AXIS + 3] /= np.linalg.norm(fields[AXIS : AXIS + 3], axis=0)
+    fields[MOMENTUM : MOMENTUM + 3] += rng.normal(0.0, 1e-5, (3, *shape))
+    rig.set_fields(fields)
+    bodies = rig.state.bodies
+    bodies[CONE_BODY, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.01, 3)
+    bodies[:CAGE_BODY, CHANGE : CHANGE + 6] = rng.normal(0.0, 1e-3, (CAGE_BODY, 6))
+    cages = (len(bodies) - CAGE_BODY, 3)
+    bodies[CAGE_BODY:, POSITION : POSITION + 3] = rng.normal(0.0, 3e-5, cages)
+    bodies[CAGE_BODY:, TILT : TILT + 3] = rng.normal(0.0, 2e-4, cages) * [1.0, 0.0, 1.0]
+    bodies[CAGE_BODY:, LINEAR : LINEAR + 3] = rng.normal(0.0, 0.02, cages)
+    bodies[CAGE_BODY:, ANGULAR : ANGULAR + 3] = rng.normal(0.0, 0.2, cages) * [1.0, 0.0, 1.0]
+    return rig

@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from beardyn_core.effects import Cage, CageModel, KinematicCage, LandGuidance, PocketFilm, RotatingCage
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import (
     ANGULAR,
     BODY_STATES,
@@ -27,16 +26,16 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.pocket import LandParams
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_cage, naive_step
 from test.kernels.cage_entries import journals, kinematic_pockets, lands, rotating_pockets
 from test.kernels.casting import through
 from test.kernels.entries import pockets
 from test.kernels.naive import Motion
-from test.kernels.rig import standard_scene
+from test.kernels.rig import parameters_of
 from test.kernels.states import packed
 from test.kernels.test_rib_and_pocket import in_orbit_frame, pocket_cases
+from test.scenes import standard_scene
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
@@ -53,7 +52,7 @@ ENTRIES = {"rotating": rotating_pockets, "kinematic": kinematic_pockets}
 def parameters(cage: CageModel) -> Parameters:
     scene = standard_scene()
     scene = replace(scene, effects=replace(scene.effects, cage=cage))
-    return build_parameters(scene, Arrangement(17, 8), np.zeros(6))
+    return parameters_of(scene)
 
 
 def results(kind: str, cases: list[Motion], advances: Float, lanes: Any = LANES8, cage: Any = None) -> Float:
@@ -173,7 +172,7 @@ def test_no_pocket_makes_energy(seed: int, kind: str, viscosity: float) -> None:
     scene = standard_scene()
     thick = replace(scene.lubricant, density=scene.lubricant.density * viscosity / 0.05)
     scene = replace(scene, lubricant=thick, effects=replace(scene.effects, cage=CAGES[kind]))
-    p = build_parameters(scene, Arrangement(17, 8), np.zeros(6))
+    p = parameters_of(scene)
     cases, advances = pocket_cases(8, seed)
     states = np.array([packed(in_orbit_frame(m)[0], a) for m, a in zip(cases, advances, strict=True)])
     assert p.effects.cage is not None

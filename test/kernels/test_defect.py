@@ -37,7 +37,8 @@ from test.kernels.pressed_roller import (
     STIFFNESS,
     pressed,
 )
-from test.kernels.rig import scene_with
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with
 
 CUP_RADIUS = surface_radius(scene_with().bearing, "cup")
 PLACES = ((np.arange(6) + 0.5) / 6 - 0.5) * scene_with().bearing.effective_length
@@ -48,7 +49,7 @@ FULL = replace(SPALL, length=0.05)
 
 def faults_of(width: int, *patches: Patch, waviness: tuple[Waviness, ...] = ()) -> FaultParams:
     scene = scene_with(defects=patches, waviness=waviness)
-    return build_parameters(scene, Arrangement(17, width), np.zeros(6)).effects.faults
+    return parameters_of(scene, width).effects.faults
 
 
 def springs(
@@ -326,7 +327,7 @@ def test_penetration_near_a_patch_is_that_of_its_springs(lanes: Any) -> None:
 
 def test_worn_pocket_is_a_pocket_with_more_clearance_and_its_neighbours_are_not(lanes: Any) -> None:
     wear = 4e-4
-    sound = build_parameters(scene_with(), Arrangement(17, lanes.width), np.zeros(6))
+    sound = parameters_of(scene_with(), lanes.width)
     worn = build_parameters(
         scene_with(defects=(WornPocket(0, 0, wear),)), Arrangement(17, lanes.width), np.zeros(6)
     ).effects.faults.pockets

@@ -12,18 +12,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beardyn_core.effects import LineFilm
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.traction import CoulombParams, ShearedFilmParams
 from beardyn_core.scene.scene import Scene
 from test.kernels import naive
 from test.kernels.casting import through
 from test.kernels.entries import frictions
-from test.kernels.rig import standard_scene
+from test.kernels.naive_traction import SIDES, equivalent_radius, lamina_friction
+from test.kernels.rig import parameters_of
 from test.kernels.states import only
-from test.kernels.test_raceway import SIDES, equivalent_radius, lamina_friction
+from test.scenes import standard_scene
 
 LANES8 = Lanes(8)
 CASES = np.random.default_rng(1)
@@ -40,7 +39,7 @@ def flooded_scene() -> Scene:
 
 @cache
 def parameters(sheared: bool = False) -> Parameters:
-    p = build_parameters(flooded_scene(), Arrangement(17, 8), np.zeros(6))
+    p = parameters_of(flooded_scene())
     assert p.effects.mixed is not None
     if not sheared:
         return p

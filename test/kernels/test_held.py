@@ -10,7 +10,6 @@ import pytest
 
 from beardyn_core.base.jit import entry
 from beardyn_core.effects import CoulombTraction, LoadSharingTraction
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.contact_output import store_vector
 from beardyn_core.physics.bodies.friction_substeps import Held, hold_contact, is_fresh, remember
 from beardyn_core.physics.film import log2_entrainment
@@ -19,15 +18,17 @@ from beardyn_core.physics.laminae import Raceway, lamina_sums
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.lanes.vectors import Wrench
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
-from beardyn_core.physics.tiers.build import HELD_STEPS, build_parameters
+from beardyn_core.physics.tiers.build import HELD_STEPS
 from beardyn_core.physics.tiers.parameters import HeldParams, Parameters
 from test.kernels import naive, naive_traction
 from test.kernels.casting import through
 from test.kernels.entries import body_and_view
-from test.kernels.rig import standard_scene
+from test.kernels.naive_traction import SIDES
+from test.kernels.rig import parameters_of
 from test.kernels.states import packed, random_motion
-from test.kernels.test_raceway import DEEP, SIDES
+from test.kernels.test_raceway import DEEP
 from test.kernels.test_traction_laws import ENOUGH, lamina
+from test.scenes import standard_scene
 
 SPEED = 6.0
 TRACTION = LoadSharingTraction()
@@ -71,7 +72,7 @@ def parameters(traction: Any, integrator: str = "implicit") -> Parameters:
         effects=replace(scene.effects, traction=traction, film=ENOUGH),
         numerics=replace(scene.numerics, integrator=integrator),
     )
-    return build_parameters(changed, Arrangement(17, 8), np.zeros(6))
+    return parameters_of(changed)
 
 
 @pytest.mark.parametrize("side", SIDES)

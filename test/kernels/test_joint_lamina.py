@@ -29,7 +29,7 @@ from test.kernels.pressed_roller import (
     PENETRATION,
     pressed,
 )
-from test.kernels.rig import standard_scene
+from test.scenes import standard_scene
 
 COUPLED = replace(EffectSet(), lamina_coupling=LaminaCoupling())
 INDEPENDENT = replace(EffectSet(), lamina_coupling=LaminaCoupling(strength=0.0))

@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, rectangle_influence
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import LAMINA_STIFFNESS
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_coupling
 from test.kernels.casting import through
 from test.kernels.entries import couplings
-from test.kernels.rig import scene_with, standard_scene
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with, standard_scene
 
 Float = NDArray[np.float64]
 COUPLED = LaminaCoupling()
@@ -33,7 +32,7 @@ GRADIENT = {6: (1.0e-3, 3.0e-3), 20: (2.0e-3, 2.0e-2)}
 @cache
 def parameters(laminae: int, width: int, coupling: LaminaCoupling = COUPLED) -> Parameters:
     scene = scene_with(replace(EffectSet(), lamina_coupling=coupling), laminae=laminae)
-    return build_parameters(scene, Arrangement(17, width), np.zeros(6))
+    return parameters_of(scene, width)
 
 
 def root(laminae: int, coupling: LaminaCoupling = COUPLED) -> Float:

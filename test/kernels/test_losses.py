@@ -20,7 +20,7 @@ from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.scene.scene import Scene
 from test.kernels.casting import through
 from test.kernels.loss_entries import couple_matrices, drags, rolling_couples
-from test.kernels.rig import scene_with
+from test.scenes import scene_with
 
 Float = NDArray[np.float64]
 CASES = np.random.default_rng(7)

@@ -28,10 +28,11 @@ from beardyn_core.physics.rolling_resistance import oil_supply
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
 from test.kernels.naive_losses import drag_wrench, rolling_wrench
-from test.kernels.rig import Rig, scene_with
+from test.kernels.naive_traction import lamina_friction
+from test.kernels.rig import Rig
+from test.kernels.states import cartesian, ring_of, shaken
 from test.kernels.test_losses import contact, reduction
-from test.kernels.test_raceway import lamina_friction
-from test.kernels.test_step import cartesian, ring_of, shaken
+from test.scenes import scene_with
 
 Float = NDArray[np.float64]
 LOSSY = replace(EffectSet(), rolling_resistance=RollingResistance(), drag=Drag(), seal=Seal())

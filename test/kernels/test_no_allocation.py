@@ -13,7 +13,8 @@ from numba.core.runtime import _nrt_python as runtime  # type: ignore[attr-defin
 from numba.core.runtime import rtsys
 
 from beardyn_core.base.jit import entry
-from test.kernels.rig import Rig, standard_scene
+from test.kernels.rig import Rig
+from test.scenes import standard_scene
 
 pytestmark = pytest.mark.skipif(
     bool(config.DISABLE_JIT),  # type: ignore[attr-defined]

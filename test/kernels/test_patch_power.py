@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.waviness import Waviness
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import damaged_contacts, powers
-from test.kernels.rig import scene_with
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with
 
 
 @pytest.mark.parametrize("kind", ["dent", "spall"])
@@ -41,7 +40,7 @@ def test_work_of_the_leaning_normal_is_what_the_elastic_energy_loses(
         ),
         waviness=(Waviness("cup", 0, (17,), (1e-6,)), Waviness("roller", 0, (6,), (1e-6,))),
     )
-    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))
+    p = parameters_of(scene, lanes.width)
     bearing = scene.bearing
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     middle = np.array([0.5 * bearing.pitch_diameter, 0.0, 0.5 * bearing.row_spacing])
@@ -80,7 +79,7 @@ def crossing(lanes: Any, rate: float, orbit: float, kind: str = "dent") -> Float
         on_cup, on_roller = np.linspace(0.316, 0.327, 20), 0.38
     scene = scene_with(EffectSet(), defects=patches)
     # an instant: no contact begins or ends within it
-    p = build_parameters(scene, Arrangement(17, lanes.width), np.zeros(6))._replace(step=1e-15)
+    p = parameters_of(scene, lanes.width)._replace(step=1e-15)
     bearing = scene.bearing
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     axis = np.array([sine, 0.0, cosine])

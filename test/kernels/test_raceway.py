@@ -12,26 +12,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.traction import CoulombParams
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import RACEWAY_OUTPUTS, raceways
-from test.kernels.rig import scene_with, standard_scene
+from test.kernels.naive_traction import SIDES, lamina_friction
+from test.kernels.rig import parameters_of
 from test.kernels.states import only, packed, random_motion
+from test.scenes import scene_with, standard_scene
 
 Float = NDArray[np.float64]
-SIDES = ("cup", "cone")
 DEEP = {"cup": 2.5e-5, "cone": -2.5e-5}
 LANES8 = Lanes(8)
 
 
 @cache
 def parameters(laminae: int = 6) -> Parameters:
-    return build_parameters(scene_with(laminae=laminae), Arrangement(17, 8), np.zeros(6))
+    return parameters_of(scene_with(laminae=laminae))
 
 
 def motions(side: str, count: int, seed: int, **options: Any) -> list[naive.Motion]:
@@ -115,33 +114,6 @@ def test_moving_contact_with_film_friction_and_damping_is_the_sum_of_laminae(lan
         size = np.linalg.norm(summed.force)
         assert np.linalg.norm(result[:3] - summed.force) < 5e-5 * size
         assert np.linalg.norm(result[3:6] - summed.moment) < 5e-5 * size * 0.025
-
-
-def lamina_friction(
-    scene: Any, p: Parameters, ring: int, k: int, load: float, slip: float, speed: float
-) -> float:
-    """Naive friction of a lamina of the standard scene."""
-    bearing = scene.bearing
-    place = p.laminae[0, k] + p.roller.mass_offset
-    length = bearing.effective_length / p.laminae.shape[1]
-    radius = equivalent_radius(bearing, place, SIDES[ring])
-    oil = scene.lubricant
-    lamina = naive.FilmLamina(
-        length, radius, bearing.material.contact_modulus, oil.dynamic_viscosity(scene.temperature),
-        oil.pressure_viscosity_at(scene.temperature), scene.effects.film,
-    )  # fmt: skip
-    thickness = naive.film_thickness(max(load, 1e-3), speed + 1e-3, lamina)
-    pressure = naive.mean_hertz_pressure(load, length, radius, bearing.material.contact_modulus)
-    return naive.mixed_friction(load, slip, thickness, pressure, p.effects.mixed, p.effects.film)
-
-
-def equivalent_radius(bearing: Any, place: float, side: str) -> float:
-    """Radii of curvature of the two cones in the plane square to the common generator."""
-    distance = bearing.apex_distance + place
-    roller = distance * math.tan(bearing.half_angle) / math.cos(bearing.half_angle)
-    angle = bearing.cup_angle if side == "cup" else bearing.cone_angle
-    raceway = distance / math.cos(bearing.half_angle) * math.tan(angle)
-    return 1.0 / (1.0 / roller + (-1.0 if side == "cup" else 1.0) / raceway)
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import pockets, ribs
-from test.kernels.rig import standard_scene
+from test.kernels.rig import parameters_of
 from test.kernels.states import packed, random_motion
+from test.scenes import standard_scene
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
@@ -31,7 +30,7 @@ def parameters() -> Parameters:
     scene = standard_scene()
     assert scene.effects.rib is not None
     whole = replace(scene.effects, rib=replace(scene.effects.rib, roller_end=False))
-    return build_parameters(replace(scene, effects=whole), Arrangement(17, 8), np.zeros(6))
+    return parameters_of(replace(scene, effects=whole))
 
 
 def rib_cases(count: int, seed: int, **options: Any) -> list[naive.Motion]:

@@ -15,15 +15,14 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.rib import RibParams, SmallRibParams
-from beardyn_core.physics.tiers.build import build_parameters
 from test.kernels import naive, naive_rib
 from test.kernels.casting import through
 from test.kernels.entries import rib_gaps, ribs, small_ribs
-from test.kernels.rig import scene_with, standard_scene
+from test.kernels.rig import parameters_of
 from test.kernels.states import packed, random_motion
+from test.scenes import scene_with, standard_scene
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
@@ -34,7 +33,7 @@ BEARING = standard_scene().bearing
 @cache
 def rib_of(rib: Rib) -> RibParams:
     scene = scene_with(replace(EffectSet(), rib=rib))
-    found = build_parameters(scene, Arrangement(17, 8), np.zeros(6)).effects.rib
+    found = parameters_of(scene).effects.rib
     assert found is not None
     return found
 
@@ -44,7 +43,7 @@ def rib_beyond_the_apex() -> RibParams:
     """Take a sphere flatter than the rib around the ring: its rim touches on both sides."""
     scene = scene_with(replace(EffectSet(), rib=Rib(friction=0.0)))
     bearing = replace(scene.bearing, forced=True, sphere_ratio=1.02)
-    found = build_parameters(replace(scene, bearing=bearing), Arrangement(17, 8), np.zeros(6)).effects.rib
+    found = parameters_of(replace(scene, bearing=bearing)).effects.rib
     assert found is not None
     return found
 
@@ -52,7 +51,7 @@ def rib_beyond_the_apex() -> RibParams:
 @cache
 def small_rib(**options: Any) -> SmallRibParams:
     scene = scene_with(replace(EffectSet(), small_rib=SmallRib(**options)))
-    found = build_parameters(scene, Arrangement(17, 8), np.zeros(6)).effects.small_rib
+    found = parameters_of(scene).effects.small_rib
     assert found is not None
     return found
 
@@ -235,7 +234,7 @@ def test_lubricated_wrench_is_the_plain_formula(lubrication: Any, drilling: bool
     """Film, load sharing, friction and spin written out; roughness 0.418 um taken 20 times to mix."""
     scene = scene_with(replace(EffectSet(), rib=Rib(lubrication=lubrication, drilling=drilling)))
     scene = replace(scene, bearing=replace(scene.bearing, rib_roughness=8e-6))
-    rib = build_parameters(scene, Arrangement(17, 8), np.zeros(6)).effects.rib
+    rib = parameters_of(scene).effects.rib
     assert rib is not None
     contact = rib_contact(scene.bearing)
     oil = (

@@ -12,14 +12,14 @@ import pytest
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import POCKET_ANGLE
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.tier_waves import MOST_POINTS, highest_wave, rolling_wave_params
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import pairs_in_table, rolling_gaps, waves_on_cone
-from test.kernels.rig import scene_with
+from test.kernels.rig import parameters_of
+from test.scenes import scene_with
 
 Z = 17
 SHARE = 0.9
@@ -29,7 +29,7 @@ ORDERS = tuple(range(2, 41))
 def waved(width: int, *waves: Waviness) -> Parameters:
     """A bearing whose pockets stand unevenly."""
     scene = replace(scene_with(None), waviness=waves, scatter=Scatter(seed=3, pocket_place=2e-5))
-    return build_parameters(scene, Arrangement(Z, width), np.zeros(6))
+    return parameters_of(scene, width)
 
 
 def wave_on(surface: str, seed: int) -> Waviness:

@@ -22,14 +22,14 @@ from beardyn_core.physics.bodies.layout import (
     POCKET_ANGLE,
     POSITION,
 )
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.tiers import lumped_parameters, quasistatic_parameters
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Scene
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import moving_contacts, worn_pockets
-from test.kernels.rig import Rig, scene_with
+from test.kernels.rig import Rig, parameters_of
+from test.scenes import scene_with
 
 Z = 17
 
@@ -39,7 +39,7 @@ def made(effects: EffectSet | None = None, **variations: Any) -> Scene:
 
 
 def parameters(scene: Scene, width: int) -> Parameters:
-    return build_parameters(scene, Arrangement(Z, width), np.zeros(6))
+    return parameters_of(scene, width)
 
 
 def cup_contacts(lanes: Any, p: Parameters, scene: Scene) -> Float:

@@ -18,15 +18,14 @@ from beardyn_core.effects import (
     MixedTraction,
     ShearedFilmTraction,
 )
-from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_traction
 from test.kernels.casting import through
 from test.kernels.entries import frictions, saturations
-from test.kernels.rig import standard_scene
-from test.kernels.test_raceway import SIDES, equivalent_radius
+from test.kernels.naive_traction import SIDES, equivalent_radius
+from test.kernels.rig import parameters_of
+from test.scenes import standard_scene
 
 LANES8 = Lanes(8)
 LAYER_ERROR = 4e-5  # of a film with little oil: a fit replaces one logarithm and one power
@@ -78,7 +77,7 @@ ALL = (
 def parameters(traction: Any, film: LineFilm | None) -> Parameters:
     scene = standard_scene()
     changed = replace(scene, effects=replace(scene.effects, traction=traction, film=film))
-    return build_parameters(changed, Arrangement(17, 8), np.zeros(6))
+    return parameters_of(changed)
 
 
 def lamina(number: int, ring: int) -> naive_traction.Lamina:

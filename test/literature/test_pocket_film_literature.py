@@ -10,8 +10,8 @@ import pytest
 from beardyn_core.effects import Cage, PocketFilm
 from test.kernels import naive_cage
 from test.kernels.cage_entries import journals
-from test.kernels.rig import standard_scene
 from test.kernels.test_cage import land_params, parameters
+from test.scenes import standard_scene
 
 
 @pytest.mark.parametrize("gap", [2e-6, 2e-5, 1e-4])

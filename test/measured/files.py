@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
+import beardyn_core as bd
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.config import load_plate
@@ -242,3 +244,9 @@ KINDS = (
     Kind("parquet", ".parquet", _parquet, {}, {}),
     Kind("mcap", ".mcap", mcap, {}, {"channels": "z=*acceleration.z"}),
 )  # fmt: skip
+
+
+def problems(files: Any, **options: Any) -> list[str]:
+    with pytest.raises(bd.InputError) as caught:
+        bd.read_measured(files, **options)
+    return caught.value.problems

@@ -22,8 +22,7 @@ from beardyn_core.measured.claimed_rate import (
 )
 from beardyn_core.measured.units import ACCELERATION, TIME, unit_in, usual
 from test.examples import examples
-from test.measured.files import COUNT, RATE, noise, table
-from test.measured.test_mistakes import problems
+from test.measured.files import COUNT, RATE, noise, problems, table
 
 NAMES = (
     "fs", "Sampling Frequency", "sampling_rate", "SampleRate", "Abtastrate", "Abtastfrequenz", "Scan rate",

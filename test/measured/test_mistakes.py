@@ -15,15 +15,9 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.cli.main import BAD_INPUT, DONE, INTERRUPTED, main
-from test.measured.files import COUNT, RATE, noise, table
+from test.measured.files import COUNT, RATE, noise, problems, table
 
 TIME = np.arange(COUNT) / RATE
-
-
-def problems(files: Any, **options: Any) -> list[str]:
-    with pytest.raises(bd.InputError) as caught:
-        bd.read_measured(files, **options)
-    return caught.value.problems
 
 
 def csv(folder: Path, name: str = "a.csv", **columns: Any) -> Path:

@@ -15,8 +15,7 @@ import beardyn_core as bd
 from beardyn_core.measured.alignment import Begun, align_files
 from beardyn_core.measured.claimed_start import Start
 from test.examples import examples
-from test.measured.files import RATE, noise, table
-from test.measured.test_mistakes import problems
+from test.measured.files import RATE, noise, problems, table
 
 SECONDS = 5.0
 LATE = 2.0  # [s], by which the speed begins behind the vibration

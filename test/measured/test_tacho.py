@@ -13,8 +13,7 @@ from hypothesis import strategies as some
 import beardyn_core as bd
 from beardyn_core.measured.tacho import PulseLevels, Tacho, judge_pulses
 from test.examples import examples
-from test.measured.files import noise
-from test.measured.test_mistakes import problems
+from test.measured.files import noise, problems
 
 RATE = 6000.0
 TIME = np.arange(round(20 * RATE)) / RATE

@@ -1,3 +1,5 @@
+"""Recordings and full disks of the tests of `record`."""
+
 from __future__ import annotations
 
 import resource
@@ -7,22 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.record.sinks import McapSink
-from test.record.synthetic_run import SyntheticRun, description
+from test.recordings import write_recording
 
 BLOCKS = 60
-
-
-def write_recording(
-    path: Path, blocks: int, sensors: tuple[str, ...] = ("axlebox_top", "axlebox_end")
-) -> Path:
-    run = description(duration=blocks * 0.02, sensors=sensors)
-    sink = McapSink(path)
-    sink.open(run)
-    for block in SyntheticRun(sensor_count=len(sensors)).blocks(blocks):
-        sink.write(block)
-    sink.close()
-    return path
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from beardyn_core.record.description import BearingShape, RunDescription
 from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit, Vibration
+from test.arrays import quaternion_product
 
 SHAPE = BearingShape(
     name="HS130x230",
@@ -191,7 +192,9 @@ class SyntheticRun:
             frame = np.stack((along, np.cross(outward, along), outward), axis=-1)
             pose[:, here, :3] = centre
             turned = _quaternion(np.array([1.0, 0.0, 0.0]), spin * time)[:, None, :]
-            pose[:, here, 3:] = _product(_quaternion_of(frame), np.broadcast_to(turned, (*angle.shape, 4)))
+            pose[:, here, 3:] = quaternion_product(
+                _quaternion_of(frame), np.broadcast_to(turned, (*angle.shape, 4))
+            )
             twist[:, here, :3] = tangent * cage_speed * SHAPE.pitch_diameter / 2
             twist[:, here, 3:] = along * spin + np.array([0.0, cage_speed, 0.0])
             for kind, sign, tilt in ((0, 1.0, SHAPE.half_angle), (1, -1.0, -SHAPE.half_angle)):
@@ -209,12 +212,6 @@ class SyntheticRun:
 def _quaternion(axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
     half = 0.5 * angle[..., None]
     return np.concatenate((np.sin(half) * axis, np.cos(half)), axis=-1)
-
-
-def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    vector = a[..., 3:] * b[..., :3] + b[..., 3:] * a[..., :3] + np.cross(a[..., :3], b[..., :3])
-    scalar = a[..., 3:] * b[..., 3:] - np.sum(a[..., :3] * b[..., :3], axis=-1, keepdims=True)
-    return np.concatenate((vector, scalar), axis=-1)
 
 
 def _quaternion_of(frame: np.ndarray) -> np.ndarray:

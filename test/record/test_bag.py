@@ -22,9 +22,9 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.study.monitored_recording import EXIT_CODES
 from test.examples import examples
-from test.record.conftest import write_recording
+from test.record.hostile import told
 from test.record.synthetic_run import SyntheticRun, description
-from test.record.test_broken_files import told
+from test.recordings import write_recording
 
 BLOCKS = 100
 SECOND = 1_000_000_000

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import os
 import struct
-from contextlib import redirect_stderr, redirect_stdout, suppress
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -18,9 +17,8 @@ from beardyn_core.cli import main as command
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from test.examples import examples
-from test.record.conftest import write_recording
-
-MAGIC = b"\x89MCAP0\r\n"
+from test.record.hostile import MAGIC, told
+from test.recordings import write_recording
 
 
 @pytest.fixture(scope="session")
@@ -63,14 +61,6 @@ def loose_recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
             )
         writer.finish()
     return target
-
-
-def told(*words: str) -> tuple[int, str]:
-    """Exit code of a command and everything that it says; an exception that escapes fails the test."""
-    out, err = io.StringIO(), io.StringIO()
-    with redirect_stdout(out), redirect_stderr(err):
-        code = command.main(words)
-    return code, out.getvalue() + err.getvalue()
 
 
 def every_command_answers(path: Path) -> None:

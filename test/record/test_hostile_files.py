@@ -34,7 +34,7 @@ from beardyn_core.record.chunk_reading import (
 )
 from beardyn_core.structure.nastran import read_nastran
 from beardyn_core.structure.table import read_table
-from test.record.test_broken_files import MAGIC, told
+from test.record.hostile import MAGIC, told
 
 SOON_S = 10.0  # the whole command on a busy machine; the bombs took over 100 s
 

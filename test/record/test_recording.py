@@ -33,8 +33,9 @@ from beardyn_core.record.reporting import gaps, report
 from beardyn_core.record.sinks import McapSink, MemorySink
 from beardyn_core.record.topics import relative_name, topic
 from test.examples import examples
-from test.record.conftest import BLOCKS, write_recording
+from test.record.conftest import BLOCKS
 from test.record.synthetic_run import SHAPE, SyntheticRun, description
+from test.recordings import write_recording
 
 EXPECTED_COUNTS = {
     "force": 8 * BLOCKS,

@@ -15,8 +15,8 @@ from beardyn_core.record.messages import encode_time
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import relative_name
-from test.record.conftest import write_recording
-from test.record.test_broken_files import told
+from test.record.hostile import told
+from test.recordings import write_recording
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected

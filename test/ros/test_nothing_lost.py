@@ -17,7 +17,7 @@ from beardyn_core.record.topics import relative_name
 from beardyn_ros import diagnostics
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
 from beardyn_ros.wire import LONGEST_SWEEP, RawIntake
-from test.record.test_broken_files import told
+from test.record.hostile import told
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected
 

@@ -10,7 +10,7 @@ from beardyn_core.record.bag_scanning import INDEX, files_of
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
-from test.record.test_broken_files import told
+from test.record.hostile import told
 from test.ros.graph import Graph
 from test.ros.test_recorder import is_connected
 

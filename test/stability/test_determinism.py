@@ -2,46 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-from typing import Any
-
 import numpy as np
 
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
-from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
-from test.kernels.rig import SPEED, Rig, scene_with, standard_scene, started
+from test.kernels.rig import Rig
+from test.runs import assert_same, started, wandering_load
+from test.scenes import scene_with, standard_scene
 
 
 def moving_scene() -> Scene:
     """Play, suspended box, tilting journal: every body moves."""
     return scene_with(end_play=1e-4, cup="suspended", journal_tilt="free")
-
-
-def wandering_load(samples: int = 801) -> LoadHistory:
-    """2 kHz samples of a load and a bogie that move."""
-    time = np.arange(samples) * 500_000
-    t = time * 1e-9
-    wrench = np.zeros((samples, 6), dtype=np.float64)
-    wrench[:, 0] = 2e3 * np.sin(2.0 * np.pi * 11.0 * t)
-    wrench[:, 1] = 5e3 * np.sin(2.0 * np.pi * 3.0 * t)
-    wrench[:, 2] = 7e4 + 2e4 * np.sin(2.0 * np.pi * 37.0 * t)
-    bogie = np.zeros((samples, 3))
-    bogie[:, 2] = 1e-3 * np.sin(2.0 * np.pi * 5.0 * t)
-    speed = np.asarray(SPEED + 2.0 * t, dtype=np.float64)
-    return LoadHistory(time.astype(np.int64), wrench, speed, bogie)
-
-
-def assert_same(one: Block, two: Block) -> None:
-    """All but the wall time, to the last bit."""
-    others = two.arrays()
-    for name, array in one.arrays().items():
-        np.testing.assert_array_equal(array, others[name], err_msg=name)
-    for field in fields(Block):
-        a: Any = getattr(one, field.name)
-        if field.name not in ("wall_s", "pictures", "vibration") and not isinstance(a, np.ndarray):
-            assert a == getattr(two, field.name), field.name
 
 
 def test_two_runs_are_bit_identical() -> None:

@@ -14,7 +14,8 @@ from beardyn_core.effects import EffectSet, Rib
 from beardyn_core.physics.tiers.status import Status, describe
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
-from test.kernels.rig import SPEED, constant_load, scene_with, started
+from test.runs import constant_load, started
+from test.scenes import SPEED, scene_with
 
 pytestmark = pytest.mark.slow
 

@@ -15,27 +15,13 @@ from beardyn_core.effects import ContactDamping
 from beardyn_core.physics.bodies.layout import CONE_BODY, LINEAR, PENETRATION, SIGNAL_FORCE
 from beardyn_core.physics.tiers.build import spring_time
 from beardyn_core.physics.tiers.status import Status, assess
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
-from test.kernels.rig import (
-    LOAD_80_KN,
-    SPEED,
-    Rig,
-    constant_load,
-    scene_with,
-    standard_scene,
-    started,
-    stepped_load,
-)
-from test.kernels.runs import Record
+from test.kernels.rig import Rig
+from test.runs import Record, constant_load, record_under, started, stepped_load
+from test.scenes import LOAD_80_KN, SPEED, scene_with, standard_scene
 
 NO_LOAD = (0.0, 0.0, 0.0)
 FREE_FALL = 9.80665
-
-
-def run(scene: Scene, load: LoadHistory, blocks: int = 10) -> Record:
-    twin = started(scene, load)
-    return Record(scene, tuple(twin.advance() for _ in range(blocks)))
 
 
 def carried(scene: Scene) -> float:
@@ -61,7 +47,7 @@ def sane(record: Record, largest_residual: float = 1e-2) -> None:
 def test_bearing_runs_without_load_and_with_a_microload(force: float, end_play: float) -> None:
     """Only centrifugal force holds the rollers to the cup; forces stay those of weights and impacts."""
     scene = scene_with(end_play=end_play)
-    record = run(scene, constant_load((0.0, 0.0, force), SPEED))
+    record = record_under(scene, constant_load((0.0, 0.0, force), SPEED))
     sane(record)
     assert np.abs(record.trend("force")[:, :3]).max() < 500.0
     ratio = record.trend("cage_speed")[-8:].mean() / record.trend("shaft_speed")[-1] / 0.429
@@ -75,7 +61,7 @@ def test_load_that_reverses_through_the_play_is_carried_by_the_other_side() -> N
         [(0.0, (0.0, 0.0, 5e4), SPEED), (0.05, (0.0, 0.0, 5e4), SPEED), (0.06, (0.0, 0.0, -5e4), SPEED),
          (10.0, (0.0, 0.0, -5e4), SPEED)]
     )  # fmt: skip
-    record = run(scene, load, 15)
+    record = record_under(scene, load, 15)
     sane(record)
     assert last_force(record)[2] == pytest.approx(-5e4 - carried(scene), rel=0.03)
     cup = record.blocks[-1].contacts[-1, :, :, 0].reshape(-1, 9)
@@ -91,7 +77,7 @@ def test_impact_of_200_g_on_the_unsprung_mass_is_survived() -> None:
         [(0.0, LOAD_80_KN, SPEED), (0.05, LOAD_80_KN, SPEED), (0.0505, (0.0, 0.0, peak), SPEED),
          (0.051, LOAD_80_KN, SPEED), (10.0, LOAD_80_KN, SPEED)]
     )  # fmt: skip
-    record = run(scene, load)
+    record = record_under(scene, load)
     sane(record)
     before, after = record.force_waveform[:1000, 2].max(), record.force_waveform[:, 2].max()
     assert after > 1.2 * before
@@ -100,7 +86,7 @@ def test_impact_of_200_g_on_the_unsprung_mass_is_survived() -> None:
 def test_standing_bearing_stands() -> None:
     """No speed: nothing turns, the cup carries the load less the weights to 10 N, nothing creeps."""
     scene = standard_scene()
-    record = run(scene, constant_load(LOAD_80_KN, 0.0))
+    record = record_under(scene, constant_load(LOAD_80_KN, 0.0))
     # the rough residual is 50 uJ over a floor of 1 mJ: nothing dissipates here
     sane(record, largest_residual=0.2)
     assert record.status == 0
@@ -139,7 +125,7 @@ def test_start_from_standstill_reaches_rolling() -> None:
             (10.0, LOAD_80_KN, SPEED),
         ]
     )
-    record = run(standard_scene(), load, 14)
+    record = record_under(standard_scene(), load, 14)
     sane(record)
     np.testing.assert_allclose(record.trend("cage_speed")[-16:].mean(axis=0), 0.429 * SPEED, rtol=0.01)
 
@@ -153,7 +139,7 @@ def test_reversal_through_zero_speed_turns_everything_round() -> None:
             (10.0, LOAD_80_KN, -SPEED),
         ]
     )
-    record = run(standard_scene(), load, 15)
+    record = record_under(standard_scene(), load, 15)
     sane(record)
     np.testing.assert_allclose(record.trend("cage_speed")[-16:].mean(axis=0), -0.429 * SPEED, rtol=0.01)
     torque = record.trend("shaft_torque")
@@ -164,7 +150,7 @@ def test_reversal_through_zero_speed_turns_everything_round() -> None:
 def test_any_number_of_rollers_carries_the_load(roller_count: int) -> None:
     """Prime, even, and filling the lanes otherwise; 17 is the standard."""
     scene = scene_with(roller_count=roller_count)
-    record = run(scene, constant_load(LOAD_80_KN, SPEED), 6)
+    record = record_under(scene, constant_load(LOAD_80_KN, SPEED), 6)
     sane(record)
     assert record.status == 0
     assert last_force(record)[2] == pytest.approx(8e4 - carried(scene), rel=0.01)
@@ -180,7 +166,7 @@ def test_large_play_concentrates_the_load_and_preload_spreads_it(
     cup: str, end_play: float, fewest: float, most: float
 ) -> None:
     scene = scene_with(end_play=end_play, cup=cup)
-    record = run(scene, constant_load(LOAD_80_KN, SPEED))
+    record = record_under(scene, constant_load(LOAD_80_KN, SPEED))
     sane(record)
     assert record.status == 0
     assert last_force(record)[2] == pytest.approx(8e4 - carried(scene), rel=0.01)
@@ -195,8 +181,8 @@ def test_bearing_with_large_play_starts_at_rest_under_an_axial_load() -> None:
     1.4 % with the production step, and better as it shrinks.
     """
     load = constant_load((0.0, 1.76e4, 0.0), 0.0)
-    sane(run(scene_with(end_play=8e-4, steps_per_sample=16), load, 3), 2e-3)
-    record = run(scene_with(end_play=8e-4), load, 3)
+    sane(record_under(scene_with(end_play=8e-4, steps_per_sample=16), load, 3), 2e-3)
+    record = record_under(scene_with(end_play=8e-4), load, 3)
     sane(record, 2e-2)
     assert np.abs(record.force_waveform[:, 1] - 1.76e4).max() < 0.05 * 1.76e4
 
@@ -204,7 +190,7 @@ def test_bearing_with_large_play_starts_at_rest_under_an_axial_load() -> None:
 def test_combined_load_on_a_tilting_journal_in_a_suspended_box() -> None:
     """Everything may move: 80 kN radial and 15 kN axial, the axial force on the cup is the load's."""
     scene = scene_with(end_play=1e-4, cup="suspended", journal_tilt="free")
-    record = run(scene, constant_load((0.0, 1.5e4, 8e4), SPEED))
+    record = record_under(scene, constant_load((0.0, 1.5e4, 8e4), SPEED))
     sane(record)
     force = last_force(record)
     assert force[1] == pytest.approx(1.5e4, rel=0.02)
@@ -214,7 +200,7 @@ def test_combined_load_on_a_tilting_journal_in_a_suspended_box() -> None:
 def test_suspended_box_stays_where_it_hangs() -> None:
     """Preload of the suspension balances load and all weights: 60 N of error would sink the box by 50 um."""
     scene = scene_with(cup="suspended")
-    record = run(scene, constant_load(LOAD_80_KN, SPEED))
+    record = record_under(scene, constant_load(LOAD_80_KN, SPEED))
     sane(record)
     height = np.concatenate([block.body_pose[:, 0, 2] for block in record.blocks])
     assert np.abs(height).max() < 5e-5
@@ -224,10 +210,10 @@ def test_one_lamina_is_refused_or_reported() -> None:
     """One lamina cannot hold a roller straight; to go on in silence with a wrong torque is no answer."""
     scene = scene_with(laminae=1)
     try:
-        record = run(scene, constant_load(LOAD_80_KN, SPEED))
+        record = record_under(scene, constant_load(LOAD_80_KN, SPEED))
     except (InputError, ValidityError):
         return
-    reference = run(standard_scene(), constant_load(LOAD_80_KN, SPEED))
+    reference = record_under(standard_scene(), constant_load(LOAD_80_KN, SPEED))
     right = float(reference.trend("shaft_torque")[-40:].mean())
     assert record.status != 0 or float(record.trend("shaft_torque")[-40:].mean()) == pytest.approx(
         right, rel=0.1
@@ -321,6 +307,6 @@ def test_ten_seconds_do_not_drift() -> None:
 @pytest.mark.parametrize("speed", [400.0, 1500.0])
 def test_high_speed_runs_stay_sane(speed: float) -> None:
     """3800 and 14 000 rpm, far above any train."""
-    record = run(standard_scene(), constant_load(LOAD_80_KN, speed), 50)
+    record = record_under(standard_scene(), constant_load(LOAD_80_KN, speed), 50)
     sane(record)
     assert last_force(record, 100)[2] == pytest.approx(8e4 - carried(standard_scene()), rel=0.01)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from beardyn_core.monitor.chain import Chain, Stretch
-from test.analytic.test_features_monitoring import ORDERS, RATE, ROLLERS, SETTINGS, _signal
+from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "docs" / "examples" / "my_monitor.py"
@@ -18,7 +18,7 @@ EXAMPLE = ROOT / "docs" / "examples" / "my_monitor.py"
 def test_the_example_finds_faults(fault: str) -> None:
     chain = runpy.run_path(str(EXAMPLE))["chain"]
     assert isinstance(chain, Chain)
-    _, angle, acceleration = _signal(fault, 50)
+    _, angle, acceleration = fault_signal(fault, 50)
     result = chain(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
     assert result.verdict == fault, result.reason
     assert result.band[1] - result.band[0] == pytest.approx(2000.0)

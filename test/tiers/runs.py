@@ -12,9 +12,8 @@ from beardyn_core.choice import load_scene
 from beardyn_core.effects import EffectSet, Gravity, LineFilm
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.rail.build import load_history
-from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
-from beardyn_core.sensors.block import Block
+from test.runs import blocks_of
 
 Float = NDArray[np.float64]
 FAST = ("lumped", "quasistatic")
@@ -36,11 +35,6 @@ class Means:
     largest: float
     torque: float
     status: int
-
-
-def blocks_of(scene: Scene, duration: float) -> tuple[Block, ...]:
-    """Blocks of a run."""
-    return tuple(blocks(scene, duration))
 
 
 @cache

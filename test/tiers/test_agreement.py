@@ -21,7 +21,8 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.study import desk_run
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from beardyn_core.twin import Twin
-from test.tiers.runs import FAST, blocks_of, means, scene_of, static_mean
+from test.runs import blocks_of
+from test.tiers.runs import FAST, means, scene_of, static_mean
 
 STATIC_SCENES = ("static_80kN", "static_5kN")
 TOLERANCE = {"lumped": 0.05, "quasistatic": 0.005}

@@ -37,8 +37,9 @@ from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions
 from beardyn_core.twin import Twin
+from test.runs import blocks_of
 from test.tiers.momentum import momentum_of_rolling_parts
-from test.tiers.runs import FAST, blocks_of, scene_of
+from test.tiers.runs import FAST, scene_of
 
 Float = NDArray[np.float64]
 KINDS: dict[str, RingStructure | ModalStructure] = {

@@ -12,6 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_scene
 from beardyn_core.run import start
+from test.arrays import first_axis
 
 SETTLED_S = 0.3
 BAND = (700.0, 2500.0)
@@ -59,9 +60,3 @@ def test_a_spalled_roller_strikes_at_twice_the_spin_of_pure_rolling(tier: str) -
     settled = vertical[round(SETTLED_S * readings[0].rate) :]
     found = strongest_order(settled, readings[0].rate, shaft_speed, 6.5, 7.1)
     assert found == pytest.approx(2.0 * orders.bsf * spin.mean(), rel=1e-3)
-
-
-def first_axis(quaternion: Float) -> Float:
-    """Direction of the body's x axis, that of a roller, shape [instant, 3]."""
-    x, y, z, w = quaternion.T
-    return np.stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)], axis=1)

@@ -20,7 +20,7 @@ from beardyn_core.physics.statics.static import _rotation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
-from test.kernels.rig import constant_load
+from test.runs import constant_load
 from test.tiers.runs import Float, heavy, scene_of
 
 POSES = [

@@ -19,9 +19,8 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES
 from beardyn_core.study.desk_run import run
 from beardyn_core.twin import Twin
-from test.kernels.rig import started
-from test.stability.test_determinism import assert_same, wandering_load
-from test.tiers.runs import FAST, blocks_of, scene_of
+from test.runs import assert_same, blocks_of, started, wandering_load
+from test.tiers.runs import FAST, scene_of
 
 LATER = ("body_pose", "body_twist", "contacts")
 

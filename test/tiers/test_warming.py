@@ -16,7 +16,7 @@ from beardyn_core.physics.thermal import NODES
 from beardyn_core.run import Simulation, start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
-from test.stability.test_determinism import assert_same
+from test.runs import assert_same
 
 FAST = ("lumped", "quasistatic")
 BLOCK_S = 0.02
