@@ -45,6 +45,7 @@ TEST = [
     *SWEEP,
     *CALIBRATE,
     "hypothesis>=6.100",
+    "jinja2>=3.1",  # pages of evidence
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
     "psutil>=5.9",

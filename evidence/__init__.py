@@ -25,10 +25,12 @@ calibration docs/estimate.md: scenes fitted to recordings of hidden axleboxes
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs
 standard    shipped scenes with the standard effects
-pages       where pages and pictures go, and how pictures are made small
+pages       pages from templates and numbers; where pages and pictures go, and how pictures are made small
+tables      tables in Markdown
 stamps      which command and which code each picture is of
 =========== ======================================================================================
 
-``python -m evidence.NAME.page`` writes the page. The numbers of `hard`, `random` and `step` are made before
-that, by ``python -m evidence.hard`` and so on. None of this is installed with the package.
+``python -m evidence.NAME.page`` writes the page; its prose is the template ``page.md`` next to the module.
+The numbers of `hard`, `random` and `step` are made before that, by ``python -m evidence.hard`` and so on.
+None of this is installed with the package.
 """

@@ -37,7 +37,7 @@ from beardyn_core.study.ladder_levels import (
 from beardyn_core.study.ladder_report import error_text
 from beardyn_core.study.ladder_result import Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import NOMINAL_BANDS, UNITS
-from evidence.pages import DOCS
+from evidence.pages import DOCS, write_page
 from evidence.standard import standard_scene
 
 FORCES = ("force", "deflection", "roller_load")
@@ -82,22 +82,6 @@ CASES: dict[str, tuple[Case, ...]] = {
 PAGE = DOCS / "automatic.md"
 # where a band crosses the limit: times, of what is compared, and runs of the chosen and of the reference
 LONGER, MORE_RUNS, MORE_REFERENCE_RUNS = 6, 24, 12
-
-HEAD = """# The automatic choice on trial
-
-Written by `make automatic`. What `effects: auto` [chooses](effects_auto.md) for a scene, run against the
-converged reference of the [ladder](ladder.md): every effect, {laminae} laminae, {steps} steps for each sample
-of 25.6 kHz, {runs} runs. Errors are those of the ladder, the worst component of a quantity, in brackets when
-they are inside the run-to-run band; behind them what the rules had *expected*. *yes*: every component of what
-is asked for is within the accuracy, each with 95 % certainty (a choice that fails anywhere passes one look
-with 5 % at most, two with 10); *no*: one is beyond it with its whole band; *open*: the runs are too short to
-tell. Doubt shrinks with what is compared, so an open case is run once more, {longer} times as long and
-{more} times, beside {references} of the reference; its row is of those runs. *Simpler*: effects that are
-chosen with other options than `full` has.
-
-| scene | asked | chosen | found (*expected*) | verdict |
-|---|---|---|---|---|
-"""
 
 
 def tried(
@@ -264,9 +248,16 @@ def main() -> None:
         for case in kept.cases(name):
             print(row(case), flush=True)
     rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
-    runs = {"runs": REFERENCE_RUNS, "more": MORE_RUNS, "references": MORE_REFERENCE_RUNS}
-    head = HEAD.format(laminae=REFERENCE_LAMINAE, steps=REFERENCE_STEPS, longer=LONGER, **runs)
-    arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+    values = {
+        "laminae": REFERENCE_LAMINAE,
+        "steps": REFERENCE_STEPS,
+        "runs": REFERENCE_RUNS,
+        "longer": LONGER,
+        "more": MORE_RUNS,
+        "references": MORE_REFERENCE_RUNS,
+        "rows": rows,
+    }
+    write_page(__file__, arguments.to, values)
 
 
 if __name__ == "__main__":

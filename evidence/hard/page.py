@@ -14,68 +14,9 @@ from evidence.hard.catalogue import CASES
 from evidence.hard.report import cells, outcome_from
 from evidence.hard.run import STARTS, WITHOUT_STARTS
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
-from evidence.pages import DOCS
+from evidence.pages import DOCS, render
 
 PAGE = DOCS / "hard.md"
-
-HEAD = """# Hard cases
-
-Written by `python -m evidence.hard.page hard.json` from the numbers of `make hard`: {count} situations in
-which codes of this kind break, on {kernels} kernels; {fast} of them are also in the fast tests. `make hard`
-runs them side by side, prints this table, goes on where it was interrupted, and fails when a case fails that
-is not listed below with its reason. Every case is run from five starts a nanometre of end play apart, and a
-verdict that a nanometre changes is a failure. `make hard ARGS="load --jobs 1"` runs a topic or a case.
-
-**{summary}.**
-
-| verdict | means |
-|---|---|
-| holds | went to its end, everything below within its limits, no status bit |
-| reports | the same, with a warning that it has to or may give |
-| ends | the run ended with the sentence it has to end with |
-| refused | configuration or load was refused with a sentence |
-| known failure | fails, for the reason given |
-| FAILED | fails |
-
-| run as | means |
-|---|---|
-{run_as}
-
-## What is measured
-
-- **Energy residual**: |work in - all losses - numerical dissipation - change of stored energy| over the
-  losses (or 0.1 J), every term integrated from its own force times velocity; at most 1e-2.
-- **Penetration**: largest approach of a roller and a raceway; at most {penetration:.0f} um, beyond which
-  the contact law does not hold.
-- **Chatter index**: largest over raceway contacts and blocks of rms(b) / rms(mu N) with b² = (f_n -
-  (f_(n-1) + f_(n+1))/2)² - (f_(n+1) - f_(n-1))²/8, not below 0, f the friction at every step; reported
-  above {chatter:g}. Friction that flips between its limits at every step has 2, at every second one 0.7.
-- **Frame error**: largest deviation of a roller axis or a quaternion from length 1; at most 1e-12.
-- **Momentum residual**: change of the momentum of journal, rollers and cages in a block that load, weight
-  and the force on the cup do not account for, over force times time; at most 1e-9.
-- **Status**: bits 1 not finite, 2 penetration, 4 chatter, 8 off the rib, 16 film out of range, 32 rib edge,
-  of all starts. Of a coarse step that ends in numbers that are not finite nothing else is shown.
-- **Starts**: how many starts a nanometre of end play apart came to the verdict; the numbers beside it are
-  the largest of them. What is refused before anything runs has one.
-- **Half the step**: from the first start, what it changes in mean force, force scatter, mean torque, cage
-  speed and largest roller load; the one that fills most of its band is shown. The band is the limit of
-  convergence (0.5 % of the means, 20 % of the scatter) and the scatter between blocks, at most 5 %. The
-  bearing is chaotic: where two runs differ, five of each step, whose rollers begin up to a micrometre from
-  the middle of their pockets, decide, and the band is that between runs. Starts a nanometre apart would
-  not do: they share their first strikes, and a band between them is too narrow by half.
-
-"""
-
-CHATTER = """## Finite is not stable
-
-One roller of this bearing between two raceways, 10 kN, friction 0.1 rounded over 10 mm/s, pulled back by a
-cage with 20 N: half of that is the right friction on the cup. Explicit steps follow up to 1.1 us. Beyond,
-everything stays finite **and the mean stays right**, while the friction flips between its limits from step
-to step. A log of every second step shows a calm run. The twin's monitor looks at every step, and reports it.
-
-| method | step us | mean friction N | scatter N | scatter, every second step N | chatter index | monitor |
-|---|--:|--:|--:|--:|--:|---|
-"""
 
 
 def main() -> None:
@@ -102,24 +43,25 @@ def joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
 def page(data: dict[str, Any]) -> str:
     """Put the whole page together."""
     cases = data["cases"]
-    parts = [
-        HEAD.format(
-            count=len(cases),
-            kernels=data["kernels"],
-            fast=sum(case["fast"] for case in cases),
-            summary=counted(cases),
-            run_as="\n".join(f"| {name} | {how} |" for name, how in RUN_AS.items()),
-            penetration=LARGEST_PENETRATION * 1e6,
-            chatter=LARGEST_CHATTER_INDEX,
-        ),
-        *known(cases),
-        CHATTER + "\n".join(chatter_row(row) for row in data["hidden_chatter"]) + "\n\n",
-    ]
-    parts += [
-        section(topic, [case for case in cases if case["topic"] == topic])
-        for topic in dict.fromkeys(case["topic"] for case in cases)
-    ]
-    return "".join(parts).rstrip("\n") + "\n"
+    names = {case["name"] for case in cases}
+    values = {
+        "count": len(cases),
+        "kernels": data["kernels"],
+        "fast": sum(case["fast"] for case in cases),
+        "summary": counted(cases),
+        "run_as": list(RUN_AS.items()),
+        "penetration": LARGEST_PENETRATION * 1e6,
+        "chatter": LARGEST_CHATTER_INDEX,
+        "left": ", ".join(f"`{case.name}`" for case in CASES if case.name not in names),
+        "failing": failing(cases),
+        "fewer": fewer_starts(cases),
+        "chatter_rows": [chatter_row(row) for row in data["hidden_chatter"]],
+        "topics": [
+            section(topic, [case for case in cases if case["topic"] == topic])
+            for topic in dict.fromkeys(case["topic"] for case in cases)
+        ],
+    }
+    return render(__file__, values)
 
 
 def counted(cases: list[dict[str, Any]]) -> str:
@@ -129,54 +71,49 @@ def counted(cases: list[dict[str, Any]]) -> str:
     return f"{len(cases)} cases: {', '.join(found)}"
 
 
-def known(cases: list[dict[str, Any]]) -> list[str]:
-    """List what fails or was skipped, and why, and what has fewer starts."""
-    lines = [
+def failing(cases: list[dict[str, Any]]) -> list[str]:
+    """List what fails or was skipped, and why."""
+    return [
         f"- `{case['name']}`, {case['outcome']['verdict']}: {'; '.join(case['outcome']['reasons'])}."
-        f"{' ' if case['known_failure'] else ''}{case['known_failure']}\n"
+        f"{' ' if case['known_failure'] else ''}{case['known_failure']}"
         for case in cases
         if case["outcome"]["verdict"] in (KNOWN, SKIPPED, FAILED)
     ]
-    fewer = [
-        f"- `{case['name']}`: {case['outcome']['starts']} of {STARTS} starts was run.\n"
+
+
+def fewer_starts(cases: list[dict[str, Any]]) -> list[str]:
+    """List what has fewer starts."""
+    return [
+        f"- `{case['name']}`: {case['outcome']['starts']} of {STARTS} starts was run."
         for case in cases
         if case["outcome"]["starts"] < STARTS and case["run_as"] not in WITHOUT_STARTS
     ]
-    names = {case["name"] for case in cases}
-    left = ", ".join(f"`{case.name}`" for case in CASES if case.name not in names)
-    return [
-        *(["## Not run\n\n", f"Of this state of the code: {left}.\n\n"] if left else []),
-        *(["## What does not pass\n\n", *lines, "\n"] if lines else []),
-        *(["## Fewer starts\n\n", *fewer, "\n"] if fewer else []),
-    ]
 
 
-def chatter_row(row: dict[str, Any]) -> str:
-    """Write a row of the table of hidden chatter."""
-    monitor = "chatter" if row["status"] & 4 else "silent"
+def chatter_row(row: dict[str, Any]) -> tuple[str, ...]:
+    """List the cells of a row of hidden chatter."""
     return (
-        f"| {row['method']} | {row['step'] * 1e6:g} | {row['mean']:.3f} | {row['scatter']:.1f} | "
-        f"{row['scatter_every_second']:.1f} | {row['index']:.2f} | {monitor} |"
+        row["method"],
+        f"{row['step'] * 1e6:g}",
+        f"{row['mean']:.3f}",
+        f"{row['scatter']:.1f}",
+        f"{row['scatter_every_second']:.1f}",
+        f"{row['index']:.2f}",
+        "chatter" if row["status"] & 4 else "silent",
     )
 
 
-def section(topic: str, cases: list[dict[str, Any]]) -> str:
-    """Write the cases of a topic: what would break, and what was measured."""
-    why = ["| case | what would break | guard | run as |", "|---|---|---|---|"]
-    why += [f"| `{case['name']}` | {case['breaks']} | {case['guard']} | {case['run_as']} |" for case in cases]
-    rows = [
-        "| case | verdict | energy | um | chatter | frame | momentum | status | starts | half the step |",
-        "|---|---|--:|--:|--:|--:|--:|--:|--:|---|",
-    ]
-    says = []
+def section(topic: str, cases: list[dict[str, Any]]) -> dict[str, Any]:
+    """Give the numbers of the cases of a topic: what would break, and what was measured."""
+    rows, sentences = [], []
     for case in cases:
         outcome = outcome_from(case["outcome"])
         name, *numbers, _wall = cells(outcome)
-        rows.append(f"| `{name}` | {' | '.join(numbers)} |")
+        rows.append((f"`{name}`", *numbers))
         if outcome.sentence and outcome.verdict in GOOD:
-            says.append(f"- `{name}`: {outcome.sentence}")
-    sentences = ["", "Sentences:", "", *says] if says else []
-    return "\n".join([f"## {topic.capitalize()}", "", *why, "", *rows, *sentences, "", ""])
+            sentences.append(f"- `{name}`: {outcome.sentence}")
+    why = [(f"`{case['name']}`", case["breaks"], case["guard"], case["run_as"]) for case in cases]
+    return {"title": topic.capitalize(), "why": why, "rows": rows, "sentences": sentences}
 
 
 if __name__ == "__main__":

@@ -32,15 +32,9 @@ from evidence.heat.published import (
     RUSSIAN_CARS,
     STANDARD,
 )
+from evidence.tables import markdown
 
 PARTS = ("axlebox", "cup", "cone", "grease")
-
-
-def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Write a table."""
-    names = list(head)
-    lines = ["| " + " | ".join(names) + " |", "|---" * len(names) + "|"]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
 def torques(points: Iterable[TorquePoint]) -> str:
@@ -56,7 +50,7 @@ def torques(points: Iterable[TorquePoint]) -> str:
         ]
         for each in points
     ]
-    return table(head, rows)
+    return markdown(head, rows)
 
 
 def published_torques() -> str:
@@ -107,7 +101,7 @@ def published_torques() -> str:
                 f"{rise / NTN_RISE - 1.0:+.0%}",
             ]
         )
-    return table(("published", "reference", "ours", "deviation"), rows)
+    return markdown(("published", "reference", "ours", "deviation"), rows)
 
 
 def temperatures(states: Iterable[tuple[State, float, SteadyHeat]]) -> str:
@@ -128,7 +122,7 @@ def temperatures(states: Iterable[tuple[State, float, SteadyHeat]]) -> str:
                 f"{found.power:.0f}" + ("" if found.settles else ", runs away"),
             ]
         )
-    return table(head, rows)
+    return markdown(head, rows)
 
 
 def variations() -> str:
@@ -145,7 +139,7 @@ def variations() -> str:
     columns = ("box [K]", "cone [K]", "power [W]")
     head = [f"healthy ({1e3 * MOUNTED_PLAY:g} mm, settled), but"]
     head += [f"{speed:g} km/h: {column}" for speed in SPEEDS_KMH for column in columns]
-    return table(head, rows)
+    return markdown(head, rows)
 
 
 def settled_range(temperature_c: float) -> tuple[float, float]:

@@ -10,12 +10,14 @@ import argparse
 import itertools
 import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from tqdm import tqdm
 
 from beardyn_core.base.jit import LANE_WIDTH
+from beardyn_core.base.outputs import write_whole
 from beardyn_core.choice.load import scene_with_all
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.scene.tier import TIERS
@@ -35,7 +37,8 @@ from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES, UNITS
 from evidence.ladder import front
 from evidence.ladder.turns import TURN_S, TURNS, in_turns
-from evidence.pages import DOCS, save_small
+from evidence.pages import DOCS, render, save_small
+from evidence.tables import markdown
 
 SCENES = ("service_high_speed", "service_high_speed_cup", "wheel_flat")
 ACCURACY = 0.05
@@ -43,54 +46,6 @@ COLOURS = 96
 USUAL_DETAIL = tuple((tier.name, 6, tier.steps_per_sample) for tier in TIERS.values())
 USUAL_STEPS = TIERS["full"].steps_per_sample
 _BOUGHT = ("force", "deflection", "roller_load", "torque", "vibration")
-
-HEAD = """# What accuracy costs
-
-Written by `make ladder`; every number on this page is of that run, on one core of
-{processor}, {lanes} rollers at once (eight with AVX-512, four without).
-
-`beardyn ladder SCENE -o DIR` makes such a table, `ladder.json` and `ladder.png` of any scene.
-
-## What is compared
-
-The same scene, the same load history, the same noise of the sensors, with other tiers, sets of effects,
-numbers of laminae and time steps. The **reference** is the full tier with every effect (`full`),
-{laminae} laminae and a step of 1/{reference_rate:.0f} s ({steps} steps for each sample of 25.6 kHz). How
-far it is converged itself: the errors of *{neighbour}*, with half of its laminae and twice its step. *6
-laminae x 4* is a level with 4 steps for each sample. `lumped` and `quasistatic` name levels of these tiers,
-the others are of the full tier. The presets `dry` and `standard` have no `structure`: rings and box are rigid
-in them, and that is most of their error in deflection. *auto* is what a scene that names nothing gets, in its
-own box.
-
-**Wall time** is for a simulated second, kernel and observation; compiling is apart. After the climb all
-levels of a scene take turns of {turn:g} s in one process, so that a machine that slows down slows all of
-them; it is the median of {turns} turns. The real-time factor (RTF) is its inverse.
-
-**Errors** are those of the worst component of each quantity:
-
-| column | components | error |
-|---|---|---|
-| force | rollers on the cup at 400 Hz: mean vector, 99 % quantile of its size | % of its size |
-| deflection | cone against cup at 200 Hz: the same | % of its size |
-| roller_load | largest roller load: mean, 99 % quantile; rms over the load zone at equal azimuth | % of it |
-| torque | mean torque on the shaft | % |
-| vibration | third-octave bands, 31.5 Hz to 10 kHz, all axes of the first accelerometer | dB |
-| cage_speed | mean speed of each cage | % |
-| fault_line | line of the fault in the envelope order spectrum (2 to 10 kHz) | dB |
-
-The comparison covers whole revolutions of the cage. **The bearing is chaotic**: two runs that begin a
-nanometre apart share statistics, not trajectories. So the reference runs {runs} times and cheap levels run
-twice, each begun a hair apart, and every error has a band: what the difference of two means stays in with
-95 % probability, for all components of a quantity together, from the scatter between runs and between
-windows of them. An error inside its band is *not resolved* and stands in brackets.
-
-**Accuracy of {accuracy}** means: force, deflection, roller loads and torque within {accuracy} and
-third-octave bands within 1.5 dB. *yes*: every error is within, each with 95 % certainty (a level that
-fails anywhere passes with 5 % at most); *no*: an error is beyond, with its whole band; *open*: the runs are
-too short to tell. Levels are compared by their worst error in units of its limit, which the pictures show:
-one is **efficient** (bold) when that is less than of every cheaper one, by more than the run-to-run band and
-a tenth. A single column may well be better in a cheaper level.
-"""
 
 
 def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
@@ -115,25 +70,19 @@ def climbed(name: str, quick: bool, duration: float | None) -> Ladder:
         return climb(comparison, levels, ACCURACY, progress=told(bar))
 
 
-def section(ladder: Ladder, picture: Path) -> list[str]:
-    """Write one scene of the page."""
-    windows = len(ladder.edges) - 1
-    turns = counted(ladder.revolutions, "whole cage revolution")
-    return [
-        f"## {ladder.scene}",
-        "",
-        ladder.purpose,
-        "",
-        f"Compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns} in {counted(windows, 'window')}. "
-        + ("No fault, so no fault line." if ladder.fault_line is None else _line_sentence(ladder)),
-        "",
-        f"![Accuracy against wall time of {ladder.scene}](pictures/{picture.name})",
-        "",
-        *table(ladder),
-        "",
-        *(f"- {lesson}" for lesson in lessons(ladder)),
-        "",
-    ]
+def section(ladder: Ladder, picture: Path) -> dict[str, Any]:
+    """Give the numbers of one scene of the page."""
+    return {
+        "name": ladder.scene,
+        "purpose": ladder.purpose,
+        "compared": ladder.edges[-1] - ladder.edges[0],
+        "turns": counted(ladder.revolutions, "whole cage revolution"),
+        "windows": counted(len(ladder.edges) - 1, "window"),
+        "line": "No fault, so no fault line." if ladder.fault_line is None else _line_sentence(ladder),
+        "picture": picture.name,
+        "levels": table(ladder),
+        "lessons": lessons(ladder),
+    }
 
 
 def _line_sentence(ladder: Ladder) -> str:
@@ -141,26 +90,21 @@ def _line_sentence(ladder: Ladder) -> str:
     return f"Fault line: {ladder.fault_line.name}, {ladder.fault_line.order:.3f} per shaft revolution."
 
 
-def table(ladder: Ladder) -> list[str]:
-    """Write the Markdown table of all levels."""
+def table(ladder: Ladder) -> str:
+    """Write the table of all levels."""
     columns = [f"{quantity} {UNITS[quantity]}" for quantity in QUANTITIES]
+    head = ("level", "wall s/s", "RTF", *columns, percent(ladder.accuracy))
     efficient = {row.level.name for row in ladder.efficient}
-    good = percent(ladder.accuracy)
-    rows = [
-        f"| level | wall s/s | RTF | {' | '.join(columns)} | {good} |",
-        f"|---|{'--:|' * (len(columns) + 2)}---|",
-    ]
+    rows: list[tuple[str, ...]] = []
     for row in ladder.by_cost:
         name = f"**{row.level.name}**" if row.level.name in efficient else row.level.name
-        cells = [error_text(row.of(quantity)) for quantity in QUANTITIES]
         wall = row.cost.median
-        rows.append(
-            f"| {name} | {wall:.3f} | {1.0 / wall:.2f} | {' | '.join(cells)} | {ladder.verdict(row)} |"
-        )
+        errors = (error_text(row.of(quantity)) for quantity in QUANTITIES)
+        rows.append((name, f"{wall:.3f}", f"{1.0 / wall:.2f}", *errors, ladder.verdict(row)))
     reference = ladder.reference.cost.median
-    dots = " | ".join("" for _ in columns)
-    rows.append(f"| reference | {reference:.2f} | {1.0 / reference:.3f} | {dots} | |")
-    return rows
+    lines = markdown(head, rows, f"l{'r' * (len(columns) + 2)}l")
+    empty = " | ".join("" for _ in columns)
+    return f"{lines}\n| reference | {reference:.2f} | {1.0 / reference:.3f} | {empty} | |"
 
 
 def lessons(ladder: Ladder) -> list[str]:
@@ -224,21 +168,42 @@ def _along(
     return [f"{title}, {quantity} error: {'; '.join(parts)}."]
 
 
-def summary(ladders: list[Ladder]) -> list[str]:
-    """List the efficient levels of all scenes side by side, with the errors that each one buys."""
+def efficient_levels(ladders: Sequence[Ladder]) -> str:
+    """Write the efficient levels of all scenes side by side, with the errors that each one buys."""
     columns = [f"{quantity} {UNITS[quantity]}" for quantity in _BOUGHT]
-    lines = [
-        "## Efficient levels",
-        "",
-        f"| scene | level | wall s/s | {' | '.join(columns)} | {percent(ACCURACY)} |",
-        f"|---|---|{'--:|' * (len(columns) + 1)}---|",
+    rows = [
+        (
+            ladder.scene,
+            row.level.name,
+            f"{row.cost.median:.3f}",
+            *(error_text(row.of(quantity)) for quantity in _BOUGHT),
+            ladder.verdict(row),
+        )
+        for ladder in ladders
+        for row in ladder.efficient
     ]
-    for ladder in ladders:
-        for row in ladder.efficient:
-            cells = [f"{row.cost.median:.3f}", *(error_text(row.of(quantity)) for quantity in _BOUGHT)]
-            cells.append(ladder.verdict(row))
-            lines.append(f"| {ladder.scene} | {row.level.name} | {' | '.join(cells)} |")
-    return [*lines, "", *map(_rungs, ladders), ""]
+    head = ("scene", "level", "wall s/s", *columns, percent(ACCURACY))
+    return markdown(head, rows, f"ll{'r' * (len(columns) + 1)}l")
+
+
+def page(ladders: Sequence[Ladder], pictures: Sequence[Path], neighbour: str) -> str:
+    """Put the whole page together, with the name of the level next to the reference."""
+    values = {
+        "processor": machine()["processor"],
+        "lanes": LANE_WIDTH,
+        "laminae": REFERENCE_LAMINAE,
+        "steps": REFERENCE_STEPS,
+        "reference_rate": WAVEFORM_RATE * REFERENCE_STEPS,
+        "neighbour": neighbour,
+        "runs": REFERENCE_RUNS,
+        "turn": TURN_S,
+        "turns": TURNS,
+        "accuracy": percent(ACCURACY),
+        "efficient": efficient_levels(ladders),
+        "rungs": [_rungs(ladder) for ladder in ladders],
+        "scenes": [section(ladder, path) for ladder, path in zip(ladders, pictures, strict=True)],
+    }
+    return render(__file__, values)
 
 
 def _rungs(ladder: Ladder) -> str:
@@ -264,7 +229,7 @@ def main() -> None:
     pictures = arguments.to / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     logging.getLogger("beardyn").setLevel(logging.WARNING)
-    ladders, lines = [], []
+    ladders, paths = [], []
     for name in arguments.scenes:
         ladder = climbed(name, arguments.quick, arguments.duration)
         if ladder.interrupted:
@@ -274,21 +239,9 @@ def main() -> None:
         ladder_picture(ladder, picture)
         save_small(picture, picture, COLOURS)
         ladders.append(ladder)
-        lines += section(ladder, picture)
-    head = HEAD.format(
-        processor=machine()["processor"],
-        lanes=LANE_WIDTH,
-        laminae=REFERENCE_LAMINAE,
-        steps=REFERENCE_STEPS,
-        reference_rate=WAVEFORM_RATE * REFERENCE_STEPS,
-        neighbour=levels_of(scene_with_all(arguments.scenes[0])).neighbour.name,
-        runs=REFERENCE_RUNS,
-        turn=TURN_S,
-        turns=TURNS,
-        accuracy=percent(ACCURACY),
-    )
-    page = "\n".join([head, *summary(ladders), *lines])
-    (arguments.to / "ladder.md").write_text(page.rstrip("\n") + "\n", encoding="utf-8")
+        paths.append(picture)
+    neighbour = levels_of(scene_with_all(arguments.scenes[0])).neighbour.name
+    write_whole(arguments.to / "ladder.md", page(ladders, paths, neighbour))
     if arguments.to == DOCS:
         front.main()
 

@@ -11,7 +11,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.study.ladder import comparison_of
 from beardyn_core.twin import Twin
 from evidence.ladder import front
-from evidence.ladder.page import section, summary
+from evidence.ladder.page import page
 from evidence.ladder.turns import in_turns
 from evidence.pages import DOCS
 from test.study.test_ladder import FakeRuns, climbed
@@ -19,13 +19,13 @@ from test.study.test_ladder import FakeRuns, climbed
 
 def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> None:
     ladder = climbed(comparison_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
-    lines = section(ladder, Path("somewhere/static.png"))
-    assert lines[0] == "## static_80kN"
+    summary, text = page([ladder], [Path("somewhere/static.png")], "neighbour").split("\n## static_80kN\n")
+    lines = text.splitlines()
     assert "![Accuracy against wall time of static_80kN](pictures/static.png)" in lines
     assert any("No fault, so no fault line" in line for line in lines)
     for row in ladder.rows:
         assert sum(line.startswith("|") and row.level.name in line for line in lines) == 1
-    assert any("static_80kN" in line and "middle" in line for line in summary([ladder]))
+    assert any("static_80kN" in line and "middle" in line for line in summary.splitlines())
 
 
 def test_the_front_on_the_first_page_is_that_of_the_ladder() -> None:

@@ -22,49 +22,14 @@ from evidence.light.grid import (
     run_automatic,
     run_grid,
 )
-from evidence.pages import DOCS, PICTURES, save_small
+from evidence.pages import DOCS, PICTURES, save_small, write_page
+from evidence.tables import markdown
 
 PAGE = DOCS / "light.md"
 PICTURE = PICTURES / "light.png"
 MINIMUM_SHARE = 0.02
 TOLD_FROM = 1.01
 COLOURS = 32
-
-HEAD = """# Light loads
-
-Written by `python -m evidence.light.page`. Speed of the cages over that of pure rolling, mean of the last 0.5
-of 1.2 s, in tier `quasistatic` of {turns:g} turns of the shaft at least: `{bearing}` without play, cup held,
-70 °C, grease {supply}; {count} runs.
-
-![Slip of the cages against load]({picture})
-
-Catalogues ask for a load of at least {minimum_share:g} C on a roller bearing so that it does not skid (SKF,
-2018, Rolling bearings, "Minimum load"): {minimum:.0f} kN here. Above it no set slips by more than
-{above:.1%}; below it `full` does at high speed, and `quasistatic`, with the same effects, does not: its
-rollers move in their pockets, and do not skid. {verdict}
-"""
-AHEAD = """
-Ahead of rolling by more than {limit:.1%}:
-{listed}.
-A dry rib drives rollers that hang on the cup between rib and cup, and they push the cage; `standard`, whose
-rib is lubricated, shows none of it. Above 1 % the status says so.
-"""
-CHOSEN = """
-## Effects that are chosen
-
-What a scene gets that names no effects, chosen for each point, where most is left out: {rows}. From
-1165 rpm on the rib is always lubricated, so nothing of `dry` is among them. Tier `lumped` rolls without slip.
-"""
-MEASURED = """
-## Beside measured slip
-
-No source found gives slip in per cent with load, speed, oil and the inside of a bearing. What abstracts say
-of rigs stands on the [validation page](validation.md) beside runs at 2 kN, a tenth of the minimum load: slip
-rises with speed and with oil, and preloaded rows do not slip, as measured on NU215 (Dawoud, Beitler, Schwarze
-2022). It falls as the oil warms in the gearbox of a wind turbine (Guo and Keller 2020), where it came to 60 %
-in the loaded zone, and **rises in ours**. That page has the slip over the load at 3000 rpm, with the share
-that Harris (1966) found below a few hundred newtons.
-"""
 
 
 def write(points: list[Point], chosen: list[Point]) -> None:
@@ -73,41 +38,36 @@ def write(points: list[Point], chosen: list[Point]) -> None:
     rating = dynamic_rating(scene.bearing).radial
     minimum = MINIMUM_SHARE * rating * 1e-3
     draw(points, minimum, PICTURE)
-    ahead = [each for each in points if not each.holds]
-    above = max(abs(1.0 - each.ratio) for each in points if each.load_kn >= minimum)
     film = scene.effects.film
-    head = HEAD.format(
-        bearing=scene.bearing.name,
-        supply="" if film is None else film.supply,
-        count=len(points),
-        picture=PICTURE.relative_to(DOCS),
-        minimum_share=MINIMUM_SHARE,
-        minimum=minimum,
-        above=above,
-        turns=FAST_TURNS,
-        verdict=f"None runs back{'' if ahead else f', none ahead by more than {LARGEST_RATIO - 1.0:.1%}'}.",
-    )
-    listed = ",\n".join(
-        f"`{each.effects}` at {each.load_kn:g} kN and {each.speed_rpm:g} rpm ({each.ratio:.4f}"
-        f"{', told' if each.told else ''})"
-        for each in ahead
-    )
-    text = head + (AHEAD.format(limit=LARGEST_RATIO - 1.0, listed=listed) if ahead else "")
-    told = "; ".join(f"{each.ratio:.4f} at {each.load_kn:g} kN and {each.speed_rpm:g} rpm" for each in chosen)
-    PAGE.write_text(text + CHOSEN.format(rows=told) + MEASURED + tables(points), encoding="utf-8")
+    values = {
+        "bearing": scene.bearing.name,
+        "supply": "" if film is None else film.supply,
+        "count": len(points),
+        "picture": PICTURE.relative_to(DOCS),
+        "minimum_share": MINIMUM_SHARE,
+        "minimum": minimum,
+        "above": max(abs(1.0 - each.ratio) for each in points if each.load_kn >= minimum),
+        "turns": FAST_TURNS,
+        "limit": LARGEST_RATIO - 1.0,
+        "listed": [
+            f"`{each.effects}` at {each.load_kn:g} kN and {each.speed_rpm:g} rpm ({each.ratio:.4f}"
+            f"{', told' if each.told else ''})"
+            for each in points
+            if not each.holds
+        ],
+        "chosen": "; ".join(
+            f"{each.ratio:.4f} at {each.load_kn:g} kN and {each.speed_rpm:g} rpm" for each in chosen
+        ),
+        "tables": {effects: table(points, effects) for effects in (*SETS, FAST)},
+    }
+    write_page(__file__, PAGE, values)
 
 
-def tables(points: list[Point]) -> str:
-    """Write one table for each set, speeds against loads."""
-    found = {(each.effects, each.speed_rpm, each.load_kn): each for each in points}
-    lines = []
-    for effects in (*SETS, FAST):
-        lines += [f"\n## `{effects}`\n", "| rpm | " + " | ".join(f"{q:g} kN" for q in LOADS_KN) + " |"]
-        lines.append("|---" * (len(LOADS_KN) + 1) + "|")
-        for speed in SPEEDS_RPM:
-            row = [f"{found[effects, speed, load].ratio:.4f}" for load in LOADS_KN]
-            lines.append(f"| {speed:g} | " + " | ".join(row) + " |")
-    return "\n".join(lines) + "\n"
+def table(points: list[Point], effects: str) -> str:
+    """Write the table of a set, speeds against loads."""
+    found = {(each.speed_rpm, each.load_kn): each.ratio for each in points if each.effects == effects}
+    rows = [(f"{speed:g}", *(f"{found[speed, load]:.4f}" for load in LOADS_KN)) for speed in SPEEDS_RPM]
+    return markdown(("rpm", *(f"{load:g} kN" for load in LOADS_KN)), rows)
 
 
 def draw(points: list[Point], minimum: float, target: Path) -> None:

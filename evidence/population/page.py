@@ -20,8 +20,8 @@ from beardyn_core.config.automatic import AUTO
 from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TRAIN, LabelledSet
 from beardyn_core.population.learner import TRANSFERABLE, Learner
-from beardyn_core.study.table import Table
-from evidence.pages import DOCS, PICTURES, save_small
+from beardyn_core.study.table import Column, Table
+from evidence.pages import DOCS, PICTURES, render, save_small
 from evidence.population import scale
 from evidence.population.causes import causes
 from evidence.population.measured import collection_of, features_of_records, records
@@ -103,72 +103,61 @@ def write_page(found: dict[str, Any]) -> None:
 
 def section(found: dict[str, Any]) -> str:
     """Write the part of the page that is measured."""
-    gap, made = found["gap"], found["made"]
-    unseen = next(row for row in gap if row["name"] == "unseen bearings")
-    lines = [
-        "## What a learner makes of it",
-        "",
-        f"`beardyn baseline`: random forests of 300 trees on the features of {found['trained']} runs of "
-        "the sweep "
-        f"[{TRAINED}](../config/sweeps/{TRAINED}.yaml) (tier `{found['tier']}`, effects "
-        f"`{found['effects']}`), nothing tuned. It names sound, cup, cone or roller; balanced accuracy "
-        "counts each condition alike (in brackets: all runs alike), "
-        f"{100 * CHANCE:.0f} % is chance.",
-        "",
-        _gap_table(gap).markdown(),
-        "",
-        *_gaps(gap),
-        "![Balanced accuracy on unseen simulated bearings and on measured records](pictures/population.png)",
-        "",
-        f"On bearings of its own kind that it has not seen it names {100 * unseen['balanced']:.0f} %. "
-        "The rigs of the measured records are another thing: bearings of 30 to 40 mm pitch diameter, no "
-        "track and no wheel, damage a tenth as wide; Smith and Randall (2015, MSSP 64-65, 100) find "
-        "many of the CWRU records without a sign of their fault. So a gap is one in machine, sensor and "
-        "damage as much as in physics, and one below nothing says that the simulated runs are the "
-        "harder ones: their spalls begin at 1 mm, under the vibration of track and wheel. CWRU has one "
-        "sound record here and MFPT none, so that conditions counted alike flatter the learner: look at "
-        "all records, and at the tables below. Files that do not say their speed are left out.",
-        "",
-        *_of_tier(gap),
+    gap, made, causes, cores = found["gap"], found["made"], found["causes"], found["cores"]
+    measured = dict.fromkeys(row["name"] for row in gap if row["name"].startswith("measured"))
+    matrices = [
+        next(r for r in gap if r["name"] == name and r["features"] != "all features") for name in measured
     ]
-    for name in dict.fromkeys(row["name"] for row in gap if row["name"].startswith("measured")):
-        row = next(r for r in gap if r["name"] == name and r["features"] != "all features")
-        lines += [f"{name.partition(': ')[2]}, by features that compare a signal with itself:", ""]
-        lines += [_matrix(row).markdown(), ""]
-    return "\n".join([*lines, *_causes(found["causes"]), *_scale(found, made)])
+    values = {
+        "trained": found["trained"],
+        "sweep": TRAINED,
+        "tier": found["tier"],
+        "effects": found["effects"],
+        "chance": 100 * CHANCE,
+        "judged": _gap_table(gap),
+        "gaps": _gaps(gap),
+        "unseen": 100 * next(row for row in gap if row["name"] == "unseen bearings")["balanced"],
+        "tier_matters": _tier_matters(gap),
+        "matrices": [(row["name"].partition(": ")[2], _matrix(row)) for row in matrices],
+        "by_lines": ", ".join(f"{name}: {100 * share:.0f} %" for name, share in causes["lines"].items()),
+        "by_size": ", ".join(
+            f"{100 * share:.0f} % of {count} runs" for count, share in causes["sizes"].items()
+        ),
+        "widths": _widths(causes["widths"]),
+        "made": made,
+        "busy_min": made["worker_s"] / made["processes"] / 60.0,
+        "megabytes": made["bytes_a_run"] / 1e6,
+        "cores": _cores(cores),
+        "efficiency": _efficiency(cores),
+        "slow_s": scale.SLOW_S,
+        "engine": _engine(found["engine"]),
+        "a_run": _a_run(cores[0]),
+        "least_busy": 100 * _least_busy(found),
+        "most_cores": cores[0]["processor_s"] / cores[0]["besides_s"],
+        "paper": _paper(found),
+        "batch": scale.BATCH,
+        "formats": _formats(found["formats"]),
+    }
+    return render(__file__, values)
 
 
-def _causes(causes: dict[str, Any]) -> list[str]:
-    """Say what the errors on unseen bearings come from."""
-    widths = tuple(
+def _widths(widths: list[dict[str, Any]]) -> Table:
+    columns: list[Column] = [
         (
-            f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "sound",
-            str(row["runs"]),
-            f"{100 * row['right']:.0f} %",
-        )
-        for row in causes["widths"]
-    )
-    lines = ", ".join(f"{name}: {100 * share:.0f} %" for name, share in causes["lines"].items())
-    sizes = ", ".join(f"{100 * share:.0f} % of {count} runs" for count, share in causes["sizes"].items())
-    return [
-        "### What the errors come from",
-        "",
-        "The monitor whitens the signal, so that on measured records no loud machine misleads it; on runs "
-        "without one that loses strikes which are louder than they are many. So the learner is given the "
-        "lines of faults in two hearings. Balanced accuracy on unseen bearings with the lines of one of "
-        f"them and of both: {lines}. With fewer runs to learn from: {sizes}. Most of what is left are small "
-        "spalls, under the vibration of track and wheel:",
-        "",
-        Table("", ("width of the spall", "runs", "named right"), widths).markdown(),
-        "",
+            "width of the spall",
+            lambda row: f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "sound",
+        ),
+        ("runs", lambda row: str(row["runs"])),
+        ("named right", lambda row: f"{100 * row['right']:.0f} %"),
     ]
+    return Table.of("", widths, columns)
 
 
-def _gaps(gap: list[dict[str, Any]]) -> list[str]:
+def _gaps(gap: list[dict[str, Any]]) -> Table | None:
     """Tell the gap between simulated and measured: what is lost of the balanced accuracy."""
     collections = dict.fromkeys(row["name"] for row in gap if row["name"].startswith("measured"))
     if not collections:
-        return []
+        return None
     shares = {(row["name"], row["features"]): 100.0 * row["balanced"] for row in gap}
     rows = []
     for kind in FEATURES:
@@ -176,27 +165,13 @@ def _gaps(gap: list[dict[str, Any]]) -> list[str]:
         lost = [f"**{own - shares[name, kind]:.0f} points**" for name in collections]
         rows.append((kind, f"{own:.0f} %", *lost))
     names = [f"gap to {name.partition(': ')[2]}" for name in collections]
-    head = ("features", "unseen simulated bearings", *names)
-    text = (
-        "The gap between simulated and measured is what is lost of the balanced accuracy on the way from "
-        "unseen simulated bearings to measured records; below nothing, measured records are named better."
-    )
-    return [text, "", Table("", head, tuple(rows)).markdown(), ""]
+    return Table("", ("features", "unseen simulated bearings", *names), tuple(rows))
 
 
-def _of_tier(gap: list[dict[str, Any]]) -> list[str]:
-    """Say it where another tier costs more than other speeds."""
+def _tier_matters(gap: list[dict[str, Any]]) -> bool:
+    """Tell whether another tier costs more than other speeds."""
     shares = {row["name"]: row["balanced"] for row in gap if row["features"] == "all features"}
-    if not shares.get("another tier", 1.0) < shares.get("other speeds", 0.0):
-        return []
-    return [
-        "The tier matters as much as the machine: a learner that is trained in one and judged in another "
-        "loses "
-        "more than one that is taken to other speeds. Train in the tier that is as true as what is "
-        "judged; for "
-        "vibration above 1 kHz that is not `lumped`.",
-        "",
-    ]
+    return bool(shares.get("another tier", 1.0) < shares.get("other speeds", 0.0))
 
 
 def _gap_table(gap: list[dict[str, Any]]) -> Table:
@@ -222,101 +197,40 @@ def _matrix(row: dict[str, Any]) -> Table:
     return Table("", ("it is", *(f"named {name}" for name in named)), rows)
 
 
-def _scale(found: dict[str, Any], made: dict[str, Any]) -> list[str]:
-    alone = found["cores"][0]
-    return [
-        "## How fast, how big",
-        "",
-        f"A sweep of {made['runs']} runs of 2 s, {made['failed']} failed, of {made['processes']} "
-        f"processes on {made['cores']} cores, busy with them for "
-        f"{made['worker_s'] / made['processes'] / 60.0:.0f} min each, of a machine that may have had other "
-        f"work; {made['bytes_a_run'] / 1e6:.2f} MB of the disk a run.",
-        "",
-        "Real runs on one and on two processes. *Busy* is the share of a worker's time that it is in a run, "
-        "*besides* what the scheduler and the process that asks take for each run: both are measured as well "
-        "on a machine with other work, where wall times say little.",
-        "",
-        Table(
-            "",
-            (
-                "processes",
-                "runs",
-                "processor time a run",
-                "besides",
-                "busy",
-                "runs an hour of a core",
-                "most memory",
-                "by the clock",
-                "load",
-            ),
-            tuple(
-                (
-                    f"{row['workers']}",
-                    f"{row['runs']}",
-                    f"{row['processor_s']:.3f} s",
-                    f"{row['besides_s']:.3f} s",
-                    f"{100 * row['busy']:.0f} %",
-                    f"{_an_hour(row):.0f}",
-                    f"{row['bytes'] / 1e6:.0f} MB",
-                    f"{row['wall_s']:.0f} s",
-                    f"{row['load']:.0f}" if "load" in row else "-",
-                )
-                for row in found["cores"]
-            ),
-        ).markdown(),
-        "",
-        _efficiency(found["cores"]),
-        "",
-        "The engine by itself, on runs that only wait "
-        f"({scale.SLOW_S:g} s each): what is lost to it, and the memory of the largest process.",
-        "",
-        Table(
-            "",
-            ("workers", "runs", "time", "efficiency", "memory"),
-            tuple(
-                (
-                    f"{row['workers']}",
-                    f"{row['runs']}",
-                    f"{row['wall_s']:.2f} s",
-                    f"{100 * row['efficiency']:.0f} %",
-                    f"{row['bytes'] / 1e6:.0f} MB",
-                )
-                for row in found["engine"]
-            ),
-        ).markdown(),
-        "",
-        "## What more runs would cost",
-        "",
-        f"On paper, from what was measured above: {_a_run(alone):.3f} s of a core a run, with what is "
-        f"besides; workers busy for {100 * _least_busy(found):.0f} % of the time; "
-        f"{made['bytes_a_run'] / 1e6:.2f} MB a run. "
-        "Time is runs x (time a run) / busy / cores, and never less than runs x besides: the scheduler "
-        f"and the process that asks are one each, so that {alone['processor_s'] / alone['besides_s']:.0f} "
-        "cores or so keep them busy with runs as short as these. Slower tiers and longer runs use more "
-        "cores, and so do several sweeps with other seeds. The writing of the set is left out.",
-        "",
-        _paper(found).markdown(),
-        "",
-        f"The vibration of up to 256 runs written in several ways, and {scale.BATCH} of them read at random:",
-        "",
-        Table(
-            "",
-            ("format", "of the raw size", "MB a run", "read"),
-            tuple(
-                (
-                    row["format"],
-                    f"{100 * row['share']:.0f} %",
-                    f"{row['bytes_a_run'] / 1e6:.2f}",
-                    f"{1e3 * row['read_s']:.0f} ms",
-                )
-                for row in found["formats"]
-            ),
-        ).markdown(),
-        "",
-        "Sets are written as Zarr with each run by itself in a file of eight: a run is read alone, a "
-        "file is what a task makes, and a million runs are 125 000 files and not a million.",
-        "",
+def _cores(cores: list[dict[str, Any]]) -> Table:
+    columns: list[Column] = [
+        ("processes", lambda row: f"{row['workers']}"),
+        ("runs", lambda row: f"{row['runs']}"),
+        ("processor time a run", lambda row: f"{row['processor_s']:.3f} s"),
+        ("besides", lambda row: f"{row['besides_s']:.3f} s"),
+        ("busy", lambda row: f"{100 * row['busy']:.0f} %"),
+        ("runs an hour of a core", lambda row: f"{_an_hour(row):.0f}"),
+        ("most memory", lambda row: f"{row['bytes'] / 1e6:.0f} MB"),
+        ("by the clock", lambda row: f"{row['wall_s']:.0f} s"),
+        ("load", lambda row: f"{row['load']:.0f}" if "load" in row else "-"),
     ]
+    return Table.of("", cores, columns)
+
+
+def _engine(engine: list[dict[str, Any]]) -> Table:
+    columns: list[Column] = [
+        ("workers", lambda row: f"{row['workers']}"),
+        ("runs", lambda row: f"{row['runs']}"),
+        ("time", lambda row: f"{row['wall_s']:.2f} s"),
+        ("efficiency", lambda row: f"{100 * row['efficiency']:.0f} %"),
+        ("memory", lambda row: f"{row['bytes'] / 1e6:.0f} MB"),
+    ]
+    return Table.of("", engine, columns)
+
+
+def _formats(formats: list[dict[str, Any]]) -> Table:
+    columns: list[Column] = [
+        ("format", lambda row: row["format"]),
+        ("of the raw size", lambda row: f"{100 * row['share']:.0f} %"),
+        ("MB a run", lambda row: f"{row['bytes_a_run'] / 1e6:.2f}"),
+        ("read", lambda row: f"{1e3 * row['read_s']:.0f} ms"),
+    ]
+    return Table.of("", formats, columns)
 
 
 def _efficiency(rows: list[dict[str, Any]]) -> str:

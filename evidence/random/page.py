@@ -8,33 +8,13 @@ from collections import Counter
 from pathlib import Path
 
 from beardyn_core.physics.tiers.status import SENTENCES, Status
-from evidence.pages import DOCS
+from evidence.pages import DOCS, render
 from evidence.random.book import last_code, results
 from evidence.random.scenes import BEARINGS, KERNELS
 from evidence.random.trial import ENDS, FAILED, REFUSED, VERDICTS, Tried
+from evidence.tables import markdown
 
 PAGE = DOCS / "random.md"
-
-HEAD = """# Random scenes
-
-Written by `python -m evidence.random.page random_runs` from the results of `make random`, which draws legal
-scenes and runs them: any number that the [keys of a scene](reference.md) allow, from their own declarations,
-with a shipped bearing and lubricant, every kind of load, fault, sensor and background, and {kernels} sets
-of effects. Loads go from none to the static rating in any direction, speeds from standing to 6000 rpm either
-way, temperatures from -60 to 200 °C. **A run has to end finite or with a sentence that says why not**; a
-traceback, or a number that is none without being told, is a failure. `make random ARGS="--show fast 17"`
-prints a scene.
-
-**{summary}.**
-
-| verdict | means |
-|---|---|
-{verdicts}
-
-Durations are one to four blocks of 20 ms: what is looked for is a scene that breaks at once, not one that
-drifts. That is the matter of [the hard cases](hard.md). Left out are what `auto` chooses, recordings and
-files as loads or paths, several axleboxes, and wheelsets that bend in the twin.
-"""
 
 
 def main(words: list[str] | None = None) -> None:
@@ -55,37 +35,27 @@ def main(words: list[str] | None = None) -> None:
 def page(every: list[Tried]) -> str:
     """Write the page of some results."""
     tiers = sorted({each.tier for each in every if each.tier})
+    total = Counter(each.verdict for each in every)
     counts = Counter((each.tier, each.verdict) for each in every)
     shown = [verdict for verdict in VERDICTS if any(counts[tier, verdict] for tier in tiers)]
-    total = Counter(each.verdict for each in every)
-    lines = [
-        HEAD.format(
-            kernels=sum(map(len, KERNELS.values())),
-            summary=f"{len(every)} scenes: {', '.join(f'{total[v]} {v}' for v in VERDICTS if total[v])}",
-            verdicts="\n".join(f"| {verdict} | {means} |" for verdict, means in VERDICTS.items()),
-        ),
-        "## By tier",
-        "",
-        f"| tier | scenes | {' | '.join(shown)} | processor time of one |",
-        f"|---|--:|{'--:|' * len(shown)}--:|",
-    ]
+    rows = []
     for tier in tiers:
-        own = [each for each in every if each.tier == tier]
-        middle = sorted(each.seconds for each in own)[len(own) // 2]
-        cells = " | ".join(str(counts[tier, verdict]) for verdict in shown)
-        lines.append(f"| `{tier}` | {len(own)} | {cells} | {1e3 * middle:.0f} ms (median) |")
-    lines += ["", "## Why runs ended or were refused", "", "| sentence | scenes |", "|---|--:|"]
-    ends = Counter(plain(each.says) for each in every if each.verdict in (ENDS, REFUSED))
-    lines += [f"| {sentence} | {count} |" for sentence, count in ends.most_common()]
-    lines += ["", "## What runs that went to their end reported", "", "| status | scenes |", "|---|--:|"]
-    for status, sentence in SENTENCES.items():
-        count = sum(status in Status(each.bits) for each in every if each.verdict not in (ENDS, FAILED))
-        lines += [f"| {sentence} | {count} |"] if count else []
-    failed = [each for each in every if each.verdict == FAILED]
-    if failed:
-        lines += ["", "## What failed", ""]
-        lines += [f"- `{each.speed} {each.number}`: {plain(each.says)}" for each in failed]
-    return "\n".join(lines) + "\n"
+        seconds = sorted(each.seconds for each in every if each.tier == tier)
+        median = f"{1e3 * seconds[len(seconds) // 2]:.0f} ms (median)"
+        rows.append((f"`{tier}`", len(seconds), *(counts[tier, verdict] for verdict in shown), median))
+    finished = [Status(each.bits) for each in every if each.verdict not in (ENDS, FAILED)]
+    values = {
+        "kernels": sum(map(len, KERNELS.values())),
+        "summary": f"{len(every)} scenes: {', '.join(f'{total[v]} {v}' for v in VERDICTS if total[v])}",
+        "verdicts": list(VERDICTS.items()),
+        "tiers": markdown(("tier", "scenes", *shown, "processor time of one"), rows, "lr"),
+        "ends": Counter(plain(each.says) for each in every if each.verdict in (ENDS, REFUSED)).most_common(),
+        "reports": [(sentence, sum(bit in bits for bits in finished)) for bit, sentence in SENTENCES.items()],
+        "failed": [
+            (f"{each.speed} {each.number}", plain(each.says)) for each in every if each.verdict == FAILED
+        ],
+    }
+    return render(__file__, values)
 
 
 def plain(sentence: str) -> str:

@@ -55,7 +55,7 @@ def test_right_effects_and_standard_stand_side_by_side() -> None:
         told: dict[str, Any] = json.loads(json_text("trial", json_object(TrialResult.of(trial, "", runs))))
         return told
 
-    section = "\n".join(beside_standard(found(3e-3), found(1.0)))
+    section = beside_standard(found(3e-3), found(1.0))
     assert "| all | 18/27, 66.7 % (46 to 83.5) | 0/27, 0 % (0 to 12.8) |" in section
     page = with_section_of("# Trial\n\n## The monitor\n\nabout\n", section)
     assert with_old_sections("# Trial\n\n## The monitor\n\nabout\n", page) == page
