@@ -63,8 +63,8 @@ def run(args: argparse.Namespace) -> int:
         bearing = load_bearing(args.bearing)
 
     from beardyn_core.base.jit import when_compiling
+    from beardyn_core.laboratory.contacts_report import json_object, report
     from beardyn_core.laboratory.findings import find
-    from beardyn_core.study.contacts_report import json_object, report
 
     def say(what: str) -> None:
         print(f"beardyn: {what}", file=sys.stderr)
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
     result = json_object(found)
     print(json_text("contacts", result) if args.json else report(found), flush=True)
     if args.output is not None:
-        from beardyn_core.study.contacts_picture import write_pictures
+        from beardyn_core.laboratory.contacts_picture import write_pictures
 
         with made_folder(args.output):
             write_whole(
@@ -86,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
             )
             write_pictures(found, args.output, replace=args.force)
     if args.rrd is not None:
-        from beardyn_core.record.rerun_rolling import save_rolling
+        from beardyn_core.laboratory.rerun_rolling import save_rolling
 
         say(f"{save_rolling(found.rolling, args.rrd, replace=args.force)}: open it with: rerun {args.rrd}")
     return DONE

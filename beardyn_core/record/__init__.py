@@ -42,7 +42,6 @@ rerun_plots       curves beside it, and the envelope spectrum
 rerun_follower    what a follower says over time, heard beside twin
 rerun_view        a whole recording with its blueprint; where it goes: a window, a page, a file
 rerun_live        a running twin, fed with messages
-rerun_rolling     coin and roller of the contact laboratory as an animation
 rerun_modes       modes of an axlebox in motion
 viewer            the rerun program: window, web page, picture without a screen
 ================= =============================================================================

@@ -23,7 +23,5 @@ ladder_result       errors of a level with the scatter between runs; levels that
 ladder_report       a ladder as table and JSON
 ladder_picture      accuracy against wall time in one picture
 table               tables for the terminal and for pages, numbers in few digits
-contacts_report     results of the contact laboratory as tables and as JSON
-contacts_picture    pictures of the contact laboratory
 =================== =============================================================================
 """

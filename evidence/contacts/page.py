@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.study.contacts_report import TWIN_EVALUATIONS
+from beardyn_core.laboratory.contacts_report import TWIN_EVALUATIONS
 from beardyn_core.study.table import Table, digits, duration_text
 from evidence.pages import DOCS, render, save_small
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from beardyn_core.laboratory.rerun_rolling import contact_points, save_rolling
 from beardyn_core.laboratory.rolling import COIN, GRAVITY, ROLLER, RollingBody, Trough, run_rolling
-from beardyn_core.record.rerun_rolling import contact_points, save_rolling
 
 HALF = 0.75  # to the turning point and a little beyond, [s]
 
