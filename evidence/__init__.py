@@ -27,6 +27,7 @@ ros         the ROS graph with nodes killed, starved and fed nonsense; what each
 standard    shipped scenes with the standard effects
 pages       pages from templates and numbers; where pages and pictures go, and how pictures are made small
 tables      tables in Markdown
+runner      results in files: what is there is not worked out again
 stamps      which command and which code each picture is of
 =========== ======================================================================================
 

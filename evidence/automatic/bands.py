@@ -15,7 +15,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
-from evidence.pages import DOCS, with_section
+from evidence.pages import DOCS, write_section
 
 SCENES = ("smooth_run", "healthy_80", "healthy_140", "healthy_300", "freight_100", "wheel_flat", "cup_spall")
 TIERS = {"quasistatic": 5000.0, "lumped": 1000.0}  # and to which frequency vibration is asked for [Hz]
@@ -68,7 +68,7 @@ def main() -> None:
     ranges = " | ".join(f"{low:g} to {high:g} Hz" for low, high in shown)
     head = HEAD.format(seconds=SECONDS - SETTLING, ranges=ranges, rules="|".join(["--:"] * len(shown)))
     text = TITLE + head + "\n".join(rows) + "\n\n"
-    PAGE.write_text(with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT), encoding="utf-8")
+    write_section(PAGE, TITLE, text, NEXT)
 
 
 if __name__ == "__main__":

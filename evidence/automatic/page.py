@@ -38,6 +38,7 @@ from beardyn_core.study.ladder_report import error_text
 from beardyn_core.study.ladder_result import Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import NOMINAL_BANDS, UNITS
 from evidence.pages import DOCS, write_page
+from evidence.runner import kept_json
 from evidence.standard import standard_scene
 
 FORCES = ("force", "deflection", "roller_load")
@@ -192,7 +193,6 @@ class Kept:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        folder.mkdir(parents=True, exist_ok=True)
 
     def cases(self, name: str, longer: int = 1) -> list[dict[str, Any]]:
         """Give the cases of a scene, those that are open from a longer run; run what is not there yet."""
@@ -211,10 +211,7 @@ class Kept:
     def _read(
         self, path: Path, scene: Scene, choices: Sequence[Choice], chosen: Sequence[int], longer: int
     ) -> list[dict[str, Any]]:
-        if not path.exists():
-            found = tried(scene, choices, chosen, longer)
-            path.write_text(json.dumps(found, indent=1), encoding="utf-8")
-        return list(json.loads(path.read_text(encoding="utf-8")))
+        return list(kept_json(path, lambda: tried(scene, choices, chosen, longer)))
 
 
 def digest_of(scene: Scene, choices: Sequence[Choice]) -> str:

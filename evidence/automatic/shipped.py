@@ -14,27 +14,11 @@ from beardyn_core.choice.rule import Choice, error_text
 from beardyn_core.config import shipped_names
 from beardyn_core.config.automatic import AUTO
 from beardyn_core.config.load import read_scene
-from evidence.pages import DOCS
+from evidence.pages import DOCS, write_page
 from evidence.standard import standard_effects
 
 PAGE = DOCS / "choices.md"
 _NOTABLE = 1e-3  # smaller errors are not written, whatever their unit
-
-HEAD = """# What the automatic choice takes for every shipped scene
-
-Written by `python -m evidence.automatic.shipped`; nothing is run. Asked for: force, deflection, largest
-roller load and torque within 5 %, third octaves to 10 kHz within 1.5 dB. *Chosen*: tier, laminae x steps for
-each sample of 25.6 kHz, and what is off, or cheaper than in `full`. Errors are those that
-[the rules](effects_auto.md) expect against every effect, bold beyond what is asked for. Real-time factors are
-those expected on the machine of the costs ({machine}, {date}), of one box where a scene
-has several. A scene that names no effects runs as its row says where the tier in it is `full` or
-the one that its file names (`bogie`: `lumped`, hence errors beyond what is asked for); another tier is
-taken with `tier: auto` only. The last two columns are of the same scene with the effects that its file names,
-else with `standard`.
-
-| scene | chosen | largest difference | times real time | named, else `standard`: errors | times real time |
-|---|---|---|--:|---|--:|
-"""
 
 
 def row(name: str) -> str:
@@ -82,8 +66,7 @@ def main() -> None:
         rows.append(row(name))
         print(rows[-1], flush=True)
     costs = measured_costs()
-    head = HEAD.format(machine=costs.machine, date=costs.date)
-    arguments.to.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+    write_page(__file__, arguments.to, {"machine": costs.machine, "date": costs.date, "rows": rows})
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import beardyn_core as bd
 from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.config import load_effects
 from beardyn_core.sensors.summary import RunSummary
-from evidence.pages import DOCS, with_section
+from evidence.pages import DOCS, write_section
 
 SCENES = (
     *("healthy_80", "smooth_run", "healthy_300", "freight_100", "service_metro", "light_coasting"),
@@ -93,7 +93,7 @@ def main() -> None:
         rows.append(row(name, found(name)))
         print(rows[-1], flush=True)
     text = TITLE + ABOUT.format(seconds=SECONDS) + "\n".join(rows) + "\n\n"
-    PAGE.write_text(with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT), encoding="utf-8")
+    write_section(PAGE, TITLE, text, NEXT)
 
 
 if __name__ == "__main__":

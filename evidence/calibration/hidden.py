@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
@@ -14,6 +13,7 @@ from beardyn_core.base.edge import written
 from beardyn_core.base.plain_json import plain
 from beardyn_core.calibration.unknowns import UNKNOWNS
 from beardyn_core.cli.calibrate import json_object
+from evidence.runner import kept_json
 
 BASE = "service_high_speed"
 SECONDS = 5.0
@@ -67,12 +67,14 @@ def found_of(box: Hidden, folder: Path) -> dict[str, Any]:
     recording, result = folder / f"{box.name}.mcap", folder / f"{box.name}.json"
     if not recording.exists():
         play(box, recording)
-    if not result.exists():
+
+    def calibrated() -> Any:
         found = calibrate(
             recording, BASE, folder / f"{box.name}.yaml", budget=BUDGET, progress=True, force=True
         )
-        result.write_text(json.dumps(plain(json_object(found)), indent=1), encoding="utf-8")
-    told: dict[str, Any] = json.loads(result.read_text(encoding="utf-8"))
+        return plain(json_object(found))
+
+    told: dict[str, Any] = kept_json(result, calibrated)
     return told
 
 

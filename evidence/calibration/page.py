@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from evidence.calibration.hidden import BOXES, Hidden, found_of, rows
-from evidence.pages import DOCS
+from evidence.pages import DOCS, render, replace_between
 
 PAGE = DOCS / "estimate.md"
 BEGIN, END = "<!-- evidence.calibration.page -->\n", "<!-- end of evidence.calibration.page -->\n"
@@ -19,34 +19,30 @@ BEGIN, END = "<!-- evidence.calibration.page -->\n", "<!-- end of evidence.calib
 
 def table(results: dict[Hidden, dict[str, Any]]) -> str:
     """Write the tables."""
-    lines = [
-        "| box | number | truth | fitted | 90 % interval | interval over range |",
-        "|---|---|--:|--:|---|--:|",
-        *(line for box, found in results.items() for line in rows(box, found)),
-        "",
-        "| box | heard less twin before | after | twins |",
-        "|---|--:|--:|--:|",
-        *(
-            f"| {box.name} | {found['residual_before_dB']:.1f} dB | {found['residual_after_dB']:.1f} dB | "
-            f"{found['twins']} |"
-            for box, found in results.items()
-        ),
-        "",
-    ]
     told = [(box, each) for box, found in results.items() for each in found["unknowns"]]
     fitted = [(box, each) for box, each in told if not each["reason"]]
     inside = sum(e["interval_90"][0] <= getattr(box, e["name"]) <= e["interval_90"][1] for box, e in fitted)
-    lines.append(
-        f"Of {len(fitted)} intervals of 90 % of fitted numbers {inside} hold the truth; "
-        f"{len(told) - len(fitted)} of all numbers were called not determined and left."
-    )
-    return "\n".join(lines) + "\n"
+    values = {
+        "numbers": [line for box, found in results.items() for line in rows(box, found)],
+        "residuals": [
+            (
+                box.name,
+                f"{found['residual_before_dB']:.1f} dB",
+                f"{found['residual_after_dB']:.1f} dB",
+                found["twins"],
+            )
+            for box, found in results.items()
+        ],
+        "fitted": len(fitted),
+        "inside": inside,
+        "left": len(told) - len(fitted),
+    }
+    return render(__file__, values)
 
 
 def with_table(page: str, text: str) -> str:
     """Put tables in the place of those of the page."""
-    start, end = page.index(BEGIN) + len(BEGIN), page.index(END)
-    return page[:start] + "\n" + text + "\n" + page[end:]
+    return replace_between(page, BEGIN, END, f"\n{text}\n")
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -8,7 +8,6 @@ Santos (2017) on the page stays as it is.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 from beardyn_core.laboratory.contacts_report import TWIN_EVALUATIONS
 from beardyn_core.study.table import Table, digits, duration_text
 from evidence.pages import DOCS, render, save_small
+from evidence.runner import read_json
 
 PICTURES = ("contacts_nine.png", "contacts_sphere.png", "contacts_rolling.png", "contacts_barrel.png")
 COLOURS = 64
@@ -73,7 +73,7 @@ def main() -> None:
     source = arguments.folder / "contacts.json"
     if not source.exists():
         sys.exit(f"{source} does not exist: run `beardyn contacts -o {arguments.folder}` first")
-    found = json.loads(source.read_text(encoding="utf-8"))
+    found = read_json(source)
     pictures = arguments.to / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     for name in PICTURES:

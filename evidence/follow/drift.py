@@ -30,7 +30,9 @@ from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
-from evidence.pages import DOCS, with_section
+from beardyn_core.experiments.code_digest import simulator_digest
+from evidence.pages import DOCS, write_section
+from evidence.runner import kept_arrays
 
 PAGE = DOCS / "estimate.md"
 TITLE, NEXT = "## Drifts\n", "## What remains\n"
@@ -126,15 +128,11 @@ def digest_of(pieces: Sequence[Piece], estimator: Estimator) -> str:
 def rows_of(name: str, pieces: Sequence[Piece], estimator: Estimator, kept: Path | None) -> list[Float]:
     """Simulate a drift, or take what an earlier go has kept of it."""
     path = None if kept is None else kept / f"{name.replace(' ', '_')}-{digest_of(pieces, estimator)}.npz"
-    if path is not None and path.is_file():
-        with np.load(path) as found:
-            return [found[f"piece_{k}"] for k in range(len(pieces))]
-    rows = [heard_of(each, estimator) for each in pieces]
-    if path is not None:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        named: dict[str, Any] = {f"piece_{k}": each for k, each in enumerate(rows)}
-        np.savez(path, **named)
-    return rows
+    names = [f"piece_{k}" for k in range(len(pieces))]
+    found = kept_arrays(
+        path, lambda: {each: heard_of(piece, estimator) for each, piece in zip(names, pieces, strict=True)}
+    )
+    return [found[each] for each in names]
 
 
 def followed(pieces: Sequence[Piece], rows: Sequence[Float], estimator: Estimator) -> list[list[Followed]]:
@@ -235,8 +233,7 @@ def main(argv: list[str] | None = None) -> int:
         rows += of_drift
         growth = false_growth(found)  # of the last one, which is sound
         print("\n".join(of_drift), flush=True)
-    page = with_section(PAGE.read_text(encoding="utf-8"), TITLE, section(rows, growth), NEXT)
-    PAGE.write_text(page, encoding="utf-8")
+    write_section(PAGE, TITLE, section(rows, growth), NEXT)
     return 0
 
 

@@ -33,7 +33,7 @@ from beardyn_core.follow.labelled import (
 from beardyn_core.follow.learning import trained
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.population.labelled_set import TRAIN, VALIDATION, LabelledSet
-from evidence.pages import DOCS, with_section
+from evidence.pages import DOCS, write_section
 
 PAGE = DOCS / "estimate.md"
 TITLE, NEXT = "## By size, speed, noise and box\n", "## Following a bearing\n"
@@ -173,8 +173,7 @@ def main(argv: list[str] | None = None) -> int:
         found, classes_of(drawn, np.all(within, axis=0)), len(train.runs_of(TRAIN)), len(unseen.bearings)
     )
     print(text)
-    page = with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT)
-    PAGE.write_text(page, encoding="utf-8")
+    write_section(PAGE, TITLE, text, NEXT)
     return 0
 
 

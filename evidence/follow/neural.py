@@ -34,7 +34,7 @@ from beardyn_core.follow.learning import known
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.follow.judged import SHOWN, judged
-from evidence.pages import DOCS, with_section
+from evidence.pages import DOCS, write_section
 
 PAGE = DOCS / "estimate.md"
 TITLE, NEXT = "## Beside a neural posterior\n", "## Following a bearing\n"
@@ -158,7 +158,7 @@ def main(argv: list[str] | None = None) -> int:
     }
     text = section(ours, flows, time.perf_counter() - began)
     print(text)
-    PAGE.write_text(with_section(PAGE.read_text(encoding="utf-8"), TITLE, text, NEXT), encoding="utf-8")
+    write_section(PAGE, TITLE, text, NEXT)
     return 0
 
 

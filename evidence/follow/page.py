@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import beardyn_core as bd
 from evidence.follow.demo import BESIDE, draw, played, table
-from evidence.pages import DOCS, PICTURES, save_small
+from evidence.pages import DOCS, PICTURES, replace_between, save_small
 
 PAGE, PICTURE = DOCS / "estimate.md", PICTURES / "follow.png"
 BEFORE, AFTER = "ended with\n\n```text\n", "\n```\n\nand draws this"
@@ -13,8 +13,7 @@ COLOURS = 64
 
 def with_table(page: str, written: str) -> str:
     """Put a table of truth and estimates in the place of that of the page."""
-    start, end = page.index(BEFORE) + len(BEFORE), page.index(AFTER)
-    return page[:start] + written + page[end:]
+    return replace_between(page, BEFORE, AFTER, written)
 
 
 def main() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from evidence.hard.report import cells, outcome_from
 from evidence.hard.run import STARTS, WITHOUT_STARTS
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
 from evidence.pages import DOCS, render
+from evidence.runner import read_json
 
 PAGE = DOCS / "hard.md"
 
@@ -25,7 +25,7 @@ def main() -> None:
     parser.add_argument(
         "numbers", type=Path, nargs="+", metavar="JSON", help="one run, or parts of it; of a case the last"
     )
-    parts = [json.loads(path.read_text(encoding="utf-8")) for path in parser.parse_args().numbers]
+    parts = [read_json(path) for path in parser.parse_args().numbers]
     PAGE.write_text(page(joined(parts)), encoding="utf-8")
 
 

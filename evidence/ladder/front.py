@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from evidence.pages import DOCS
+from evidence.pages import DOCS, replace_between
 
 README = DOCS.parent / "README.md"
 SCENE = "service_high_speed"
@@ -45,8 +45,7 @@ def front(ladder: str) -> str:
 
 def renewed(readme: str, ladder: str) -> str:
     """Put the front of a page of the ladder into the text of README.md."""
-    start, end = readme.index(BEGIN) + len(BEGIN), readme.index(END)
-    return f"{readme[:start]}\n{front(ladder)}\n{readme[end:]}"
+    return replace_between(readme, BEGIN, END, f"\n{front(ladder)}\n")
 
 
 def main(ladder: Path = DOCS / "ladder.md") -> None:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from evidence.measured.cases import CWRU_12_DRIVE, SETS, Record, listenings, rec
 from evidence.measured.grades import MEANINGS
 from evidence.measured.run import METHODS, Heard, outcomes, verdicts_of
 from evidence.pages import DOCS, render
+from evidence.runner import KeptResults
 
 PAGE = DOCS / "monitor_measured.md"
 PARTS = ("cup", "cone", "roller")
@@ -40,21 +41,14 @@ def hear(
     chosen: Sequence[Record], results: Path | None, tell: Callable[[str], object] = lambda sentence: None
 ) -> list[Heard]:
     """Let every method hear every bearing, except what is in the results already; keep them as they come."""
-    kept = json.loads(results.read_text(encoding="utf-8")) if results and results.exists() else []
-    known = {(each["group"], each["name"], each["end"], each["method"]): each["verdicts"] for each in kept}
-    heard = []
+    kept, heard = KeptResults(results), []
     for record in chosen:
         tell(f"{record.group} {record.name}")
         for listening in listenings(record):
             for method, algorithm in METHODS.items():
-                key = (record.group, record.name, listening.end, method)
-                if key not in known:
-                    known[key] = verdicts_of(listening, algorithm)
-                    kept.append(dict(zip(("group", "name", "end", "method"), key, strict=True)))
-                    kept[-1]["verdicts"] = known[key]
-                    if results:
-                        results.write_text(json.dumps(kept), encoding="utf-8")
-                heard.append(Heard(record, listening.end, listening.part, method, known[key]))
+                key = " | ".join((record.group, record.name, listening.end, method))
+                verdicts = kept.get(key, partial(verdicts_of, listening, algorithm))
+                heard.append(Heard(record, listening.end, listening.part, method, verdicts))
     return heard
 
 

@@ -19,7 +19,8 @@ from scipy.stats import spearmanr
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.trend import ALARM, Trend, TrendSettings, record_levels
-from evidence.pages import DOCS
+from evidence.pages import DOCS, render
+from evidence.runner import Arrays, kept_arrays
 
 PAGE = DOCS / "run_to_failure.md"
 SETS = ("Learning_set", "Full_Test_Set")
@@ -75,20 +76,16 @@ def read_record(path: Path) -> Float:
 
 def levels_of_run(folder: Path, kept: Path | None) -> Levels:
     """Compute the levels of all records of a run, or take them from where an earlier go has kept them."""
-    path = None if kept is None else kept / f"{folder.name}.npz"
-    if path is not None and path.is_file():
-        with np.load(path) as found:
-            return Levels(found["bands"], found["rms"])
-    bands, rms = [], []
-    for file in sorted(folder.glob("acc_*.csv")):
-        record = read_record(file)
-        bands.append(record_levels(record, RATE))
-        rms.append(10.0 * np.log10(np.maximum(record.var(axis=0), 1e-12)))
-    levels = Levels(np.array(bands), np.array(rms))
-    if path is not None:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        np.savez(path, bands=levels.bands, rms=levels.rms)
-    return levels
+
+    def measured() -> Arrays:
+        bands, rms = [], []
+        for file in sorted(folder.glob("acc_*.csv")):
+            record = read_record(file)
+            bands.append(record_levels(record, RATE))
+            rms.append(10.0 * np.log10(np.maximum(record.var(axis=0), 1e-12)))
+        return {"bands": np.array(bands), "rms": np.array(rms)}
+
+    return Levels(**kept_arrays(None if kept is None else kept / f"{folder.name}.npz", measured))
 
 
 def by_trend(levels: Levels) -> Judged:
@@ -167,107 +164,54 @@ def page(found: dict[str, dict[str, Found]]) -> str:
     every = [each for runs in found.values() for each in runs.values()]
     settings = TrendSettings()
     runs, records, deviation = _SYNTHETIC
-    lines = [
-        "# Runs to failure",
-        "",
-        "Written by `python -m evidence.measured.run_to_failure --pronostia DIR`. PRONOSTIA "
-        "(Nectoux and others "
-        "2012, IEEE PHM Denver): ball bearings under overload, run until the vibration passed 20 g; a record "
-        "of a tenth of a second every ten seconds, two axes at 25.6 kHz. The data are public and not in this "
-        "repository. The settings of `beardyn monitor --trend` are round numbers; two others were tried, "
-        "too, on all runs, and the first were kept, so neither set is unseen. No parameter belongs to a run.",
-        "",
-        f"The trend compares the levels of {len(settings.edges) - 1} bands of each axis, medians of "
-        f"{settings.smooth} records, with a baseline of {settings.baseline} records that may fall "
-        "and never rise. "
-        f"Two levels {settings.rise:g} dB and {settings.scatter:g} standard deviations over it "
-        "are an alarm, which "
-        f"ends when {settings.release} records in a row have had no cause for it. Beside it: the "
-        "rms of an axis "
-        f"{RMS_RISE:g} dB over the median of the first {settings.baseline} records, record by record.",
-        "",
-        "*First*: share of the run at the first alarm, and the minutes that were left. *Stays*: "
-        "share of the run "
-        "from which on the alarm stays to the end. *In alarm*: share of all records.",
-        "",
-    ]
-    for name, each in found.items():
-        lines += [
-            f"## {name.replace('_', ' ')}",
-            "",
-            "| run | records | first | left min | stays from | in alarm | rms: first | rms: stays from |",
-            "|---|--:|--:|--:|--:|--:|--:|--:|",
-        ]
-        for run, (count, trend, rms, _) in each.items():
-            left = "-" if trend.first is None else f"{(count - trend.first) * EVERY_S / 60.0:.0f}"
-            lines.append(
-                f"| {run} | {count} | {_share(trend.first, count)} | {left} | {_share(trend.stays, count)} | "
-                f"{100.0 * trend.share:.0f} % | {_share(rms.first, count)} | {_share(rms.stays, count)} |"
-            )
-        lines.append("")
-    stay = sum(each.trend.stays is not None for each in every)
-    rms_stay = sum(each.rms.stays is not None for each in every)
-    broken = sum(each.trend.first != each.trend.stays for each in every)
-    lines += _growth(found)
-    lines += [
-        "## What it says, and what not",
-        "",
-        f"- The trend is in alarm at the end of {stay} of {len(every)} runs, the rms alone of {rms_stay}. In "
-        f"{broken} runs an earlier alarm had ended again: the vibration had come back to where it "
-        "was. Whether "
-        "the bearing was sound then is not known, so these are no counted false alarms, and no hits.",
-        f"- In {runs} synthetic runs of {records} records with steady levels that scatter by "
-        f"{deviation:g} dB "
-        f"there were {synthetic_alarms()} alarms. A real healthy machine whose load changes is not that.",
-        "- Some of these bearings fail within minutes; no alarm of a level can come earlier than the change.",
-        "- It names no part: three revolutions in a record are too few for fault lines.",
-        "- The first records are taken as sound. A bearing that is worn when the watch begins "
-        "shows only what is "
-        "added.",
-        "",
-    ]
-    return "\n".join(lines)
+    alarmed = [each.grown.alarmed for each in every if np.isfinite(each.grown.alarmed)]
+    values = {
+        "settings": settings,
+        "bands": len(settings.edges) - 1,
+        "rms_rise": RMS_RISE,
+        "sets": [
+            (name.replace("_", " "), [_row(run, of_run) for run, of_run in each.items()])
+            for name, each in found.items()
+        ],
+        "growth": [_growth_row(run, each.grown) for own in found.values() for run, each in own.items()],
+        "steady": _STEADY,
+        "quarter": sum(each.grown.quarter >= _STEADY for each in every),
+        "tenth": sum(each.grown.tenth >= _STEADY for each in every),
+        "steady_in_alarm": sum(each >= _STEADY for each in alarmed),
+        "alarmed": len(alarmed),
+        "fewest": _FEWEST,
+        "count": len(every),
+        "stay": sum(each.trend.stays is not None for each in every),
+        "rms_stay": sum(each.rms.stays is not None for each in every),
+        "broken": sum(each.trend.first != each.trend.stays for each in every),
+        "synthetic_runs": runs,
+        "synthetic_records": records,
+        "deviation": deviation,
+        "synthetic_alarms": synthetic_alarms(),
+    }
+    return render(__file__, values)
 
 
-def _growth(found: dict[str, dict[str, Found]]) -> list[str]:
-    """Write how steadily the added energy grows."""
-    every = [each.grown for runs in found.values() for each in runs.values()]
-    tenth, quarter = (sum(getattr(each, name) >= _STEADY for each in every) for name in ("tenth", "quarter"))
-    alarmed = [each.alarmed for each in every if np.isfinite(each.alarmed)]
-    settings = TrendSettings()
-    lines = [
-        "## Does it grow with the damage?",
-        "",
-        "Nobody measured the spalls of these bearings, and beardyn does not either: entry and exit of a "
-        "roller (`beardyn_core.monitor.severity`) are told apart for rollers from 15 mm on and in 40 "
-        "passages; these balls have 3.5 mm and pass some 17 times in a record. What stands for the size here "
-        "is the **added energy**: power of all bands over that of the first "
-        f"{settings.baseline} records, in sum, over the power of those, median of {settings.smooth} records. "
-        "It tells that damage grows, not how wide it is. In the table Spearman's rank correlation with time: "
-        "1 where it only grows, 0 without direction, negative where it falls; *back*: largest step back from "
-        "an earlier peak in the last tenth of the run.",
-        "",
-        "| run | last quarter | last tenth | while the alarm stays | back dB | at the end dB |",
-        "|---|--:|--:|--:|--:|--:|",
-    ]
-    for runs in found.values():
-        for run, each in runs.items():
-            now = each.grown
-            told = "-" if np.isnan(now.alarmed) else f"{now.alarmed:.2f}"
-            lines.append(
-                f"| {run} | {now.quarter:.2f} | {now.tenth:.2f} | {told} | {now.fall:.1f} | {now.end:.1f} |"
-            )
-    steady = sum(each >= _STEADY for each in alarmed)
-    return [
-        *lines,
-        "",
-        f"From {_STEADY:g} on, a round number, growth is called steady here: in the last quarter of "
-        f"{quarter} of {len(every)} runs, in the last tenth of {tenth}, and while the alarm stays in {steady}"
-        f" of the {len(alarmed)} that have {_FEWEST} records of it. In the others the level stays until the "
-        "last records, or falls again before the end: it is no width, and a width proxy that is monotone "
-        "towards the end of every run is not shown.",
-        "",
-    ]
+def _row(run: str, found: Found) -> tuple[str, ...]:
+    """List the cells of a run."""
+    count, trend, rms, _ = found
+    left = "-" if trend.first is None else f"{(count - trend.first) * EVERY_S / 60.0:.0f}"
+    return (
+        run,
+        f"{count}",
+        _share(trend.first, count),
+        left,
+        _share(trend.stays, count),
+        f"{100.0 * trend.share:.0f} %",
+        _share(rms.first, count),
+        _share(rms.stays, count),
+    )
+
+
+def _growth_row(run: str, now: Grown) -> tuple[str, ...]:
+    """List how steadily the added energy of a run grows."""
+    told = "-" if np.isnan(now.alarmed) else f"{now.alarmed:.2f}"
+    return run, f"{now.quarter:.2f}", f"{now.tenth:.2f}", told, f"{now.fall:.1f}", f"{now.end:.1f}"
 
 
 def _share(record: int | None, count: int) -> str:

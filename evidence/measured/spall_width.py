@@ -15,12 +15,14 @@ import beardyn_core as bd
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.severity import Severity, severity_of
 from beardyn_core.scene.defect import Patch
-from evidence.pages import DOCS
+from evidence.pages import DOCS, render
+from evidence.tables import markdown
 
 PAGE = DOCS / "spall_width.md"
 WIDTHS_MM = (0.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 12.0)
 PARTS = ("cup", "cone")
 SECONDS = 1.2
+ASKED_FROM = 3e-3  # widths that should be measurable, [m]
 
 
 def measured(width_mm: float, on: str, tier: str, seed: int) -> Severity:
@@ -38,54 +40,32 @@ def measured(width_mm: float, on: str, tier: str, seed: int) -> Severity:
 
 def page(found: dict[tuple[str, float], list[Severity]], tier: str) -> str:
     """Write the page of what was measured, by part and width in mm, a measurement a seed."""
-    lines = [
-        "# Widths of spalls",
-        "",
-        "Written by `python -m evidence.measured.spall_width`: `service_high_speed_cup` (200 "
-        "km/h, a box that rings, "
-        f"background of a driven axle, sensor by data sheet), tier `{tier}`, {SECONDS:g} s each, "
-        "a seed a column; the "
-        "spall 25 mm long on cup or cone. *-*: not measurable, which is the answer where no second event is "
-        "clear. The line of the fault is taken as known, and 0 mm is a sound bearing.",
-        "",
-    ]
     seeds = max(len(each) for each in found.values())
-    lines += [
-        "| part | width mm | " + " | ".join(f"found, interval {k + 1}" for k in range(seeds)) + " |",
-        "|---|--:|" + "---|" * seeds,
-    ]
-    right = counted = asked = false = 0
-    errors = []
-    for (on, width), several in found.items():
-        cells = []
-        for each in several:
-            asked += width >= 3.0
-            if isnan(each.width):
-                cells.append("-")
-                continue
-            cells.append(f"{1e3 * each.width:.1f} ({1e3 * each.low:.1f} to {1e3 * each.high:.1f})")
-            if width:
-                counted += 1
-                right += each.low <= 1e-3 * width <= each.high
-                errors.append(abs(1e3 * each.width - width))
-            else:
-                false += 1
-        lines.append(f"| {on} | {width:g} | " + " | ".join(cells) + " |")
-    lines += [
-        "",
-        f"Of {counted} measured widths {right} lie within their interval, which says 95 %; the error is "
-        f"{np.median(errors):.2f} mm in the median and {max(errors):.2f} mm at most. Of {asked} "
-        "spalls from 3 mm on "
-        f"{asked - sum(not isnan(e.width) for (_, w), s in found.items() if w >= 3.0 for e in s)} "
-        "were not measurable; "
-        f"of sound bearings {false} were given a width.",
-        "",
-        "The relation of way and width comes from runs of the same twin in the tier `full` "
-        "([impact.md](impact.md)), "
-        "so this shows what the signal processing loses, and not what a train does.",
-        "",
-    ]  # fmt: skip
-    return "\n".join(lines)
+    head = ("part", "width mm", *(f"found, interval {k + 1}" for k in range(seeds)))
+    rows = [(on, f"{width:g}", *map(_cell, several)) for (on, width), several in found.items()]
+    every = [(1e-3 * width, each) for (_, width), several in found.items() for each in several]
+    spalls = [(width, each) for width, each in every if width and not isnan(each.width)]
+    errors = [1e3 * abs(each.width - width) for width, each in spalls]
+    asked = [each for width, each in every if width >= ASKED_FROM]
+    values = {
+        "tier": tier,
+        "seconds": SECONDS,
+        "found": markdown(head, rows, f"lr{'l' * seeds}"),
+        "counted": len(spalls),
+        "right": sum(each.low <= width <= each.high for width, each in spalls),
+        "median": np.median(errors),
+        "largest": max(errors),
+        "asked": len(asked),
+        "missed": sum(isnan(each.width) for each in asked),
+        "false_widths": sum(not width and not isnan(each.width) for width, each in every),
+    }
+    return render(__file__, values)
+
+
+def _cell(found: Severity) -> str:
+    if isnan(found.width):
+        return "-"
+    return f"{1e3 * found.width:.1f} ({1e3 * found.low:.1f} to {1e3 * found.high:.1f})"
 
 
 def main() -> None:

@@ -8,11 +8,11 @@ MFPT and HIT-SM. One analysis of up to 60 revolutions for each record and each a
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +21,9 @@ from beardyn_core.bearing.kinematics import FaultFrequencies, frequencies
 from beardyn_core.config import load_plate
 from beardyn_core.measured.stated_speed import UNCERTAINTY
 from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
-from evidence.measured.cases import DRIVE, FAN, HIT, MFPT, PLATES, Listening, listenings, records
-from evidence.pages import DOCS
+from evidence.measured.cases import DRIVE, FAN, HIT, MFPT, PLATES, Listening, Record, listenings, records
+from evidence.pages import DOCS, render
+from evidence.runner import KeptResults
 
 PAGE = DOCS / "monitor_wrong_inputs.md"
 ERRORS = tuple(range(-8, 9))  # of the stated speed, [%]
@@ -35,49 +36,8 @@ BEARINGS = {
     "6206": (9, 9.525, 46.0),
 }
 ANSWERS = ("right", "unexplained", "not_diagnosable", "another part", "healthy")
+HEALTHY_CASES = ("in a healthy machine", "next to a faulty one", "next to a faulty one, named")
 ROW_ANSWERS = {"not_diagnosable": "not diagnosable"}
-
-HEAD = """# The monitor given a wrong speed or a wrong bearing
-
-Written by `python -m evidence.measured.wrong_inputs --cwru DIR --mfpt DIR --hit DIR` from public
-recordings that are not part of this repository: {counts}. Faulty ones are those that are clearly so:
-grades Y1 and Y2 of Smith and Randall, all of MFPT (without its baselines) and of HIT-SM. One analysis of
-up to 60 revolutions for each record and row. A speed that is stated, not counted by a tachometer, is
-uncertain by {uncertain:.0f} %, as `beardyn monitor` takes it.
-
-`unexplained`: strikes that fit no part at the stated speed, with their order and what would explain them.
-`not diagnosable`: such strikes, but weak enough to come from a bearing next to this one.
-
-## Wrong speeds
-
-| stated speed is off by | {answers} |
-|---|{bars}
-"""
-BEARINGS_HEAD = """
-## Wrong bearings, the speed is right
-
-Three neighbours of the bearing: of 6205 those without itself, of `NICE` 6203, 6204 and 6205. The orders
-of 6206 are within 0.5 % (cup) and 2.4 % (rolling elements) of those of 6205, so that its answers may be
-right.
-
-| stated bearing | {answers} |
-|---|{bars}
-"""
-TOTAL = """
-## All rows above
-
-{total} answers on {records} records, {never} of which are healthy at the right speed, too ({names}):
-their faults are not found by any setting here. Of the others {share_healthy:.1f} % of the answers are
-healthy, of all {all_healthy:.1f} %. Another part is named in {share_wrong:.1f} %.
-"""
-HEALTHY_HEAD = """
-## Healthy bearings at the right speed
-
-*Named*: the monitor gets the faulty bearing at the other end of the shaft as a neighbour (`--neighbour`).
-
-| bearing | healthy | not diagnosable | unexplained | a part |
-|---|--:|--:|--:|--:|
-"""
 
 
 def orders_of(name: str) -> tuple[FaultFrequencies, int]:
@@ -135,6 +95,15 @@ def cases(listening: Listening) -> Iterator[tuple[str, str]]:
             )
 
 
+def answers(record: Record, key: str) -> list[list[str]]:
+    """List the answers of a record: its key, the faulty part, the case, the verdict."""
+    return [
+        [key, listening.part, case, verdict]
+        for listening in listenings(record)
+        for case, verdict in cases(listening)
+    ]
+
+
 def outcome(part: str, verdict: str) -> str:
     """Name an answer beside the faulty part."""
     return "right" if verdict == part else "another part" if verdict in FAULTS else verdict
@@ -151,39 +120,35 @@ def rows(found: Iterable[Sequence[str]]) -> dict[str, Counter[str]]:
 def text(found: Sequence[Sequence[str]], counts: str) -> str:
     """Write the page."""
     counted = rows(found)
-    head = {
-        "answers": " | ".join(ROW_ANSWERS.get(each, each) for each in ANSWERS),
-        "bars": "--:|" * len(ANSWERS),
-    }
-    lines = [HEAD.format(counts=counts, uncertain=100.0 * UNCERTAINTY, **head)]
-    lines += [_row(f"{each:+d} %", counted.get(f"{each:+d} %", Counter())) for each in ERRORS]
-    lines.append(BEARINGS_HEAD.format(**head))
-    lines += [_row(name, counted[name]) for name in BEARINGS if name in counted]
     clear = [each for each in found if each[1]]
     never = sorted({name for name, _, case, verdict in clear if case == "+0 %" and verdict == "healthy"})
     others = [each for each in clear if each[0] not in never]
-    lines.append(
-        TOTAL.format(
-            total=len(clear),
-            records=len({each[0] for each in clear}),
-            never=len(never),
-            names=", ".join(never) or "none",
-            share_healthy=_percent(others, "healthy"),
-            all_healthy=_percent(clear, "healthy"),
-            share_wrong=_percent(clear, "another part"),
-        )
-    )
-    lines.append(HEALTHY_HEAD)
-    for case in ("in a healthy machine", "next to a faulty one", "next to a faulty one, named"):
-        here = counted.get(case, Counter())
-        parts = sum(here[part] for part in FAULTS)
-        cells = (here["healthy"], here["not_diagnosable"], here["unexplained"], parts)
-        lines.append(f"| {case} | {' | '.join(map(str, cells))} |\n")
-    return "".join(lines)
+    values = {
+        "counts": counts,
+        "uncertain": 100.0 * UNCERTAINTY,
+        "answers": " | ".join(ROW_ANSWERS.get(each, each) for each in ANSWERS),
+        "bars": "--:|" * len(ANSWERS),
+        "speeds": [_row(f"{each:+d} %", counted.get(f"{each:+d} %", Counter())) for each in ERRORS],
+        "bearings": [_row(name, counted[name]) for name in BEARINGS if name in counted],
+        "total": len(clear),
+        "records": len({each[0] for each in clear}),
+        "never": len(never),
+        "names": ", ".join(never) or "none",
+        "share_healthy": _percent(others, "healthy"),
+        "all_healthy": _percent(clear, "healthy"),
+        "share_wrong": _percent(clear, "another part"),
+        "healthy": [_healthy_row(case, counted.get(case, Counter())) for case in HEALTHY_CASES],
+    }
+    return render(__file__, values)
 
 
-def _row(name: str, counted: Counter[str]) -> str:
-    return f"| {name} | {' | '.join(str(counted[each]) for each in ANSWERS)} |\n"
+def _healthy_row(case: str, here: Counter[str]) -> tuple[str | int, ...]:
+    parts = sum(here[part] for part in FAULTS)
+    return case, here["healthy"], here["not_diagnosable"], here["unexplained"], parts
+
+
+def _row(name: str, counted: Counter[str]) -> tuple[str, ...]:
+    return name, *(str(counted[each]) for each in ANSWERS)
 
 
 def _percent(found: Sequence[Sequence[str]], answered: str) -> float:
@@ -206,23 +171,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = records(args.cwru, args.mfpt, args.hit)
     if not chosen:
         parser.error("there is no known record below the folders")
-    kept = (
-        json.loads(args.results.read_text(encoding="utf-8")) if args.results and args.results.exists() else {}
-    )
+    kept, found = KeptResults(args.results), []
     for record in chosen:
         key = f"{record.group} {record.name}"
-        if key not in kept:
-            print(key, file=sys.stderr)
-            kept[key] = [
-                [key, listening.part, case, verdict]
-                for listening in listenings(record)
-                for case, verdict in cases(listening)
-            ]
-            if args.results:
-                args.results.write_text(json.dumps(kept), encoding="utf-8")
+        print(key, file=sys.stderr)
+        found += kept.get(key, partial(answers, record, key))
     groups = Counter(record.group for record in chosen)
     counts = ", ".join(f"{count} of {group}" for group, count in groups.items())
-    found = [each for record in chosen for each in kept[f"{record.group} {record.name}"]]
     args.output.write_text(text(found, counts), encoding="utf-8")
     return 0
 

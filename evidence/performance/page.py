@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
 from evidence.pages import DOCS, render
+from evidence.runner import read_json
 from evidence.tables import markdown
 
 PAGE = DOCS / "performance.md"
@@ -99,7 +99,7 @@ def main() -> None:
     """Read and write."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("numbers", type=Path, help="JSON file of make bench")
-    PAGE.write_text(page(json.loads(parser.parse_args().numbers.read_text())), encoding="utf-8")
+    PAGE.write_text(page(read_json(parser.parse_args().numbers)), encoding="utf-8")
 
 
 if __name__ == "__main__":

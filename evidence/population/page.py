@@ -8,7 +8,6 @@ public records, which are not ours to give. Cut off, the same command goes on.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -26,6 +25,7 @@ from evidence.population import scale
 from evidence.population.causes import causes
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.sets import OTHERS, TRAINED, other_set, trained_set
+from evidence.runner import read_json, write_json
 
 PAGE, PICTURE = DOCS / "sweep.md", PICTURES / "population.png"
 MARK = "<!-- from here on written by python -m evidence.population.page -->"
@@ -57,7 +57,7 @@ def main(words: Sequence[str] | None = None) -> int:
     trained = trained_set(arguments.folder, arguments.trained, arguments.workers)
     names = [name for name in arguments.sets.split(",") if name]
     others = {name: other_set(name, arguments.folder, arguments.runs, arguments.workers) for name in names}
-    found = {} if set(parts) >= {LEARNER, *scale.PARTS} else json.loads(known.read_text(encoding="utf-8"))
+    found = {} if set(parts) >= {LEARNER, *scale.PARTS} else read_json(known)
     if LEARNER in parts:
         found["gap"] = judgements(trained, others, arguments.measured)
         found["causes"] = causes(trained)
@@ -67,7 +67,7 @@ def main(words: Sequence[str] | None = None) -> int:
     for name, measure in scale.PARTS.items():
         if name in parts:
             found[name] = measure(trained)
-    scale.write(found, known)
+    write_json(known, found)
     write_page(found)
     return 0
 
@@ -314,6 +314,6 @@ def draw(found: dict[str, Any], path: Path) -> None:
 
 if __name__ == "__main__":
     if len(sys.argv) == 3 and sys.argv[1] == "--again":  # the page anew from what was measured
-        write_page(json.loads(Path(sys.argv[2]).read_text(encoding="utf-8")))
+        write_page(read_json(Path(sys.argv[2])))
         sys.exit(0)
     sys.exit(main())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
 import time
@@ -187,8 +186,3 @@ PARTS: dict[str, Callable[[LabelledSet], Any]] = {
     "formats": formats,
 }
 """What is measured, by the name of its part of the page."""
-
-
-def write(found: dict[str, Any], path: Path) -> None:
-    """Keep what was measured."""
-    path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from dataclasses import replace
 from pathlib import Path
 
+from evidence.runner import write_json
 from evidence.step.cases import POINTS
 from evidence.step.study import QUICK, Extent, run_study
 from evidence.step.table import point_tables, unstable_table, verdict_text
@@ -45,7 +45,7 @@ def main(words: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\ninterrupted: nothing is written", file=sys.stderr)
         return 130
-    arguments.output.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_json(arguments.output, found)
     for point in found["points"]:
         for table in point_tables(point, found):
             print(f"\n{table.text()}")

@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import Any
 
 from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.runner import read_json
 from evidence.step.cases import BRIDGE, REFERENCE
 from evidence.step.picture import step_picture
 from evidence.step.table import CRITERIA, point_tables, unstable_table
@@ -27,7 +27,7 @@ def main() -> None:
     """Read and write."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("numbers", type=Path, metavar="JSON")
-    data = json.loads(parser.parse_args().numbers.read_text(encoding="utf-8"))
+    data = read_json(parser.parse_args().numbers)
     PAGE.write_text(page(data), encoding="utf-8")
     step_picture(data, PICTURE)
     save_small(PICTURE, PICTURE, COLOURS)

@@ -8,7 +8,6 @@ three monitors of docs/monitor_measured.md, to see whether the twin ranks them a
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -25,6 +24,7 @@ from beardyn_core.scene.trial import HEALTHY, Cell
 from beardyn_core.study.monitored_recording import WAITING, Finding, conclude
 from beardyn_core.study.trial_result import Rate
 from evidence.measured.run import METHODS
+from evidence.runner import write_json
 
 EVERY = 11  # no divisor of the 36 runs of a size: it walks through speeds, tracks and wheels
 
@@ -110,7 +110,7 @@ def main() -> int:
         judged += hear(trial_scene(trial, cell), cell, trial.interval)
         said = ", ".join(f"{each.method} {each.verdict}" for each in judged[-len(METHODS) :])
         print(f"{number} of {len(cells)}: {cell.key}: {said}", flush=True)
-        args.output.write_text(json.dumps([asdict(each) for each in judged], indent=0), encoding="utf-8")
+        write_json(args.output, [asdict(each) for each in judged])
     print(table(judged))
     print(orders(judged))
     return 0
