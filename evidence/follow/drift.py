@@ -30,7 +30,6 @@ from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
-from beardyn_core.experiments.code_digest import simulator_digest
 from evidence.pages import DOCS, write_section
 from evidence.runner import kept_arrays
 
