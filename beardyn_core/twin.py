@@ -16,7 +16,8 @@ from beardyn_core.base.jit import LANE_WIDTH, when_compiling
 from beardyn_core.base.versions import versions
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.physics.bodies.arrangement import BOTH_ROWS, Arrangement
-from beardyn_core.physics.bodies.layout import ENERGY_TERMS, SIGNAL_CHANNELS, SIGNAL_FORCE
+from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.physics.bodies.step_stages import stage_cycles
 from beardyn_core.physics.defect import grow

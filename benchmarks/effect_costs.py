@@ -50,6 +50,8 @@ from beardyn_core.effects import (
     SmallRib,
     Thermal,
 )
+from beardyn_core.effects.catalogue import catalogue
+from beardyn_core.physics.cage_drag import CAGE_DRAGS
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
@@ -90,6 +92,8 @@ def _sets() -> dict[str, EffectSet]:
     more("seal", seal=Seal())
     more("structure", structure=RingStructure())
     more("thermal", thermal=Thermal())
+    for name in CAGE_DRAGS:
+        more(name, **{name: next(entry.options() for entry in catalogue() if entry.member == name)})
     found["full"] = FULL
     return found
 

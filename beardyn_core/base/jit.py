@@ -6,6 +6,7 @@ import gc
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
+from types import FunctionType
 from typing import Any
 
 import numba
@@ -127,6 +128,19 @@ def inline(function: Callable[..., Any]) -> Any:
     options = {"nopython": True, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     part = _Part(py_func=function, targetoptions={**options, **OPTIONS}, pipeline_class=_PartCompiler)
     return _with_set_flags(part)
+
+
+def part_of(function: Callable[..., Any]) -> Any:
+    """Compile a plain function as a kernel part, with those of its module that it calls.
+
+    For formulas whose module must not bring the compiler along.
+    """
+    names = dict(function.__globals__)
+    for name in function.__code__.co_names:
+        called = names.get(name)
+        if isinstance(called, FunctionType) and called.__module__ == function.__module__:
+            names[name] = part_of(called)
+    return inline(FunctionType(function.__code__, names, function.__name__, function.__defaults__))
 
 
 def plain(function: Callable[..., Any]) -> Callable[..., Any]:

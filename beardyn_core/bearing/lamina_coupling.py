@@ -34,8 +34,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects.lamina_coupling import LaminaCoupling
 
 _SWEEPS = 200
 _TOLERANCE = 1.0e-14
@@ -101,18 +99,6 @@ def lamina_root(
     root = 0.5 * (root + root.T)
     root *= (count / np.sum(root.sum(axis=1) ** (19.0 / 9.0))) ** (9.0 / 19.0)
     return LaminaRoot(root, root @ root)
-
-
-def bearing_lamina_root(bearing: Bearing, coupling: LaminaCoupling, count: int) -> LaminaRoot:
-    """Compute the matrices of the raceway contacts, with one width for both, by the roller's radius."""
-    return lamina_root(
-        count,
-        bearing.effective_length,
-        0.5 * bearing.roller_diameter,
-        bearing.material.contact_modulus,
-        coupling.pressure,
-        coupling.strength,
-    )
 
 
 def coupled_law(depth: Float, factor: float, laminae: LaminaRoot) -> tuple[Float, Float, Float]:

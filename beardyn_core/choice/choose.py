@@ -40,6 +40,7 @@ RULES: tuple[Callable[[Evidence], Rule], ...] = (
     guidance.small_rib,
     guidance.cage,
     friction.seal,
+    *friction.cage_drag_rules(),
     bending.structure,
     gravity_damping_rules.gravity,
     friction.thermal,

@@ -11,12 +11,13 @@ import numpy as np
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, joint_depth, part_exponent
+from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import served, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.defect import lamina_cover, surface_radius
 from beardyn_core.physics.journal import bending_give
 from beardyn_core.physics.tiers.friction_steps import StepChoice

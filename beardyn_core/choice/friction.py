@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from beardyn_core.choice.losses import Drive
@@ -15,6 +17,7 @@ from beardyn_core.effects import (
     Thermal,
     Traction,
 )
+from beardyn_core.physics.cage_drag import CAGE_DRAGS
 from beardyn_core.physics.thermal import thermal_network
 
 # Runs shorter than this stay at the temperature the scene gives.
@@ -161,6 +164,25 @@ def seal(evidence: Evidence) -> Rule:
     reason = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
     influence = {"torque": evidence.torque_share(torque)}
     return on_or_off("seal", effect, reason, influence, evidence.costs.extra("seal"))
+
+
+def cage_drag_rules() -> tuple[Callable[[Evidence], Rule], ...]:
+    """Make a rule for each effect that brakes the cages: on when it makes up a notable part of the torque."""
+    return tuple(map(_cage_drag_rule, CAGE_DRAGS))
+
+
+def _cage_drag_rule(name: str) -> Callable[[Evidence], Rule]:
+    def rule(evidence: Evidence) -> Rule:
+        effect = getattr(evidence.scene.effects, name)
+        if effect is None:
+            return absent(name)
+        torque = evidence.losses.cage_drag.get(effect.about.loss, 0.0)
+        reason = f"{torque:.3g} N m of a torque of about {evidence.torque:.3g} N m"
+        influence = {"torque": evidence.torque_share(torque)}
+        return on_or_off(name, effect, reason, influence, evidence.costs.extra(name))
+
+    rule.__name__ = name
+    return rule
 
 
 def thermal(evidence: Evidence) -> Rule:

@@ -8,10 +8,11 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.bearing.lamina_coupling import coupled_law
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
 from beardyn_core.effects import LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 
 _LAMINAE = 20
 _NOTABLE = 0.01  # of the torque

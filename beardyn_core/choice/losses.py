@@ -27,6 +27,7 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
+from beardyn_core.physics.cage_drag import cage_drag_torque
 from beardyn_core.physics.drag import churning_rate, drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply
@@ -135,6 +136,11 @@ class Losses:
         """Torque of both seals, [N m]."""
         return float(plain(seal_torque)(self.speed, seal_params(self.scene)))
 
+    @property
+    def cage_drag(self) -> dict[str, float]:
+        """Torques of the effects that brake the cages, by source of loss, [N m]."""
+        return cage_drag_torque(self.scene, self.speed)
+
     def rib(self, rib: Rib | None) -> float:
         """Compute the torque of the sliding ribs with some options, [N m]."""
         if rib is None or self.speed == 0.0:
@@ -203,7 +209,8 @@ class Losses:
         drive = self.drive(effects.traction, effects.film)
         # what the traction does not drive does not roll
         rolling = self.rolling / max(drive.used, 1.0) if math.isfinite(drive.used) else 0.0
-        return rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + drive.torque
+        total = rolling + self.drag + self.seal + self.rib(effects.rib) + self.pocket + drive.torque
+        return total + sum(self.cage_drag.values())
 
     def film_parameter(self, film: LineFilm | None) -> float:
         """Compute film over roughness at the cone for the most loaded roller, [-]; 0 without a film."""

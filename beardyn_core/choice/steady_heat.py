@@ -18,7 +18,7 @@ from beardyn_core.choice.load_cases import LoadCase, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Thermal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.slow_thermal import cold_start, film_temperature
 from beardyn_core.physics.thermal import (
     BOX_NODE,
@@ -129,6 +129,7 @@ def torque_by_source(scene: Scene, case: LoadCase) -> dict[str, float]:
         "seal": losses.seal,
         "pocket": losses.pocket,
         "raceway_sliding": drive.torque,
+        **losses.cage_drag,
     }
 
 

@@ -14,6 +14,7 @@ small_rib          small roller end on the small rib
 cage               cage of each row, its pockets and lands
 drag               drag and churning of the rollers
 seal               seals between cup and shaft
+windage            air drag of the turning cages
 gravity            weight
 structure          bending of the axlebox with the cup in it
 grease             what running leaves of a fill of grease
@@ -51,6 +52,7 @@ from beardyn_core.effects.traction import (
     ShearedFilmTraction,
     Traction,
 )
+from beardyn_core.effects.windage import Windage
 
 __all__ = [
     "About",
@@ -82,4 +84,5 @@ __all__ = [
     "Structure",
     "Thermal",
     "Traction",
+    "Windage",
 ]

@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar, Literal
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.effects.about import About, SlipSpeed
+from beardyn_core.effects.about import POCKET_HEAT, About, SlipSpeed
 
 PocketFriction = A[float, SHARE, "coefficient of friction between roller and pocket"]
 InitialSpeedRatio = A[
@@ -25,6 +25,7 @@ class PocketFilm:
 
     about: ClassVar[About] = About(
         loss="pocket",
+        heat=POCKET_HEAT,
         adds="Films between rollers and cage bars: wedge, squeeze and shear, elastic below a thickness.",
         states="none",
         cost="low",
@@ -45,6 +46,7 @@ class LandGuidance:
 
     about: ClassVar[About] = About(
         loss="cage_land",
+        heat={"cages": 0.5, "cup": 0.25, "cone": 0.25},
         adds="Guidance of each cage by a land: short journal bearing, solid contact of both land edges.",
         states="none",
         cost="low",
@@ -75,6 +77,7 @@ class Cage:
     kind: ClassVar[str] = "six_dof"
     about: ClassVar[About] = About(
         loss="pocket",
+        heat=POCKET_HEAT,
         adds="Cage of each row in six degrees of freedom, touched by every roller in its pocket.",
         states="12 positions and 12 velocities",
         cost="high",
@@ -103,6 +106,7 @@ class RotatingCage:
     kind: ClassVar[str] = "rotating"
     about: ClassVar[About] = About(
         loss="pocket",
+        heat=POCKET_HEAT,
         adds="Cage of each row with its spin as the only freedom, touched by the rollers at the bars.",
         states="2 angles and 2 speeds",
         cost="medium",
@@ -127,6 +131,7 @@ class KinematicCage:
     kind: ClassVar[str] = "kinematic"
     about: ClassVar[About] = About(
         loss="pocket",
+        heat=POCKET_HEAT,
         adds="Rollers held by weak springs at the pockets of a cage of prescribed speed.",
         states="none",
         cost="medium",

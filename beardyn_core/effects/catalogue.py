@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
 from types import NoneType
 from typing import Annotated as A
 from typing import get_args, get_type_hints
@@ -29,3 +30,18 @@ def catalogue() -> tuple[Entry, ...]:
         for options in get_args(hints[field.name])
         if options is not NoneType
     )
+
+
+def heat_by_loss() -> dict[str, Mapping[str, float]]:
+    """List the sources of loss of all effects and their options, with the parts that each of them warms."""
+    return {about.loss: about.heat for about in abouts() if about.loss}
+
+
+def abouts() -> Iterator[About]:
+    """List the descriptions of all effects, and of options that have their own."""
+    for entry in catalogue():
+        yield entry.about
+        hints = get_type_hints(entry.options)
+        for option in (each for field in fields(entry.options) for each in get_args(hints[field.name])):
+            if is_dataclass(option) and hasattr(option, "about"):
+                yield option.about

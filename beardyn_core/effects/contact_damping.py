@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import RACEWAY_HEAT, About
 
 
 @dataclass(frozen=True)
@@ -16,6 +16,7 @@ class ContactDamping:
 
     about: ClassVar[About] = About(
         loss="contact_damping",
+        heat=RACEWAY_HEAT,
         adds="Velocity-proportional normal loss in raceway and rib contacts.",
         states="none",
         cost="low",

@@ -17,6 +17,7 @@ class Drag:
 
     about: ClassVar[About] = About(
         loss="drag",
+        heat={"grease": 1.0},
         adds="Drag on the orbit and churning on the spin of the rollers.",
         states="none",
         cost="low",

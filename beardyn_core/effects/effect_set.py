@@ -21,6 +21,7 @@ from beardyn_core.effects.small_rib import SmallRib
 from beardyn_core.effects.structure import Structure
 from beardyn_core.effects.thermal import Thermal
 from beardyn_core.effects.traction import MixedTraction, Traction
+from beardyn_core.effects.windage import Windage
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,7 @@ class EffectSet:
     small_rib: A[SmallRib | None, At(switch=True), "small roller ends on the small rib of the cone"] = None
     cage: A[CageModel | None, At(switch=True), "cage of each row"] = Cage()
     seal: A[Seal | None, At(switch=True), "friction of the seals"] = None
+    windage: A[Windage | None, At(switch=True), "air drag of the cages"] = None
     structure: A[Structure | None, At(switch=True), "bending of the axlebox with the cup in it"] = None
     gravity: A[Gravity | None, At(switch=True), "weight of rollers, cages and axlebox"] = Gravity()
     thermal: A[Thermal | None, At(switch=True), "slow warming of the parts; needs the audit in tier full"] = (
@@ -57,6 +59,10 @@ class EffectSet:
         """Check the effects against each other."""
         if self.film and self.drag and self.film.million_revolutions != self.drag.million_revolutions:
             yield "million_revolutions of film and drag differ; it is one grease, give both the same"
+        for name in self.names():
+            for needed in getattr(self, name).about.needs:
+                if getattr(self, needed) is None:
+                    yield f"{name} needs {needed}, which is absent; switch {needed} on, or {name} off"
 
     def __repr__(self) -> str:
         """Give the names of the effects that are present."""

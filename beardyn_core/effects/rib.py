@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.effects.about import About, SlipSpeed
+from beardyn_core.effects.about import RIB_HEAT, About, SlipSpeed
 
 
 @dataclass(frozen=True)
@@ -17,6 +17,7 @@ class RibMixedFilm:
     kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
         loss="rib",
+        heat=RIB_HEAT,
         adds="Film of the rib contact; its friction falls from boundary to film with the film parameter.",
         states="none",
         cost="low",
@@ -36,6 +37,7 @@ class RibShearedFilm:
     kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
         loss="rib",
+        heat=RIB_HEAT,
         adds="Film of the rib contact with a friction that follows from its viscosity.",
         states="none",
         cost="low",
@@ -59,6 +61,7 @@ class Rib:
 
     about: ClassVar[About] = About(
         loss="rib",
+        heat=RIB_HEAT,
         adds="Sphere-on-cone contact of the large roller end with the cone rib, its edges and its film.",
         states="none",
         cost="medium",

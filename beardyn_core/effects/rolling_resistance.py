@@ -8,7 +8,7 @@ from typing import Annotated as A
 from typing import ClassVar, Literal
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import RACEWAY_HEAT, About
 
 RollingKind = Literal["aihara", "zhou_hoeprich", "biboulet_houpert", "hysteresis"]
 
@@ -19,6 +19,7 @@ class RollingResistance:
 
     about: ClassVar[About] = About(
         loss="rolling_resistance",
+        heat=RACEWAY_HEAT,
         adds="Rolling couple of the raceway contacts: hydrodynamic inlet, elastic hysteresis.",
         states="none",
         cost="low",

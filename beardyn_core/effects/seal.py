@@ -16,6 +16,7 @@ class Seal:
 
     about: ClassVar[About] = About(
         loss="seal",
+        heat={"cone": 0.5, "axlebox": 0.5},
         adds="Torque of both seals on the shaft, the larger the stiffer the oil is.",
         states="none",
         cost="none",

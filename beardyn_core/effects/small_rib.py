@@ -7,7 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.effects.about import About, SlipSpeed
+from beardyn_core.effects.about import RIB_HEAT, About, SlipSpeed
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,7 @@ class SmallRib:
 
     about: ClassVar[About] = About(
         loss="small_rib",
+        heat=RIB_HEAT,
         adds="Stop of the small roller end: holds a roller that the load does not press to the large rib.",
         states="none",
         cost="low",

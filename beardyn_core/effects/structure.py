@@ -21,6 +21,7 @@ class RingStructure:
     kind: ClassVar[str] = "rings"
     about: ClassVar[About] = About(
         loss="structure",
+        heat={"axlebox": 1.0},
         adds="Bending of the cup in its housing: it opens under the loaded rollers.",
         states="2 positions and 2 velocities per number of waves, the same for both rows",
         cost="medium",
@@ -50,6 +51,7 @@ class ModalStructure:
     kind: ClassVar[str] = "modes"
     about: ClassVar[About] = About(
         loss="structure",
+        heat={"axlebox": 1.0},
         adds="Modes of the axlebox: it bends under rollers and springs, and rings where its sensors sit.",
         states="1 position and 1 velocity per mode",
         cost="high",

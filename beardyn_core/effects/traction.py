@@ -8,7 +8,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.effects.about import About
+from beardyn_core.effects.about import RACEWAY_HEAT, About
 
 REGULARISATIONS = ("smooth", "threlfall", "ambrosio", "arctangent")
 
@@ -31,6 +31,7 @@ class CoulombTraction:
     kind: ClassVar[str] = "coulomb"
     about: ClassVar[About] = About(
         loss="raceway_sliding",
+        heat=RACEWAY_HEAT,
         adds="Dry friction between rollers and raceways, smooth through zero slip.",
         states="none",
         cost="low",
@@ -55,6 +56,7 @@ class MixedTraction:
     kind: ClassVar[str] = "mixed"
     about: ClassVar[About] = About(
         loss="raceway_sliding",
+        heat=RACEWAY_HEAT,
         adds="Raceway friction blended from boundary to full film over the film parameter.",
         states="none",
         cost="high",
@@ -85,6 +87,7 @@ class ShearedFilmTraction:
     kind: ClassVar[str] = "sheared_film"
     about: ClassVar[About] = About(
         loss="raceway_sliding",
+        heat=RACEWAY_HEAT,
         adds="The blend with a film that shears up to a limiting stress.",
         states="none",
         cost="high",
@@ -114,6 +117,7 @@ class LoadSharingTraction:
     kind: ClassVar[str] = "load_sharing"
     about: ClassVar[About] = About(
         loss="raceway_sliding",
+        heat=RACEWAY_HEAT,
         adds="Raceway friction as a load-weighted sum of asperity friction and traction of a sheared film.",
         states="none",
         cost="high",

@@ -57,5 +57,6 @@ bodies             shared: layout of the state, lanes of rollers, rigid bodies, 
 statics            equilibrium, torque and life, in NumPy
 tiers              parameters, state and steps of full, quasistatic and lumped
 seal               seals between cup and shaft
+cage_drag          torques of effects on the cages, against cup and cone
 ================== ================================================================================
 """

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, part_exponent
+from beardyn_core.bearing.lamina_coupling import part_exponent
 from beardyn_core.effects import LaminaCoupling, LineFilm
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.scene.scene import Scene

@@ -9,7 +9,8 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
 from beardyn_core.effects import Thermal
-from beardyn_core.physics.bodies.layout import ENERGY_LOST, LOSSES
+from beardyn_core.physics.bodies.layout import ENERGY_LOST
+from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.thermal import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network
 from beardyn_core.scene.scene import Scene
 

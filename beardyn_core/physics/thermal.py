@@ -10,26 +10,11 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.thermal import ThermalNetwork
 from beardyn_core.effects import Thermal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.effects.catalogue import heat_by_loss
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 
 NODES = ("cup", "cone", "rollers", "cages", "grease", "axlebox")
 CUP_NODE, CONE_NODE, ROLLER_NODE, CAGE_NODE, GREASE_NODE, BOX_NODE = range(6)
-
-# Half of what a contact loses warms each of its partners; the raceways are not told apart.
-_RACEWAYS = {"rollers": 0.5, "cup": 0.25, "cone": 0.25}
-_SHARES: dict[str, dict[str, float]] = {
-    "raceway_sliding": _RACEWAYS,
-    "contact_damping": _RACEWAYS,
-    "rolling_resistance": _RACEWAYS,
-    "rib": {"rollers": 0.5, "cone": 0.5},
-    "small_rib": {"rollers": 0.5, "cone": 0.5},
-    "pocket": {"rollers": 0.5, "cages": 0.5},
-    "cage_land": {"cages": 0.5, "cup": 0.25, "cone": 0.25},
-    "drag": {"grease": 1.0},
-    "seal": {"cone": 0.5, "axlebox": 0.5},
-    "suspension": {},  # outside the axlebox, as the axle
-    "structure": {"axlebox": 1.0},
-}
 
 _STEEL_HEAT = 460.0  # [J/(kg K)]
 _POLYAMIDE_HEAT = 1700.0
@@ -42,9 +27,9 @@ _AIR_PRANDTL = 0.71
 
 def heat_shares() -> Float:
     """Compute the share of each source of loss that warms each node, shape [source, node]."""
-    shares = np.zeros((len(LOSS_NAMES), len(NODES)))
+    shares, warmed = np.zeros((len(LOSS_NAMES), len(NODES))), heat_by_loss()
     for source, name in enumerate(LOSS_NAMES):
-        for node, share in _SHARES[name].items():
+        for node, share in warmed.get(name, {}).items():  # the suspension warms nothing of the bearing
             shares[source, NODES.index(node)] = share
     return shares
 

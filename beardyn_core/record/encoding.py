@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Int
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
 from beardyn_core.record.messages import Diagnostic, Template, header, make

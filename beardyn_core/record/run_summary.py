@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.record.encoding import loss_key
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

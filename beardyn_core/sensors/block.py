@@ -11,6 +11,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.thermal import BOX_NODE
 from beardyn_core.scene.sensor import RATES
 
@@ -33,13 +34,13 @@ class EnergyAudit:
     stored: A[float, "change of kinetic and elastic energy"]
     losses: A[
         tuple[float, ...],
-        "the dissipated energy by source, in the order of ``bodies.layout.LOSS_NAMES``; empty when not known",
+        "the dissipated energy by source, in the order of ``bodies.losses.LOSS_NAMES``; empty when not known",
     ] = ()
 
     @classmethod
     def of(cls, since: Float) -> EnergyAudit:
         """Make the audit from the kernel's sums since the start of the run, shape [ENERGY_TERMS]."""
-        lost = since[layout.ENERGY_LOST : layout.ENERGY_LOST + layout.LOSSES]
+        lost = since[layout.ENERGY_LOST : layout.ENERGY_LOST + LOSSES]
         return cls(
             external=float(since[layout.ENERGY_EXTERNAL]),
             dissipated=float(lost.sum()),

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.sensors.stage_clock import StageTime
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ import numpy as np
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.bodies.layout import ENERGY_TERMS, PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.layout import PENETRATION, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.tiers.build import build_parameters, spring_time

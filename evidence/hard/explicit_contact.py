@@ -21,9 +21,9 @@ from beardyn_core.physics.bodies.layout import (
     CHATTER,
     CHATTER_LOAD,
     CHATTER_SQUARES,
-    ENERGY_TERMS,
     ROLLER_FIELDS,
 )
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.status import Status, assess, chatter_index
 

@@ -10,8 +10,9 @@ from scipy.optimize import brentq
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law
+from beardyn_core.bearing.lamina_coupling import coupled_law
 from beardyn_core.effects import LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.lamina_table import lamina_places, lamina_pressure
 
 Float = NDArray[np.float64]

@@ -22,13 +22,13 @@ from beardyn_core.physics.bodies.layout import (
     LOSS_DRAG,
     LOSS_ROLLING,
     LOSS_SEAL,
-    LOSSES,
     OUTPUT_FIELDS,
     POSITION,
     ROLLER_STATES,
     SIGNAL_FORCE,
     SIGNAL_TORQUE,
 )
+from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import running_torque
 from test.kernels.momentum import momenta, world

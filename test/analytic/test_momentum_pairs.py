@@ -16,11 +16,11 @@ from beardyn_core.physics.bodies.layout import (
     CUP_BODY,
     ENERGY_LOST,
     LINEAR,
-    LOSSES,
     RATE,
     TILT,
     TURN,
 )
+from beardyn_core.physics.bodies.losses import LOSSES
 from test.kernels.momentum import assert_momentum_is_exchanged
 from test.kernels.naive_step import rotated
 from test.kernels.rig import Rig

@@ -15,12 +15,12 @@ from beardyn_core.physics.bodies.layout import (
     CUP_BODY,
     ENERGY_EXTERNAL,
     ENERGY_LOST,
-    ENERGY_TERMS,
     LINEAR,
     LOSS_SUSPENSION,
     POSITION,
     TILT,
 )
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.bodies.rigid_bodies import drift_bodies
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import BOX_FIELDS, BoxCoupling, box_energy, kick_box, mounting_params

@@ -13,7 +13,7 @@ from beardyn_core.choice import load_scene
 from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.steady_heat import HOTTEST, SteadyHeat, steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import NODES, thermal_network
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.defect import MissingRoller

@@ -19,7 +19,7 @@ from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate, simulate_train
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text
 from beardyn_core.cli.main import COMMANDS, DONE, main, module_of
-from beardyn_core.physics.bodies.layout import LOSSES
+from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.statics.rating_life import RatingLife
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.record.published import MissingMessages

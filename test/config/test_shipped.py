@@ -117,9 +117,9 @@ def test_standard_preset_is_the_usual_effect_set_with_a_lubricated_rib_and_drag(
     assert load_effects("standard") == usual
 
 
-def test_full_preset_has_every_effect_but_the_slow_one() -> None:
+def test_full_preset_has_every_effect_but_the_slow_one_and_the_tiny_one() -> None:
     members = {field.name for field in fields(EffectSet)}
-    assert set(load_effects("full").names()) == members - {"thermal"}
+    assert set(load_effects("full").names()) == members - {"thermal", "windage"}
 
 
 def test_dry_preset_has_no_film_and_coulomb_friction() -> None:

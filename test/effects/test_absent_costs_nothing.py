@@ -58,6 +58,7 @@ CUT = {
     "axle_energy": ("axle, journal", "0.0"),
     # seals, lands, cages that follow the rings
     "add_seals": ("bodies, wrenches, energy, step, seal", "None"),
+    "brake_cages": ("bodies, wrenches, energy, step, drags", "None"),
     "push_lands": ("bodies, wrenches, cage, land", "0.0"),
     "settle_lands": ("bodies, pushed, energy, step, cage, land", "0.0"),
     "place_cages": ("bodies, cage", "None"),

@@ -20,7 +20,6 @@ from beardyn_core.physics.bodies.layout import (
     ENERGY_EXTERNAL,
     ENERGY_LOST,
     LINEAR,
-    LOSSES,
     OUTPUT_FILM,
     OUTPUT_SLIP,
     POCKET,
@@ -30,6 +29,7 @@ from beardyn_core.physics.bodies.layout import (
     ROLLER_STATES,
     SIGNAL_TORQUE,
 )
+from beardyn_core.physics.bodies.losses import LOSSES
 from test.effects.fresh_kernels import Variant, run_afresh
 from test.kernels.rig import Float, Rig
 from test.scenes import scene_with

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.effects import Cage, EffectSet
-from beardyn_core.physics.bodies.layout import CAGE_BODY, ENERGY_LOST, LOSS_NAMES, LOSSES, POSITION
+from beardyn_core.physics.bodies.layout import CAGE_BODY, ENERGY_LOST, POSITION
+from beardyn_core.physics.bodies.losses import LOSS_NAMES, LOSSES
 from beardyn_core.physics.tiers.status import is_fatal
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block

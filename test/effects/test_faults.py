@@ -22,12 +22,12 @@ from beardyn_core.physics.bodies.layout import (
     ENERGY_KINETIC,
     ENERGY_LOST,
     ENERGY_NUMERICAL,
-    LOSSES,
     OUTPUT_FIELDS,
     RADIUS,
     SIGNAL_FORCE,
     TURN,
 )
+from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.defect import surface_radius
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket

@@ -23,13 +23,13 @@ from beardyn_core.physics.bodies.layout import (
     CUP_BODY,
     ENERGY_EXTERNAL,
     ENERGY_LOST,
-    ENERGY_TERMS,
     LINEAR,
     LOSS_SUSPENSION,
     POSITION,
     SIGNAL_ACCELERATION,
     TILT,
 )
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.journal import (
     ALONG,
     PLACE,

@@ -20,7 +20,7 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
 from beardyn_core.config import load_bearing, scene_text, shipped_names
 from beardyn_core.effects import EffectSet, LineFilm, Thermal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
 from beardyn_core.rail.build import load_history
 from beardyn_core.record.encoding import BlockEncoder

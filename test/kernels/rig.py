@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.bodies.layout import ENERGY_TERMS, ROLLER_STATES, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.layout import ROLLER_STATES, SIGNAL_CHANNELS
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.defect import roller_oversize
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.ring_modes import body_of

@@ -9,7 +9,8 @@ import pytest
 
 from beardyn_core.base.jit import entry
 from beardyn_core.physics.bodies.contact_output import Here, watch_chatter
-from beardyn_core.physics.bodies.layout import BODY_STATES, ENERGY_TERMS, ROLLER_FIELDS
+from beardyn_core.physics.bodies.layout import BODY_STATES, ROLLER_FIELDS
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.status import chatter_index
 

@@ -9,14 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.bearing.lamina_coupling import (
-    LaminaRoot,
-    bearing_lamina_root,
-    coupled_law,
-    joint_depth,
-    part_exponent,
-)
+from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law, joint_depth, part_exponent
 from beardyn_core.effects import EffectSet, LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.defect import surface_radius
 from beardyn_core.scene.defect import Patch
 from test.kernels.pressed_roller import (

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.lamina_coupling import bearing_lamina_root, coupled_law, rectangle_influence
+from beardyn_core.bearing.lamina_coupling import coupled_law, rectangle_influence
 from beardyn_core.effects import EffectSet, LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.bodies.layout import LAMINA_STIFFNESS
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_coupling

@@ -15,7 +15,7 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.report import json_object as report_object
 from beardyn_core.cli.simulate import json_object, text
 from beardyn_core.effects import Drag, RollingResistance, Seal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES, LOSSES
+from beardyn_core.physics.bodies.losses import LOSS_NAMES, LOSSES
 from beardyn_core.record.reporting import Report, report
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.sensors.summary import NUMERICAL, torque_budget

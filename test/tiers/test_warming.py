@@ -11,7 +11,8 @@ from beardyn_core.choice import load_scene
 from beardyn_core.choice.load_cases import circumstances
 from beardyn_core.choice.steady_heat import steady_heat, torque_by_source
 from beardyn_core.effects import Thermal
-from beardyn_core.physics.bodies.layout import LOSS_NAMES, SIGNAL_TORQUE
+from beardyn_core.physics.bodies.layout import SIGNAL_TORQUE
+from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.run import Simulation, start
 from beardyn_core.scene.scene import Scene

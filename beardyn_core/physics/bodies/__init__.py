@@ -10,6 +10,7 @@ orbit             motion of rollers in frames that turn with their orbit
 stage_timer       where the time of a step goes
 step_stages       stages of a time step, and the counters of what they take
 layout            where each number of the state and the tables stands
+losses            sources of loss by name
 arrangement       which roller sits in which lane; arrays on cache lines
 rates             how often things are computed
 power             a loss of power as a torque on the shaft

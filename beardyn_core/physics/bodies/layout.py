@@ -69,18 +69,14 @@ RING_DRIFT = 13  # velocity of the origin over the step that ends
 RING_FIELDS = 16
 
 # --- where energy is lost
-LOSS_NAMES = (
-    "raceway_sliding", "contact_damping", "rolling_resistance", "rib", "small_rib", "pocket", "cage_land",
-    "drag", "seal", "suspension", "structure",
-)  # fmt: skip
-LOSSES = len(LOSS_NAMES)
 LOSS_SLIDING, LOSS_DAMPING, LOSS_ROLLING, LOSS_RIB, LOSS_SMALL_RIB, LOSS_POCKET = range(6)
-LOSS_LAND, LOSS_DRAG, LOSS_SEAL, LOSS_SUSPENSION, LOSS_STRUCTURE = range(6, LOSSES)
+LOSS_LAND, LOSS_DRAG, LOSS_SEAL, LOSS_SUSPENSION, LOSS_STRUCTURE = range(6, 11)  # others: `losses`
+ROLLER_LOSSES = LOSS_DRAG + 1  # the first of them are summed over the rollers
 
 # --- sums over the rollers, lanes [0, field, lane]
 REACTION = 0  # 3 rings x (force, moment)
-WORK_LOST = 18  # dissipated energy of the step by source, LOSSES fields [J]
-WORK_NUMERICAL = WORK_LOST + LOSSES
+WORK_LOST = 18  # dissipated energy of the step by source, ROLLER_LOSSES fields [J]
+WORK_NUMERICAL = WORK_LOST + ROLLER_LOSSES
 WORK_GRAVITY = WORK_NUMERICAL + 1
 ELASTIC = WORK_NUMERICAL + 2  # elastic energy at the beginning of the step [J]
 LOST_ON_CAGE = WORK_NUMERICAL + 3  # 6: lost part of the pockets' wrench on the cage [N, N m]
@@ -94,10 +90,8 @@ SIGNAL_TORQUE = 12  # bearing on the shaft, about +y [N m]
 SIGNAL_CHANNELS = 13  # then, with the modes of a box, 3 for each sensor: acceleration of its seat
 
 # --- energy terms since the start [J]
-ENERGY_EXTERNAL, ENERGY_NUMERICAL, ENERGY_LOST = range(3)  # ENERGY_LOST: by source, LOSSES fields
-ENERGY_ELASTIC = ENERGY_LOST + LOSSES
-ENERGY_KINETIC = ENERGY_ELASTIC + 1
-ENERGY_TERMS = ENERGY_KINETIC + 1
+ENERGY_ELASTIC, ENERGY_KINETIC, ENERGY_EXTERNAL, ENERGY_NUMERICAL, ENERGY_LOST = range(5)
+ENERGY_WORKS = ENERGY_EXTERNAL  # works from here on, ENERGY_TERMS in all; ENERGY_LOST by source, see `losses`
 
 # --- lamina table [row, lamina]; film and pressure have one row each for cup and cone
 LAMINA_PLACE, LAMINA_DROP, LAMINA_STIFFNESS, LAMINA_RADIUS = range(4)

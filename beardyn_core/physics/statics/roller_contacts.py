@@ -23,8 +23,9 @@ from beardyn_core.bearing.contact_law import (
 )
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_spin
-from beardyn_core.bearing.lamina_coupling import LaminaRoot, bearing_lamina_root, coupled_law
+from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
 from beardyn_core.effects import LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.ring_modes import ModalBody
 
 ROW_COUNT = 2

@@ -21,6 +21,7 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.bodies.step_stages import new_timers
+from beardyn_core.physics.cage_drag import cage_drag_params
 from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params
@@ -181,6 +182,7 @@ def build_parameters(
             rolling=rolling_params(scene),
             drag=drag_params(scene),
             seal=seal_params(scene),
+            cage_drag=cage_drag_params(scene),
             cage=cage_params(scene, step),
             rib=rib_params(scene),
             small_rib=small_rib_params(bearing, effects),

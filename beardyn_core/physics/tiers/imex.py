@@ -15,6 +15,7 @@ from beardyn_core.physics.bodies.rigid_bodies import (
 )
 from beardyn_core.physics.bodies.stage_timer import mark, time_step
 from beardyn_core.physics.bodies.step_stages import CAGE, LOSS, RINGS
+from beardyn_core.physics.cage_drag import brake_cages
 from beardyn_core.physics.journal import add_bending, axle_energy, kick_journal
 from beardyn_core.physics.land import land_of, push_lands, settle_lands
 from beardyn_core.physics.lanes.lanes import align_stack
@@ -150,6 +151,7 @@ def advance(lanes, state, work, loads, output, p):
         for i in range(6):
             signals[step, layout.SIGNAL_FORCE + i] = wrenches[layout.CUP_BODY, i]
         add_seals(bodies, wrenches, energy, p.step, effects.seal)
+        brake_cages(bodies, wrenches, energy, p.step, effects.cage_drag)
         mark(timers, LOSS)
         stored = kick_box(
             bodies, wrenches[layout.CUP_BODY], loads[step + 1], loads[step], energy, box, p.step, p.mounting,
@@ -172,7 +174,7 @@ def advance(lanes, state, work, loads, output, p):
         collect_energy(sums, energy, effects, effects.audit)
         mark(timers, RINGS)
         if step == 0:
-            for i in range(layout.ENERGY_ELASTIC):
+            for i in range(layout.ENERGY_WORKS, audit.shape[0]):
                 audit[i] = 0.5 * (audit[i] + energy[i])
             audit[layout.ENERGY_ELASTIC] = sum_lanes(sums, layout.ELASTIC) + stored
             audit[layout.ENERGY_KINETIC] = 0.5 * (

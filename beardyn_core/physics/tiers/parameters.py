@@ -86,6 +86,7 @@ class EffectParams(NamedTuple):
     cage: CageParams | None
     structure: StructureParams | None
     seal: SealParams | None
+    cage_drag: Any  # parameters of each effect that brakes the cages, see `physics.cage_drag`, or None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None

@@ -11,6 +11,7 @@ from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
+from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.state import State
@@ -73,7 +74,7 @@ def initial_state(
     flex[0, : len(static.bending)] = static.bending[: flex.shape[1]]
     journal = parameters.mounting.journal
     axle = np.zeros((2, 2, 0 if journal is None else len(journal.place)))
-    return State(rollers, bodies, np.zeros(layout.ENERGY_TERMS), flex, axle)
+    return State(rollers, bodies, np.zeros(ENERGY_TERMS), flex, axle)
 
 
 def _shift_of_cages(
