@@ -101,10 +101,8 @@ class PointContact:
 def rib_curvature_radius(bearing: Bearing) -> float:
     """Compute R_rib, the radius of curvature of the concave rib cone at the nominal contact, [m]."""
     distance = bearing.apex_distance + bearing.sphere_centre
-    normal_angle = bearing.contact_angle - bearing.rib_polar_angle
-    contact_radius = distance * math.sin(bearing.contact_angle) + bearing.sphere_radius * math.sin(
-        normal_angle
-    )
+    contact_radius = distance * math.sin(bearing.contact_angle)
+    contact_radius += bearing.sphere_radius * math.sin(bearing.rib_lean)
     return contact_radius / math.cos(bearing.rib_angle)
 
 
@@ -125,6 +123,22 @@ def rib_contact(bearing: Bearing) -> PointContact:
     curvature = 1.0 / sphere_radius - 1.0 / rib_curvature_radius(bearing)
     radius_y = 1.0 / max(curvature, _LEAST_CURVATURE / sphere_radius)
     return PointContact(sphere_radius, radius_y, bearing.material.contact_modulus)
+
+
+# Sliding and spin of a contact ellipse dissipate mu Q sqrt(u^2 + 0.18 a^2 w^2).
+SPIN_SHARE = 0.18
+
+
+def drilling_lever(bearing: Bearing, load: float) -> float:
+    """Compute the lever of the friction of a sliding and drilling rib contact under a load [N], [m].
+
+    References
+    ----------
+    Zhao et al. (2026): T = mu Q h sqrt(1 + 0.18 (a/h)^2), h the height of the contact, a its larger
+    semi-axis.
+    """
+    height = bearing.rib_contact_height
+    return height * math.sqrt(1.0 + SPIN_SHARE * (rib_contact(bearing).semi_axes(load)[0] / height) ** 2)
 
 
 def rib_contact_factor(bearing: Bearing) -> float:

@@ -175,6 +175,31 @@ class Bearing:
         return 0.5 * math.pi - (self.contact_angle - self.rib_polar_angle)
 
     @property
+    def rib_lean(self) -> float:
+        """Angle of the rib normal to the bearing axis, alpha_m - theta_c, [rad]."""
+        return self.contact_angle - self.rib_polar_angle
+
+    @property
+    def rib_face(self) -> tuple[float, float]:
+        """Edges of the rib face along its generator from the nominal contact, undercut and corner, [m]."""
+        along = 1.0 / math.cos(self.rib_polar_angle)
+        low, high = self.rib_undercut - self.rib_contact_height, self.rib_height - self.rib_contact_height
+        return low * along, high * along
+
+    @property
+    def end_sphere(self) -> tuple[float, float]:
+        """Radius and axial place, outwards from the bearing centre, of the end sphere's centre, [m]."""
+        return (
+            0.5 * self.pitch_diameter + self.sphere_centre * math.sin(self.contact_angle),
+            0.5 * self.row_spacing + self.sphere_centre * math.cos(self.contact_angle),
+        )
+
+    @property
+    def apex_place(self) -> float:
+        """Axial place of the apex of a row, outwards from the bearing centre, [m]."""
+        return 0.5 * self.row_spacing - self.apex_distance * math.cos(self.contact_angle)
+
+    @property
     def gamma(self) -> float:
         """Dm cos(alpha_m) / Dpw, [-]."""
         return self.roller_diameter * math.cos(self.contact_angle) / self.pitch_diameter

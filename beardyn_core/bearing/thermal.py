@@ -69,7 +69,7 @@ def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) ->
     -alpha dT [(D_1 cot(alpha_o1) + D_2 cot(alpha_o2)) / 2 - L], D mean cup raceway diameters and L their
     distance; it is the sum of cone and rollers here.
     """
-    apex = bearing.apex_distance * math.cos(bearing.contact_angle) - 0.5 * bearing.row_spacing
+    apex = -bearing.apex_place
     sine = math.sin(bearing.cup_angle)
     large_end = bearing.apex_distance + 0.5 * bearing.roller_length
     rollers = 2.0 * large_end * math.sin(bearing.half_angle)

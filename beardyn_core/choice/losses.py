@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated as A
 
 import numpy as np
@@ -11,7 +12,6 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
-from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
@@ -29,14 +29,14 @@ from beardyn_core.effects import (
 )
 from beardyn_core.physics.cage_drag import cage_drag_torque
 from beardyn_core.physics.drag import churning_rate, drag_params
+from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
-from beardyn_core.physics.statics.torque import entrainment_speeds, running_torque
+from beardyn_core.physics.statics.torque import entrainment_speeds, rib_torque, running_torque
 from beardyn_core.scene.scene import Scene
 
-_SPIN_SHARE = 0.18
 _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _NEARLY_ALL = 0.5
@@ -146,25 +146,17 @@ class Losses:
         if rib is None or self.speed == 0.0:
             return 0.0
         bearing = self.scene.bearing
-        contact, height = rib_contact(bearing), bearing.rib_contact_height
-        slide = roller_cone_spin(bearing, self.speed) * height
-        torque = 0.0
-        for load in self.static.rib_load[self.static.rib_load > 0.0]:
-            lever = height
-            if rib.drilling:
-                lever *= math.sqrt(1.0 + _SPIN_SHARE * (contact.semi_axes(float(load))[0] / height) ** 2)
-            friction = (
-                self.rib_friction(rib, float(load)) * slide / math.hypot(slide, rib.regularisation_speed)
-            )
-            torque += friction * float(load) * lever * roller_cone_spin(bearing, 1.0)
-        return torque
+        slide = roller_cone_spin(bearing, self.speed) * bearing.rib_contact_height
+        sliding = slide / math.hypot(slide, rib.regularisation_speed)
+        friction = partial(self.rib_friction, rib)
+        return sliding * rib_torque(bearing, self.static, friction, rib.drilling)
 
     def rib_friction(self, rib: Rib, load: float) -> float:
         """Compute the coefficient of friction of a rib contact, shared by film and asperities."""
         if not isinstance(rib.lubrication, RibMixedFilm):
             return rib.friction if rib.lubrication is None else rib.lubrication.boundary_friction
         film = self.rib_parameter(rib.lubrication, load)
-        asperities = math.exp(-1.8 * film**1.2)
+        asperities = _asperity_share(film)
         wet = rib.lubrication.film_friction
         return wet + (rib.lubrication.boundary_friction - wet) * asperities
 
@@ -307,7 +299,7 @@ class Losses:
     ) -> Float:
         """Compute the friction of all rollers over the slip, [N]."""
         parameter = self.film_parameter(film)
-        asperities = math.exp(-1.8 * parameter**1.2) if parameter > 0.0 else 1.0
+        asperities = _asperity_share(parameter)
         dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
         force = np.zeros_like(slips)
         for load in loads:
@@ -345,3 +337,8 @@ class Losses:
         fitted = highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
         share = min(max(math.log2(pressure / NO_LONGER_FITTED), 0.0), 1.0)
         return sheared + share * (fitted - sheared)
+
+
+def _asperity_share(parameter: float) -> float:
+    """Compute the share of the load on asperities at a film parameter, by the formula of the kernels."""
+    return float(plain(asperity_share)(math.log2(parameter))) if parameter > 0.0 else 1.0

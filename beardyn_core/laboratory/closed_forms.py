@@ -140,7 +140,7 @@ class ClosedForms:
                 transverse_inertia=0.0,
                 radius=nine_contacts.disc_radius(bearing, 0.0),
                 taper=math.tan(bearing.half_angle),
-                apex=0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle),
+                apex=bearing.apex_place,
                 half_length=half,
                 mass_offset=0.0,
             ),
@@ -201,7 +201,7 @@ def raceway_gap(bearing: Bearing, pose: nine_contacts.RollerPose, name: str, abs
     The azimuth of that normal is taken first at the centre of the disc, then at the point so found.
     """
     angle, side = (bearing.cone_angle, -1.0) if name == "Inner" else (bearing.cup_angle, 1.0)
-    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    apex = bearing.apex_place
     centre = pose.centre + abscissa * pose.axis - np.array([0.0, 0.0, apex])
     if name == "Inner":
         centre = centre - pose.cone

@@ -101,7 +101,7 @@ class RibFace:
 
 def large_rib(bearing: Bearing) -> RibFace:
     """Build the face of the large rib through the nominal contact."""
-    lean = bearing.contact_angle - bearing.rib_polar_angle
+    lean = bearing.rib_lean
     centre = nominal_centre(bearing) + bearing.sphere_centre * nominal_axis(bearing)
     return RibFace(
         math.cos(lean),
@@ -168,7 +168,7 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
         form = surfaces if name == "FR" else PAIRINGS[name][1]
         found.append(Contact(name, abscissa, Pair(p, q, form), np.array(start)))
 
-    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    apex = bearing.apex_place
     # the angle pi of a placement with east = x is the side of the bearing axis
     for name, slope, side, shift, azimuth in (
         ("Inner", bearing.cone_angle, 1.0, pose.cone, math.pi),

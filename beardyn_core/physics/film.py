@@ -17,7 +17,15 @@ from beardyn_core.bearing.film_thickness import (
 from beardyn_core.bearing.oil_layer import LAYER_EXPONENT, TRANSITION, layer_thickness
 from beardyn_core.physics.bodies.layout import LAMINA_FILM
 from beardyn_core.physics.lamina_table import equivalent_radius, for_springs, lamina_places
-from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2, log2_one_plus_exp2, magnitude
+from beardyn_core.physics.lanes.lane_math import (
+    LOG2_E,
+    at_least,
+    at_most,
+    exp2,
+    log2,
+    log2_one_plus_exp2,
+    magnitude,
+)
 from beardyn_core.scene.scene import Scene
 
 
@@ -192,3 +200,14 @@ def film_output(load, log2_speed, ring, laminae, film):
     middle = laminae.shape[1] // 2
     share = log2_load(load / laminae.shape[1])
     return exp2(log2_film_thickness(share, log2_speed, middle, ring, laminae, film))
+
+
+@inline
+def asperity_share(log2_parameter):
+    """Work out the share of the load on asperities, 1 at a film parameter of 0, from its binary logarithm.
+
+    References
+    ----------
+    exp(-1.8 Lambda^1.2), as in Zhao et al. (2026) and the published source of D-BRAIN (NSK).
+    """
+    return exp2(-1.8 * LOG2_E * exp2(1.2 * log2_parameter))

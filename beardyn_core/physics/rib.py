@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing import contact_law
-from beardyn_core.bearing.contact_law import PointContact, exact_rib_contact
+from beardyn_core.bearing.contact_law import SPIN_SHARE, PointContact, exact_rib_contact
 from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
@@ -22,6 +22,7 @@ from beardyn_core.physics.bodies.contact_output import (
 from beardyn_core.physics.bodies.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD, squared_over
 from beardyn_core.physics.contact_damping import DampingParams
+from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
     at_least,
@@ -121,8 +122,6 @@ class SmallRibParams(NamedTuple):
     regularisation: float  # [m/s]
 
 
-# Sliding and spin dissipate mu Q sqrt(u^2 + 0.18 a^2 w^2), Zhao et al. (2026).
-_SPIN_SHARE = 0.18
 # Floor of the second derivative in the search along the rim, as part of the sine of the rib's polar angle.
 _SMALLEST_BEND = 0.01
 
@@ -132,10 +131,8 @@ def rib_params(scene: Scene) -> RibParams | None:
     bearing, rib = scene.bearing, scene.effects.rib
     if rib is None:
         return None
-    lean = bearing.contact_angle - bearing.rib_polar_angle
-    normal_axial, normal_radial = math.cos(lean), math.sin(lean)
-    centre_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
-    centre_radial = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
+    normal_axial, normal_radial = math.cos(bearing.rib_lean), math.sin(bearing.rib_lean)
+    centre_radial, centre_axial = bearing.end_sphere
     contact = exact_rib_contact(bearing) if rib.stiffness == "exact" else contact_law.rib_contact(bearing)
     nominal = centre_radial * normal_axial - centre_axial * normal_radial
     return RibParams(
@@ -150,7 +147,7 @@ def rib_params(scene: Scene) -> RibParams | None:
         window=_window(bearing, nominal, rib),
         end=_roller_end(bearing) if rib.roller_end else None,
         film=_film(scene, rib, contact),
-        drilling=RibDrillingParams(_SPIN_SHARE * _around_squared(contact)) if rib.drilling else None,
+        drilling=RibDrillingParams(SPIN_SHARE * _around_squared(contact)) if rib.drilling else None,
     )
 
 
@@ -158,9 +155,7 @@ def _window(bearing: Bearing, nominal: float, rib: Rib) -> RibWindowParams | Non
     """Lay the edges of the face on its generator; rounding takes at most the whole face."""
     if not rib.window:
         return None
-    along = 1.0 / math.cos(bearing.rib_polar_angle)
-    low = nominal + (bearing.rib_undercut - bearing.rib_contact_height) * along
-    high = nominal + (bearing.rib_height - bearing.rib_contact_height) * along
+    low, high = (nominal + edge for edge in bearing.rib_face)
     rounding = min(rib.edge_radius, 0.5 * (high - low))
     return RibWindowParams(low + rounding, high - rounding, rounding)
 
@@ -393,8 +388,6 @@ def _deeper(radial, middle, axis, ring_axis, rib, end):
 _RIB_FORCE = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_FORCE
 _SMALLEST_ELASTIC = 1e-30
 
-_SHARE_FACTOR = -1.8 * LOG2_E
-_SHARE_EXPONENT = 1.2
 _LARGEST_LOG2_THICKENING = 30.0
 
 
@@ -636,8 +629,7 @@ def rib_friction(load, root_depth, speed_squared, log2_film, rib, film):
     dry = load / sqrt(speed_squared + rib.regularisation * rib.regularisation)
     if film is None:
         return rib.friction * dry
-    lambda_power = exp2(_SHARE_EXPONENT * (log2_film - film.log2_roughness))
-    asperities = exp2(_SHARE_FACTOR * lambda_power)
+    asperities = asperity_share(log2_film - film.log2_roughness)
     wet = _film_friction(load, root_depth, speed_squared, dry, log2_film, film, film.sheared)
     return wet + (film.boundary_friction * dry - wet) * asperities
 

@@ -25,6 +25,7 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.physics.bodies.layout import LAMINA_PRESSURE
+from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import for_springs, lamina_table
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
@@ -400,8 +401,7 @@ def _shared(contact, slip, inverse_slip, asperities, film, sharing):
         contact, sharing.inlet
     )
     wet = at_most(wet, sharing.friction * inverse_slip)
-    share = exp2(-1.8 * LOG2_E * exp2(1.2 * (contact.log2_film - sharing.log2_roughness)))
-    return wet + (asperities - wet) * share
+    return wet + (asperities - wet) * asperity_share(contact.log2_film - sharing.log2_roughness)
 
 
 @inline

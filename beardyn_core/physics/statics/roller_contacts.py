@@ -56,12 +56,6 @@ class ContactModel:
     missing: NDArray[np.bool_]  # [row, roller], rollers that are not there
     coupling: LaminaRoot | None = None  # matrices of coupled laminae
 
-    @property
-    def apex_axial(self) -> float:
-        """Work out the axial coordinate of the apex of a row, outwards from the bearing centre, [m]."""
-        bearing = self.bearing
-        return 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
-
 
 @dataclass(frozen=True)
 class ConePose:
@@ -225,7 +219,7 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: b
     facing = (normal - along * axis[:, :, None, :]) / np.sqrt(1.0 - along**2)
     point = lamina_centre + model.radius[..., None] * facing
     distance = np.hypot(point[..., 0], point[..., 2])
-    gap = cosine * distance - sine * (outwards * point[..., 1] - model.apex_axial) + model.drop
+    gap = cosine * distance - sine * (outwards * point[..., 1] - bearing.apex_place) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)
     force, stiffness, energy = line_law(model, -gap)
     return _assembled(model, pose, -gap, force, stiffness, energy, centre, point, normal, by_cone)
@@ -237,8 +231,7 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bo
     The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
     """
     bearing = model.bearing
-    angle = bearing.contact_angle - bearing.rib_polar_angle
-    sine, cosine = math.sin(angle), math.cos(angle)
+    sine, cosine = math.sin(bearing.rib_lean), math.cos(bearing.rib_lean)
     outwards = model.axial[:, :, 1]
     centre, axis = _roller_line(model, roller, pose)
     sphere = centre + bearing.sphere_centre * axis
@@ -248,15 +241,11 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bo
     centred = size < _ON_AXIS
     distance = np.where(centred, outside, np.where(outside < 0.0, -size, size))
     inverse = 1.0 / np.where(centred, 1.0, distance)
-    nominal_distance = 0.5 * bearing.pitch_diameter + bearing.sphere_centre * math.sin(bearing.contact_angle)
-    nominal_axial = 0.5 * bearing.row_spacing + bearing.sphere_centre * math.cos(bearing.contact_angle)
+    nominal_distance, nominal_axial = bearing.end_sphere
     outward = outwards * sphere[..., 1] - nominal_axial
     approach = cosine * outward + sine * (distance - nominal_distance)
     height = cosine * (distance - nominal_distance) - sine * outward
-    along = 1.0 / math.cos(bearing.rib_polar_angle)
-    low = (bearing.rib_undercut - bearing.rib_contact_height) * along
-    high = (bearing.rib_height - bearing.rib_contact_height) * along
-    beyond = height - np.clip(height, low, high)
+    beyond = height - np.clip(height, *bearing.rib_face)
     ahead = bearing.sphere_radius - approach
     reach = np.hypot(ahead, beyond)
     approach = approach - beyond**2 / (reach + ahead)

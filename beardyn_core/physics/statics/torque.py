@@ -5,14 +5,14 @@ No motion is simulated: the static solution gives the load of every contact, pur
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.contact_law import rib_contact
+from beardyn_core.bearing.contact_law import drilling_lever
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
@@ -118,17 +118,24 @@ def running_torque(
         couples.append(couple)
     cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
-    return RunningTorque(couples[0], couples[1], rolling, _rib_torque(bearing, static, rib_friction))
+    rib = 0.0 if rib_friction == 0.0 else rib_torque(bearing, static, lambda _load: rib_friction)
+    return RunningTorque(couples[0], couples[1], rolling, rib)
 
 
-def _rib_torque(bearing: Bearing, static: StaticSolution, friction: float) -> float:
-    """Work out the torque of the sliding of all large ends on their ribs, [N m]."""
-    if friction == 0.0:
-        return 0.0
-    contact, height = rib_contact(bearing), bearing.rib_contact_height
+def rib_torque(
+    bearing: Bearing, static: StaticSolution, friction: Callable[[float], float], drilling: bool = True
+) -> float:
+    """Work out the torque on the shaft of the sliding of all large ends on their ribs, [N m].
+
+    Parameters
+    ----------
+    friction : callable
+        Coefficient of friction of a contact under a load, [N].
+    drilling : bool
+        Whether the spin inside the contact counts too.
+    """
     torque = 0.0
-    for load in static.rib_load[static.rib_load > 0.0]:
-        semi_major = contact.semi_axes(float(load))[0]
-        lever = height * math.sqrt(1.0 + 0.18 * (semi_major / height) ** 2)
-        torque += friction * float(load) * lever * roller_cone_spin(bearing, 1.0)
+    for load in map(float, static.rib_load[static.rib_load > 0.0]):
+        lever = drilling_lever(bearing, load) if drilling else bearing.rib_contact_height
+        torque += friction(load) * load * lever * roller_cone_spin(bearing, 1.0)
     return torque

@@ -155,7 +155,7 @@ def build_parameters(
             transverse_inertia=bearing.roller_transverse_inertia,
             radius=(bearing.apex_distance + offset) * taper,
             taper=taper,
-            apex=0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle),
+            apex=bearing.apex_place,
             half_length=0.5 * bearing.roller_length,
             mass_offset=offset,
         ),

@@ -358,5 +358,5 @@ def lever_of_cup(bearing: Bearing) -> float:
 def _place_on_cup(bearing: Bearing) -> tuple[float, float]:
     """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
     angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
-    apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
+    apex = bearing.apex_place
     return distance * math.sin(angle), apex + distance * math.cos(angle)
