@@ -40,8 +40,8 @@ def simulate(
 ) -> Run:
     """Run a scene as fast as this machine can, record it if asked to.
 
-    The first run of a set of effects compiles its kernels, about a minute, and prints a line on standard
-    error that says so; they are kept on disk.
+    Run a scene as fast as this machine can. The first run of a set of effects compiles its kernels, about a
+    minute, and prints a line on standard error that says so; they are kept on disk.
 
     Parameters
     ----------

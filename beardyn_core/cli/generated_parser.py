@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Annotated as A
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from beardyn_core.base.edge import Place, alternatives, kind_of, plain_hint
 
@@ -82,9 +82,10 @@ def parameters_of(function: Callable[..., Any]) -> dict[str, Parameter]:
     words = _words_of(inspect.getdoc(function) or "")
     function = inspect.unwrap(function)
     names = _Names({**vars(builtins), **vars(sys.modules[function.__module__])})
+    hints = get_type_hints(function, {}, names, include_extras=True)
     found = {}
     for name, each in inspect.signature(function).parameters.items():
-        hint = plain_hint(eval(each.annotation, {}, names))[0]
+        hint = plain_hint(hints[name])[0]
         found[name] = Parameter(hint, each.default, words.get(name, ""))
     return found
 

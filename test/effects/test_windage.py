@@ -42,7 +42,9 @@ from beardyn_core.physics.tiers.status import is_fatal
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import missing_effects
 from beardyn_core.sensors.block import Block
-from test.kernels.rig import Float, constant_load, standard_scene, started
+from test.kernels.rig import Float
+from test.runs import constant_load, started
+from test.scenes import standard_scene
 
 RADIUS, LENGTH, GAP = 0.1, 0.05, 0.005
 DENSITY, VISCOSITY = 1.2, 1.5e-5
