@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 from beardyn_core.base.announcements import announced_on_stderr
-from beardyn_core.base.interrupts import sealed
+from beardyn_core.base.interrupts import hold_interrupts
 from beardyn_core.rail.build import load_of_run
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
@@ -38,7 +38,7 @@ class Simulation:
             The model left its range of validity; the last block is in the error's ``block``.
         """
         for first in range(0, self.block_count, at_once):
-            with sealed():
+            with hold_interrupts():
                 block = self.twin.advance(min(at_once, self.block_count - first))
             yield block
 
@@ -60,7 +60,7 @@ def start(scene: Scene, duration: float | None = None, load: LoadHistory | None 
     ValidityError
         There is no equilibrium under it.
     """
-    with sealed():
+    with hold_interrupts():
         twin = Twin(scene)
         seconds = scene.duration if duration is None else duration
         count = max(1, math.ceil(seconds * 1e9 / twin.block_ns - 1e-6))

@@ -23,7 +23,7 @@ from beardyn_core.physics.bodies.step_stages import stage_cycles
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.ring_modes import body_of
-from beardyn_core.physics.slow_thermal import blocks_between, cold_start, scene_at, warmed
+from beardyn_core.physics.slow_thermal import advance_temperatures, blocks_between, cold_start, scene_at
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.cage_watch import CageWatch
@@ -292,7 +292,7 @@ class Twin:
         if self._absence is None:
             return rollers, bodies
         whole = rollers if isinstance(rollers, np.ndarray) else rollers.whole()
-        return self._absence.completed(whole, bodies)
+        return self._absence.complete_rows(whole, bodies)
 
     def _warm_up(self, loads: Float, blocks: int) -> Float | None:
         """Compute the temperatures after blocks, [K], and update what depends on them in the kernels."""
@@ -305,7 +305,7 @@ class Twin:
         if (self._index + blocks) % between:
             return before.temperature
         speed = float(loads[-1, 6])
-        after = warmed(scene, thermal, before, state.energy, speed, between * BLOCK_NS * 1e-9)
+        after = advance_temperatures(scene, thermal, before, state.energy, speed, between * BLOCK_NS * 1e-9)
         if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)

@@ -61,7 +61,7 @@ def train_of(values: ParameterValues, said: Mapping[str, str]) -> Axleboxes | No
         With every one of these that is given although the scene says it.
     """
     train = axleboxes_of(values.scene)
-    if train is not None and (given := [name for name in said if values.given(name)]):
+    if train is not None and (given := [name for name in said if values.is_given(name)]):
         raise InputError(
             [
                 f"parameter '{name}': scene '{values.scene}' says it, axleboxes.{said[name]}; leave the "

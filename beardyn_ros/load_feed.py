@@ -11,10 +11,10 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS
-from beardyn_core.scene.chord_polynomials import between, fitted_polynomials
+from beardyn_core.scene.chord_polynomials import fitted_polynomials, interpolate_between
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.live_load import HeldLoad, LiveLoad
-from beardyn_ros.load_gate import LoadGate, Refusals, shifted
+from beardyn_ros.load_gate import LoadGate, Refusals, shift_load
 from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
 from beardyn_ros.runtime import EXIT_LOAD_LOST
 
@@ -80,7 +80,7 @@ class LiveLine:
         u = np.arange(1, SAMPLES + 1) / SAMPLES
         time_ns = self._end_ns + np.arange(1, SAMPLES + 1) * (self._block_ns // SAMPLES)
         self._end_ns += self._block_ns
-        return _history(time_ns, between(self._values, _POLYNOMIALS, u))
+        return _history(time_ns, interpolate_between(self._values, _POLYNOMIALS, u))
 
 
 def _row(held: HeldLoad) -> Float:
@@ -150,7 +150,7 @@ class LoadFeed:
         """Wait for the load of the first block and return it; its first sample is at time 0."""
         load = self._first_load(block_ns)
         self.begin_ns = int(load.time_ns[0])
-        return shifted(load, -self.begin_ns)
+        return shift_load(load, -self.begin_ns)
 
     def _first_load(self, block_ns: int) -> LoadHistory:
         topics = "load/wrench and load/shaft" if self._options.mode == "live" else "load/blocks"
@@ -229,7 +229,7 @@ class LoadFeed:
         while not twin.covered():
             part = self.gate.take_through(twin.wanted_ns + self.begin_ns)
             if part is not None:
-                twin.feed(shifted(part, -self.begin_ns))
+                twin.feed(shift_load(part, -self.begin_ns))
                 continue
             if self.gate.failure:
                 raise StoppedError(self.gate.failure, EXIT_LOAD_LOST)

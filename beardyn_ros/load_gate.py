@@ -272,7 +272,7 @@ class LoadGate:
             return "far future", (
                 f"it begins {leap_ns * 1e-9:.6g} s after the sample before it, more than load_queue holds"
             )
-        run = load if self._last is None else joined([self._last, load])
+        run = load if self._last is None else join_loads([self._last, load])
         jump = speed_jump(run.time_ns, run.shaft_speed)
         if jump is not None:
             return "absurd", jump
@@ -314,7 +314,7 @@ class LoadGate:
                     part = part.part(0, last)
                 taken.append(part)
                 self._waiting -= len(part)
-        return joined(taken) if taken else None
+        return join_loads(taken) if taken else None
 
     def first_time_ns(self) -> int | None:
         """Return the time of the first waiting sample."""
@@ -335,14 +335,14 @@ class LoadGate:
             return float(self._parts[-1].time_ns[-1] - self._parts[0].time_ns[0]) * 1e-9
 
 
-def shifted(load: LoadHistory, by_ns: int) -> LoadHistory:
+def shift_load(load: LoadHistory, by_ns: int) -> LoadHistory:
     """Shift samples to later times."""
     if by_ns == 0:
         return load
     return LoadHistory(load.time_ns + by_ns, load.wrench, load.shaft_speed, load.bogie)
 
 
-def joined(parts: list[LoadHistory]) -> LoadHistory:
+def join_loads(parts: list[LoadHistory]) -> LoadHistory:
     """Join consecutive histories to one."""
     if len(parts) == 1:
         return parts[0]

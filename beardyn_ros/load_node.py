@@ -106,10 +106,12 @@ class LoadNode(Node):
         self._intake = RawIntake(self, polled=True)
         self._guard = MessageGuard(self)
         consumed = topic("load/consumed")
-        self._intake.add_sourced(consumed, self._guard.guarded(consumed, self._on_consumed), keep_all=False)
+        self._intake.add_sourced(
+            consumed, self._guard.guard_handler(consumed, self._on_consumed), keep_all=False
+        )
         self._runs = RawIntake(self)
         truth = topic("truth")
-        self._runs.add_sourced(truth, self._guard.guarded(truth, self._on_truth))
+        self._runs.add_sourced(truth, self._guard.guard_handler(truth, self._on_truth))
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
@@ -371,14 +373,14 @@ class LoadNode(Node):
             load = self._replay.take(self._replay.samples_before(now_ns + 1))
             self._publish_truth()
             if len(load):
-                stamp, filtered = int(load.time_ns[-1]), self._filtered(load)
+                stamp, filtered = int(load.time_ns[-1]), self._filter_since_last(load)
                 self._out.publish("load/wrench", encode_wrench(filtered[:6], stamp, self._frame))
                 self._out.publish("load/shaft", encode_shaft(float(filtered[6]), stamp, self._frame))
             if not self._replay.exhausted:
                 return
         self._end_stream()
 
-    def _filtered(self, load: LoadHistory) -> NDArray[np.float64]:
+    def _filter_since_last(self, load: LoadHistory) -> NDArray[np.float64]:
         """Filter the samples since the last message: wrench and speed at the last of them, shape [7]."""
         before = self._live_last_ns if self._live_last_ns >= 0 else int(load.time_ns[0]) - 1
         steps = np.diff(load.time_ns, prepend=before) * 1e-9

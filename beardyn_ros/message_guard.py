@@ -195,7 +195,7 @@ class MessageGuard:
         self.last_sentence = ""
         self._warned_at = -WARN_PERIOD_S
 
-    def guarded(self, entry: Topic, handler: Callable[[bytes], None]) -> SourcedHandler:
+    def guard_handler(self, entry: Topic, handler: Callable[[bytes], None]) -> SourcedHandler:
         """Make a handler of one topic that gets only what can be used."""
         return self.guarded_sourced(entry, lambda cdr, _source: handler(cdr))
 

@@ -141,7 +141,7 @@ class ParameterValues:
             node.declare_parameter(parameter.name, parameter.default, _descriptor(parameter))
         node.add_on_set_parameters_callback(self._check_live_change)
 
-    def given(self, name: str) -> bool:
+    def is_given(self, name: str) -> bool:
         """Tell whether a parameter was given to the node at its start."""
         return name in self._node._parameter_overrides
 

@@ -121,14 +121,14 @@ class RecorderNode(Node):
             )
         if path.is_dir() and not self._splitting:
             raise InputError(f"node recorder: output '{output}' is a folder; a file name is needed")
-        there = self._named(path)
+        there = self._name_output(path)
         if (there.is_file() or is_recorded(there)) and not self._values.replace:
             what = "file" if there.is_file() else "folder"
             raise InputError(
                 f"node recorder: output '{there}': the {what} exists; give another name, or replace:=true"
             )
 
-    def _named(self, path: Path) -> Path:
+    def _name_output(self, path: Path) -> Path:
         """Name what a run is written to: a file, or a folder when files are split."""
         return path.with_suffix("") if self._splitting and path.suffix == ".mcap" else path
 
@@ -142,7 +142,7 @@ class RecorderNode(Node):
             path = Path(self._values.output).expanduser()
         else:
             path = Path(f"{scene}_{time.strftime('%Y%m%d_%H%M%S')}.mcap")
-        path = self._named(path)
+        path = self._name_output(path)
         if number > 1 or not self._values.replace:
             path = free_name(path, number)
         self.get_logger().info(f"recording into {path}")

@@ -105,7 +105,7 @@ class Recording:
         else:
             strand.waiting.append(message)
             self._waiting += 1
-            if self.current is not None and strands.believed(strand):
+            if self.current is not None and strands.is_believed(strand):
                 self._write(strands.believe(strand))
 
     def _write(self, messages: list[Waiting]) -> None:
@@ -212,8 +212,8 @@ class Recording:
 
     def _settle(self) -> None:
         for strands in self._strands.values():
-            for strand in [each for each in strands.waiting if strands.believed(each)]:
-                if strand in strands.waiting and strands.believed(strand):
+            for strand in [each for each in strands.waiting if strands.is_believed(each)]:
+                if strand in strands.waiting and strands.is_believed(strand):
                     self._write(strands.believe(strand))
             strands.forget_strays(self._refuse)
 

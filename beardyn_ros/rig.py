@@ -135,7 +135,7 @@ def scene_rig(
     InputError
         With every mistake in the scene, or it has several axleboxes and ``of_box`` is not given.
     """
-    from beardyn_core.choice.load import closed
+    from beardyn_core.choice.load import complete_scene
     from beardyn_core.config import read_scene
     from beardyn_core.twin import Twin
 
@@ -148,7 +148,7 @@ def scene_rig(
     forces = background.name if background is not None and background.forces else ""
 
     def build() -> Rig:
-        whole = closed(found, outside_load=True)
+        whole = complete_scene(found, outside_load=True)
         scene = whole if of_box is None else of_box(whole)
         twin = Twin(scene)
         return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)

@@ -253,7 +253,7 @@ def housing(shape: BearingShape) -> Mesh:
     half, inner = 0.55 * shape.width, shape.outer_diameter / 2.0
     outer = inner + HOUSING_WALL * shape.outer_diameter
     profile = np.array([(-half, outer), (half, outer), (half, inner), (-half, inner), (-half, outer)])
-    return meshes.joined(
+    return meshes.join_meshes(
         meshes.revolve(profile, np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 73)),
         meshes.section(profile, CUT_OPEN[1], -1.0),
         meshes.section(profile, CUT_OPEN[0], 1.0),

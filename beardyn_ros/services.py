@@ -195,9 +195,9 @@ class SimulationServices:
             self._quit()
             return response
         if wanted not in (states.STATE_PLAYING, states.STATE_PAUSED, states.STATE_STOPPED):
-            return self._refused(response, "RESULT_FEATURE_UNSUPPORTED", f"there is no way to state {wanted}")
+            return self._refuse(response, "RESULT_FEATURE_UNSUPPORTED", f"there is no way to state {wanted}")
         if session is None:
-            return self._refused(response, "RESULT_INCORRECT_STATE", "the twin is not configured")
+            return self._refuse(response, "RESULT_INCORRECT_STATE", "the twin is not configured")
         if wanted == self.state():
             result.result = self._set_kind.Response.ALREADY_IN_TARGET_STATE
             return response
@@ -221,15 +221,13 @@ class SimulationServices:
         """Advance some blocks while paused; answers when they are done."""
         session, steps = self._session(), int(request.steps)
         if session is None:
-            return self._refused(response, "RESULT_INCORRECT_STATE", "the twin is not configured")
+            return self._refuse(response, "RESULT_INCORRECT_STATE", "the twin is not configured")
         if not 1 <= steps <= MOST_STEPS:
-            return self._refused(
+            return self._refuse(
                 response, "RESULT_OPERATION_FAILED", f"steps is {steps}; allowed is 1 to {MOST_STEPS}"
             )
         if not session.paused or session.report().state in END_STATES:
-            return self._refused(
-                response, "RESULT_OPERATION_FAILED", "the twin is not paused: pause it first"
-            )
+            return self._refuse(response, "RESULT_OPERATION_FAILED", "the twin is not paused: pause it first")
         self._stopped = False
         order = StepOrder(session, steps)
         self._orders.append(order)
@@ -237,7 +235,7 @@ class SimulationServices:
         if await order.done:
             response.result.result = self._messages.Result.RESULT_OK
             return response
-        return self._refused(
+        return self._refuse(
             response,
             "RESULT_OPERATION_FAILED",
             "the run went on, was reset or ended before the steps were done",
@@ -248,14 +246,14 @@ class SimulationServices:
         scopes = type(request)
         both = scopes.SCOPE_TIME | scopes.SCOPE_STATE
         if request.scope != scopes.SCOPE_DEFAULT and request.scope & both != both:
-            return self._refused(
+            return self._refuse(
                 response,
                 "RESULT_FEATURE_UNSUPPORTED",
                 f"scope {request.scope}: time and state are reset together (0, {both} or 255)",
             )
         problem = self._reset()
         if problem:
-            return self._refused(response, "RESULT_INCORRECT_STATE", problem)
+            return self._refuse(response, "RESULT_INCORRECT_STATE", problem)
         response.result.result = self._messages.Result.RESULT_OK
         return response
 
@@ -271,7 +269,7 @@ class SimulationServices:
             return int(states.STATE_PLAYING)
         return int(states.STATE_STOPPED if self._stopped else states.STATE_PAUSED)
 
-    def _refused(self, response: Any, code: str, sentence: str) -> Any:
+    def _refuse(self, response: Any, code: str, sentence: str) -> Any:
         response.result.result = getattr(self._messages.Result, code)
         response.result.error_message = sentence
         return response

@@ -289,7 +289,7 @@ class TwinSession:
         self.pacer.begin()
         begin, processor_begin, waited = time.monotonic(), time.process_time(), 0.0
         while True:
-            held, ordered = self._hold()
+            held, ordered = self._wait_while_paused()
             waited += held
             starved = self.feed.cover(twin)
             waited += self.feed.slept_s
@@ -338,7 +338,7 @@ class TwinSession:
         consumed_ns = block.end_ns + self.feed.begin_ns
         return Outgoing(tuple(messages), tuple(trends), block.end_ns, consumed_ns, ordered), block
 
-    def _hold(self) -> tuple[float, bool]:
+    def _wait_while_paused(self) -> tuple[float, bool]:
         """Wait while paused or inactive; seconds held, and whether the next block is ordered by a step."""
         with self._condition:
             if self._steps and self._active:

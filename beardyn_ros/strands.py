@@ -141,7 +141,7 @@ class TopicStrands:
         strand.extend(name, stamp, cdr, serial)
         return strand
 
-    def believed(self, strand: Strand) -> bool:
+    def is_believed(self, strand: Strand) -> bool:
         """Check whether a waiting strand is the run itself: it goes on, and the present one has stopped."""
         main = self.main
         if main is None or strand.count < BELIEVED_AFTER or main.extended > strand.begun:

@@ -63,7 +63,7 @@ class TrainSignals:
             "/diagnostics": self._on_diagnostics,
         }.items():
             entry = topic(name)
-            guarded = self.guard.guarded(entry, handler)
+            guarded = self.guard.guard_handler(entry, handler)
             self._intake.add_sourced(entry, guarded, keep_all=name != "/diagnostics")
         name = diagnostic_name(node.get_namespace(), TWIN)
         self.watch = TwinWatch(name, lambda: self.guard.sources.count("vibration"))

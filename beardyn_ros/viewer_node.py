@@ -73,7 +73,7 @@ class ViewerNode(Node):
             self._draw(name)
         self._further: set[str] = set()
         diagnostics = topic("/diagnostics")
-        guarded = self._guard.guarded(diagnostics, self._on_diagnostics)
+        guarded = self._guard.guard_handler(diagnostics, self._on_diagnostics)
         self._intake.add_sourced(diagnostics, guarded, keep_all=False)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),
@@ -85,7 +85,7 @@ class ViewerNode(Node):
 
     def _draw(self, name: str) -> None:
         entry = topic(name)
-        self._intake.add_sourced(entry, self._guard.guarded(entry, self._drawer(name)))
+        self._intake.add_sourced(entry, self._guard.guard_handler(entry, self._drawer(name)))
 
     def _drawer(self, name: str) -> Callable[[bytes], None]:
         def draw(cdr: bytes) -> None:

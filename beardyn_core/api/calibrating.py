@@ -88,7 +88,7 @@ def calibrate(
     base = scene if isinstance(scene, Scene) else find("scenes", str(scene))
     recorded = [each.path if isinstance(each, Run) else Path(each) for each in several]
     inputs = [each for each in (*recorded, base) if isinstance(each, Path)]
-    problems = _asked(fit, tier, budget, several)
+    problems = list_request_mistakes(fit, tier, budget, several)
     if output:
         problems += file_problems("output", Path(output), inputs=inputs, force=force, ending=".yaml")
     if problems:
@@ -127,7 +127,9 @@ def calibrate(
     return made
 
 
-def _asked(fit: Sequence[str] | None, tier: str, budget: int, runs: Sequence[object]) -> list[str]:
+def list_request_mistakes(
+    fit: Sequence[str] | None, tier: str, budget: int, runs: Sequence[object]
+) -> list[str]:
     """List what is wrong with what is asked for, before anything is read."""
     from beardyn_core.calibration.fitting import FEWEST_RUNS
     from beardyn_core.calibration.unknowns import BY_NAME

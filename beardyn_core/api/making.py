@@ -9,7 +9,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
@@ -27,7 +27,7 @@ USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
 USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
 _NO_PATCH = ("diameter", "worn_pocket")  # kinds of faults without a depth
 _STEEL_DENSITY = 7830.0  # [kg/m^3]
-# what a bearing in code must say; see `_derived` for the rest
+# what a bearing in code must say; see `_derive_missing_keys` for the rest
 _NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
 
 
@@ -64,7 +64,7 @@ def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = N
         keys = {"roller_count": rollers, **keys}
     keys = _plain(keys)
     if isinstance(name, Bearing):
-        made = bearing_from_mapping({**written(name), **keys}, f"bearing {name.name}")
+        made = bearing_from_mapping({**write_noun(name), **keys}, f"bearing {name.name}")
         kept = (
             (key, source) for key, source in made.sources if getattr(made, key, 0) == getattr(name, key, 0)
         )
@@ -84,10 +84,10 @@ def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = N
         raise InputError(
             [f"bearing made in code: {key} is {keys[key]!r}; it must be above 0" for key in wrong]
         )
-    return bearing_from_mapping({**_derived(**keys), **keys}, "bearing made in code")
+    return bearing_from_mapping({**_derive_missing_keys(**keys), **keys}, "bearing made in code")
 
 
-def _derived(
+def _derive_missing_keys(
     *,
     pitch_diameter_mm: float,
     roller_diameter_mm: float,
@@ -112,32 +112,32 @@ def _derived(
     return {
         "name": "bearing",
         "description": f"made in code: {pitch:g} mm pitch diameter, {roller:g} mm rollers",
-        "effective_length_mm": _sourced(length - 2.0, "assumed: 1 mm at each end is no contact"),
-        "row_spacing_mm": _sourced(row_spacing, derived),
-        "sphere_ratio": _sourced(0.9, assumed),
-        "rib_contact_height_mm": _sourced(2.5, assumed),
-        "bore_mm": _sourced(round(bore, 3), derived),
-        "outer_diameter_mm": _sourced(round(outer, 3), derived),
-        "width_mm": _sourced(width, derived),
-        "end_play_mm": _sourced(0.2, assumed),
-        "raceway_roughness_um": _sourced(0.3, assumed),
-        "rib_roughness_um": _sourced(0.42, assumed),
-        "cup_mass_kg": _sourced(round(cup[0], 4), steel),
-        "cup_inertia_kg_m2": _sourced([round(cup[2], 6), round(cup[1], 6), round(cup[2], 6)], steel),
-        "cone_mass_kg": _sourced(round(cone[0], 4), steel),
+        "effective_length_mm": _with_source(length - 2.0, "assumed: 1 mm at each end is no contact"),
+        "row_spacing_mm": _with_source(row_spacing, derived),
+        "sphere_ratio": _with_source(0.9, assumed),
+        "rib_contact_height_mm": _with_source(2.5, assumed),
+        "bore_mm": _with_source(round(bore, 3), derived),
+        "outer_diameter_mm": _with_source(round(outer, 3), derived),
+        "width_mm": _with_source(width, derived),
+        "end_play_mm": _with_source(0.2, assumed),
+        "raceway_roughness_um": _with_source(0.3, assumed),
+        "rib_roughness_um": _with_source(0.42, assumed),
+        "cup_mass_kg": _with_source(round(cup[0], 4), steel),
+        "cup_inertia_kg_m2": _with_source([round(cup[2], 6), round(cup[1], 6), round(cup[2], 6)], steel),
+        "cone_mass_kg": _with_source(round(cone[0], 4), steel),
         "cage": {
-            "mass_kg": _sourced(round(cage_mass, 4), derived),
-            "polar_inertia_kg_m2": _sourced(round(turned, 8), "derived: thin ring on the pitch circle"),
-            "transverse_inertia_kg_m2": _sourced(round(0.52 * turned, 8), "derived: thin ring"),
-            "circumferential_clearance_mm": _sourced(0.25, assumed),
-            "axial_clearance_mm": _sourced(0.3, assumed),
-            "stiffness_MN_per_m": _sourced(20.0, assumed),
-            "damping_N_s_per_m": _sourced(300.0, assumed),
+            "mass_kg": _with_source(round(cage_mass, 4), derived),
+            "polar_inertia_kg_m2": _with_source(round(turned, 8), "derived: thin ring on the pitch circle"),
+            "transverse_inertia_kg_m2": _with_source(round(0.52 * turned, 8), "derived: thin ring"),
+            "circumferential_clearance_mm": _with_source(0.25, assumed),
+            "axial_clearance_mm": _with_source(0.3, assumed),
+            "stiffness_MN_per_m": _with_source(20.0, assumed),
+            "damping_N_s_per_m": _with_source(300.0, assumed),
         },
     }
 
 
-def _sourced(value: Any, source: str) -> dict[str, Any]:
+def _with_source(value: Any, source: str) -> dict[str, Any]:
     return {"value": value, "source": source}
 
 
@@ -170,7 +170,7 @@ def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
     >>> round(name_plate("6205").frequencies.bpfo, 4)
     3.5848
     """
-    known = {} if name is None else written(load_plate(name))
+    known = {} if name is None else write_noun(load_plate(name))
     known.pop("sources", None)
     made: NamePlate = read_noun(NamePlate, {**known, **_plain(keys)}, "name plate")
     return made
@@ -240,8 +240,8 @@ def scene(
     if isinstance(source, Scene) and effects is None:
         data |= _left_open(source)
     changes: dict[str, Any] = {
-        "bearing": written(bearing) if isinstance(bearing, Bearing) else bearing,
-        "lubricant": written(lubricant) if isinstance(lubricant, Lubricant) else lubricant,
+        "bearing": write_noun(bearing) if isinstance(bearing, Bearing) else bearing,
+        "lubricant": write_noun(lubricant) if isinstance(lubricant, Lubricant) else lubricant,
         "tier": tier,
         "effects": None if isinstance(effects, EffectSet) else effects,
         "duration_s": duration,
@@ -267,7 +267,7 @@ def scene(
 def _mapping_of(source: str | Path | Mapping[str, Any] | Scene | None) -> tuple[dict[str, Any], str, Path]:
     """Give the keys of a scene, what to call it in messages, and the folder its files lie in."""
     if isinstance(source, Scene):
-        return written(source), f"scene {source.name}", Path()
+        return write_noun(source), f"scene {source.name}", Path()
     if isinstance(source, Mapping):
         return dict(source), "scene", Path()
     if source is not None:
@@ -282,10 +282,10 @@ def _left_open(scene: Scene) -> dict[str, Any]:
     opened = scene.left_open
     if opened is None or not opened.still(scene):
         return {}
-    free, had = opened.free, written(opened.effects)
+    free, had = opened.free, write_noun(opened.effects)
     kept = {name: had.get(name, False) for name in EFFECTS if name not in free.effects}
     box = {"structure": had["structure"]} if names_a_box(had) else {}
-    numerics = written(scene.numerics)
+    numerics = write_noun(scene.numerics)
     numerics |= {"laminae": AUTO} if free.laminae else {}
     numerics |= {"steps_per_sample": AUTO} if free.steps else {}
     found: dict[str, Any] = {
@@ -294,7 +294,7 @@ def _left_open(scene: Scene) -> dict[str, Any]:
         "tier": AUTO if free.tier else scene.tier,
     }
     if opened.rate_still(scene):
-        sensors = [written(sensor) for sensor in scene.sensors]
+        sensors = [write_noun(sensor) for sensor in scene.sensors]
         found["sensors"] = [
             {key: value for key, value in each.items() if key != "rate_kHz"} for each in sensors
         ]

@@ -53,8 +53,8 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.in_memory import run_of
 
-    mounted = _mounted(bearing)
-    found = with_heard_speed(_surveyed(files, options), mounted)
+    mounted = _mounted_bearings(bearing)
+    found = with_heard_speed(_survey_files(files, options), mounted)
     run = run_of(found, mounted)
     for sentence in run.measured["warnings"][len(found.warnings) :]:
         warnings.warn(sentence, stacklevel=2)
@@ -89,9 +89,9 @@ def import_measured(
     from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.writing import write_measured
 
-    mounted = _mounted(bearing)
+    mounted = _mounted_bearings(bearing)
     made = write_measured(
-        with_heard_speed(_surveyed(files, options), mounted), recording, mounted, force=force
+        with_heard_speed(_survey_files(files, options), mounted), recording, mounted, force=force
     )
     for sentence in made.warnings:
         warnings.warn(sentence, stacklevel=2)
@@ -118,10 +118,10 @@ def trend(files: Files, **options: Any) -> list[TrendPoint]:
     """
     from beardyn_core.measured.trending import trend_of
 
-    return list(trend_of(_surveyed(files, options)))
+    return list(trend_of(_survey_files(files, options)))
 
 
-def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:
+def _survey_files(files: Files, options: Mapping[str, Any]) -> Survey:
     from beardyn_core.measured.options import Reading
     from beardyn_core.measured.survey import survey
 
@@ -132,7 +132,7 @@ def _surveyed(files: Files, options: Mapping[str, Any]) -> Survey:
     return found
 
 
-def _mounted(bearing: Plates | None) -> tuple[Mounted, ...]:
+def _mounted_bearings(bearing: Plates | None) -> tuple[Mounted, ...]:
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.config import load_plate
     from beardyn_core.measured.about import Mounted

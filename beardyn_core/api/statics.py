@@ -82,7 +82,7 @@ def equilibrium(
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
         tilt=tilt,
         laminae=laminae,
-        speed=_speed(speed_rpm),
+        speed=_shaft_speed(speed_rpm),
         body=bending_rings(chosen, rings),
     )
 
@@ -233,7 +233,7 @@ def life(
     x, y, z = _force(chosen, load_kN)
     rated = rating_life(
         chosen,
-        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(_speed(speed_rpm))),),
+        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(_shaft_speed(speed_rpm))),),
         _lubricant(lubricant),
         _kelvin(temperature_C),
         end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
@@ -323,7 +323,7 @@ def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) ->
     """
     from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
 
-    hertz = 1.0 if speed_rpm is None else abs(_speed(speed_rpm)) / (2.0 * math.pi)
+    hertz = 1.0 if speed_rpm is None else abs(_shaft_speed(speed_rpm)) / (2.0 * math.pi)
     return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
 
 
@@ -359,7 +359,7 @@ def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
     return numbers[0], numbers[1], numbers[2]
 
 
-def _speed(speed_rpm: float) -> float:
+def _shaft_speed(speed_rpm: float) -> float:
     """Turn a shaft speed into [rad/s]; refuse what a scene refuses."""
     from beardyn_core.scene.operation import MOST_RPM
 

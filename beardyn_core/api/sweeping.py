@@ -70,14 +70,14 @@ def sweep(
     """
     from beardyn_core.experiments import EngineError
     from beardyn_core.population.labelled_set import LabelledSet
-    from beardyn_core.population.request import asked
+    from beardyn_core.population.request import make_plan
     from beardyn_core.population.sweeping import conduct
 
     tell: Callable[[Progress], None] = progress if callable(progress) else Lines() if progress else _nothing
     cluster = cluster_of(workers, scheduler, tls, memory_GB)
     problems = cluster.problems() + folder_problems("output", Path(output))
     try:
-        plan = asked(sweep, _say, **changes)
+        plan = make_plan(sweep, _say, **changes)
     except InputError as error:
         problems += error.problems
     if problems:

@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimates, Estimator
@@ -56,7 +56,7 @@ def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> S
     if not isinstance(course, QuarterVehicleOperation):
         raise InputError(f"scene {base.name}: a twin beside a train runs on a track (kind: quarter_vehicle)")
     told = {each.quantity.name: each.value for each in known.quantities if isfinite(each.value)}
-    operation: dict[str, Any] = written(course)
+    operation: dict[str, Any] = write_noun(course)
     speed = known.shaft_frequency * pi * course.wheel_diameter
     operation["speed_profile"] = [{"time_s": 0.0, "speed_kmh": 3.6 * speed}]
     if "lateral_load" in told:

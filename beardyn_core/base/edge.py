@@ -5,8 +5,8 @@ A noun is a frozen dataclass in SI. What its file says in other units stands on 
     length: Annotated[float, At("mm", gt=0.0, le=150.0), "along the circumference"] = 0.04
 
 From that one line follow the key ``length_mm`` of the file, its limits, its words in the JSON schema and in
-the reference page (`beardyn_core.config`), the text of a recorded scene (`written`) and what a noun made in
-Python refuses (`refuse`).
+the reference page (`beardyn_core.config`), the text of a recorded scene (`write_noun`) and what a noun
+made in Python refuses (`refuse`).
 """
 
 from __future__ import annotations
@@ -171,7 +171,7 @@ def is_kind(noun: type) -> bool:
     return isinstance(noun.__dict__.get("kind"), (str, property)) and "kind" not in _defaults(noun)
 
 
-def written(noun: Any) -> dict[str, Any]:
+def write_noun(noun: Any) -> dict[str, Any]:
     """Write a noun as the mapping of its file: edge units, every number, nothing that is ``None``.
 
     A noun whose file says something in another way changes the mapping in its method ``as_written``.
@@ -191,13 +191,13 @@ def written_value(value: Any, at: At) -> Any:
     if isinstance(value, Path):
         return str(value)
     if is_noun(type(value)):
-        return written(value)
+        return write_noun(value)
     if isinstance(value, tuple):
-        return [written_value(_named(each, at), at) for each in value]
+        return [written_value(_name_numbers(each, at), at) for each in value]
     return at.scale.to_edge(value) if isinstance(value, float | int) and at.unit else value
 
 
-def _named(entry: Any, at: At) -> Any:
+def _name_numbers(entry: Any, at: At) -> Any:
     """Give an entry of a list, a plain tuple, the names of its numbers."""
     return at.entry(*entry) if at.entry and type(entry) is tuple else entry
 
@@ -260,7 +260,7 @@ def _entries_outside(place: Place, value: tuple[Any, ...]) -> Iterator[Problem]:
                 yield from _number_outside(f"{place.key}[{index}]", one, place.at)
         return
     for index, each in enumerate(value):
-        yield from _inside(_named(each, place.at), place.key, index)
+        yield from _inside(_name_numbers(each, place.at), place.key, index)
 
 
 def _inside(part: Any, *place: str | int) -> Iterator[Problem]:

@@ -43,7 +43,7 @@ def unseal() -> None:
 
 
 @contextmanager
-def sealed() -> Iterator[None]:
+def hold_interrupts() -> Iterator[None]:
     """Hold Ctrl-C back while compiled code is called: what it has begun is done, or the process ends.
 
     Between a call from C into Python and its return nobody expects an exception: numba's dispatcher crashes

@@ -170,12 +170,12 @@ def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH, allo
     options = {**OPTIONS, "fastmath": set(flags), "_nrt": allocates, "no_cfunc_wrapper": True}
     compiled = numba.njit(**options)(function)
     compiled._cache = KernelCache(
-        function, repr(sorted((key, _sorted(value)) for key, value in options.items()))
+        function, repr(sorted((key, _sort_keys(value)) for key, value in options.items()))
     )
     return _with_set_flags(compiled)
 
 
-def _sorted(value: Any) -> Any:
+def _sort_keys(value: Any) -> Any:
     return sorted(value) if isinstance(value, set) else value
 
 

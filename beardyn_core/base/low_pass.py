@@ -61,7 +61,7 @@ def thinning_kernel(factor: int) -> Float:
     return low_pass(length | 1, 1.0 / factor, beta)
 
 
-def decimated(signal: Float, factor: int, kernel: Float) -> Float:
+def decimate(signal: Float, factor: int, kernel: Float) -> Float:
     """Take every factor-th sample of the filtered signal, without delay, ends held."""
     half = len(kernel) // 2
     padded = np.concatenate([np.full(half, signal[0]), signal, np.full(half, signal[-1])])

@@ -70,7 +70,7 @@ class _Reader:
         """Hash a function and what it reads and calls; one that calls itself counts by its name there."""
         if function not in self._functions:
             self._functions[function] = f"again {function.__name__}"
-            self._functions[function] = _hashed(self._of_function(function))
+            self._functions[function] = _hash_parts(self._of_function(function))
         return self._functions[function]
 
     def _of_function(self, function: Any) -> Iterator[str]:
@@ -106,7 +106,7 @@ class _Reader:
         if isinstance(value, _PLAIN):
             return f"{type(value).__name__} {value!r}"
         if isinstance(value, np.ndarray):
-            return f"{value.dtype} {value.shape} {_hashed([value.tobytes().hex()])}"
+            return f"{value.dtype} {value.shape} {_hash_parts([value.tobytes().hex()])}"
         if isinstance(value, (frozenset, set)):
             return f"{{{', '.join(sorted(map(self.value, value)))}}}"
         if isinstance(value, (tuple, list)):
@@ -119,9 +119,9 @@ class _Reader:
         if isinstance(value, Dispatcher):
             options = self.value(dict(sorted(value.targetoptions.items())))
             return f"{options} {self.function(value.py_func)}"
-        return self._named(value)
+        return self._name_of(value)
 
-    def _named(self, value: Any) -> str:
+    def _name_of(self, value: Any) -> str:
         name = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None) or ""
         if not _is_followed(name):
             return (
@@ -142,9 +142,9 @@ class _Reader:
         while waiting:
             each = waiting.pop()
             if each.__name__ not in reached:
-                reached[each.__name__] = _hashed(self._of_module(each))
+                reached[each.__name__] = _hash_parts(self._of_module(each))
                 waiting += self._taken_from(each)
-        return _hashed(sorted(reached.values()))
+        return _hash_parts(sorted(reached.values()))
 
     def _of_module(self, module: ModuleType) -> Iterator[str]:
         yield _without_words(inspect.getsource(module))
@@ -168,7 +168,7 @@ def _is_followed(module: str) -> bool:
     return module.partition(".")[0] not in _LIBRARIES and source.endswith(".py")
 
 
-def _hashed(parts: Iterable[str]) -> str:
+def _hash_parts(parts: Iterable[str]) -> str:
     digest = hashlib.sha256()
     for part in parts:
         digest.update(part.encode())

@@ -13,13 +13,13 @@ _LARGEST = 1 << 26  # bytes, unpacked
 _OF = "of "  # before the path, which is absolute
 
 
-def packed(text: str, path: Path | str) -> str:
+def pack_file(text: str, path: Path | str) -> str:
     """Pack the text of a file with its path: zlib, then base64 of RFC 4648; the same word every time."""
     return base64.b64encode(zlib.compress(f"{_OF}{path}\n{text}".encode(), 9)).decode()
 
 
-def unpacked(word: str, path: Path | str) -> str:
-    """Unpack what `packed` has made.
+def unpack_file(word: str, path: Path | str) -> str:
+    """Unpack what `pack_file` has made.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def unpacked(word: str, path: Path | str) -> str:
     if not whole.startswith(_OF):
         return whole
     origin, _, rest = whole.removeprefix(_OF).partition("\n")
-    if not _slashed(path).endswith(_slashed(origin)):
+    if not _slashed_path(path).endswith(_slashed_path(origin)):
         raise InputError(
             f"{path}: content beside it is that of {origin}; leave content out to read this file, or name "
             "that one"
@@ -52,5 +52,5 @@ def unpacked(word: str, path: Path | str) -> str:
     return rest
 
 
-def _slashed(path: Path | str) -> str:
+def _slashed_path(path: Path | str) -> str:
     return str(path).replace("\\", "/")

@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.calibration.identify import Identified, common_slope, identified
+from beardyn_core.calibration.identify import Identified, common_slope, identify
 from beardyn_core.calibration.search import Tried, misfit, search, weights
 from beardyn_core.calibration.spectra import tolerance_of
 from beardyn_core.calibration.twin import Beside
@@ -110,15 +110,15 @@ class Fitter:
         reasons, twins, known = dict[int, str](), 1, None
         sensed = False
         try:
-            best = self._searched(self._begin, self.budget - self._besides)
-            self._slope = self._sensed(best)
+            best = self._search_from(self._begin, self.budget - self._besides)
+            self._slope = self._level_sensitivities(best)
             sensed = True
-            known = self._identified(self._difference(best))
-            reasons = self._undetermined(known, best)
+            known = self._identify_unknowns(self._difference(best))
+            reasons = self._find_undetermined(known, best)
             for k in reasons:
                 best[k] = self._begin[k]
             self._free = [k for k in self._free if k not in reasons]
-            best, after = self._settled(best)
+            best, after = self._settle_on_mean(best)
             twins = SEEDS
         except KeyboardInterrupt:
             if not self._tried:
@@ -127,10 +127,10 @@ class Fitter:
             for k in reasons:
                 best[k] = self._begin[k]
             after = self._difference(best)
-        last = self._identified(after, twins)
+        last = self._identify_unknowns(after, twins)
         known = known or last
         fits = tuple(
-            replace(self._told(k, best, known, last, reasons.get(k, "")), unjudged=not sensed)
+            replace(self._report_unknown(k, best, known, last, reasons.get(k, "")), unjudged=not sensed)
             for k in range(len(self.unknowns))
         )
         return Fitted(fits, before, after, self._tolerance, self.beside.runs, interrupted=twins < SEEDS)
@@ -154,7 +154,7 @@ class Fitter:
             self.tell("twins with other tracks and bearings", self.beside.runs)
         return self._levels(np.stack(found), point)
 
-    def _searched(self, begin: Float, budget: int) -> Float:
+    def _search_from(self, begin: Float, budget: int) -> Float:
         """Search from a point; gives the best one."""
         for each in search(self._look, begin, self._simulated, budget):
             self._tried.append(each)
@@ -193,14 +193,14 @@ class Fitter:
         ran = [each for each in self._tried if each.misfit < _FAILED]
         return min(ran, key=lambda each: float(np.sum((each.point - point) ** 2)))
 
-    def _identified(self, difference: Float, twins: int = SEEDS) -> Identified:
+    def _identify_unknowns(self, difference: Float, twins: int = SEEDS) -> Identified:
         """Work out what is determined of the free unknowns by a fit to the mean of so many twins."""
         weight = weights(difference, self._tolerance).ravel()
         excess = misfit(difference, self._tolerance)
         slope, model = self._slope[:, self._free], self.beside.hearing.model
-        return identified(slope, weight, self._scatter, excess, model, difference.shape, twins)
+        return identify(slope, weight, self._scatter, excess, model, difference.shape, twins)
 
-    def _sensed(self, point: Float) -> Float:
+    def _level_sensitivities(self, point: Float) -> Float:
         """Work out how levels change with each unknown at a point, shape [level, unknown], [dB]."""
         weight = weights(self._difference(point), self._tolerance).ravel()
         found = np.zeros((2, weight.size, len(self.unknowns)))
@@ -227,7 +227,7 @@ class Fitter:
         self.tell("how spectra change with each number", self.beside.runs)
         return power
 
-    def _undetermined(self, known: Identified, point: Float) -> dict[int, str]:
+    def _find_undetermined(self, known: Identified, point: Float) -> dict[int, str]:
         """Find what is to be left, with the reason: of two that are alike one, then what is still wide."""
         reasons = dict[int, str]()
         for k in sorted(self._free, key=lambda each: -known.share[each]):
@@ -240,7 +240,7 @@ class Fitter:
                     f"not told apart from {self.unknowns[j].name}: correlation {known.correlation[k, j]:.2f}"
                 )
         self._free = [k for k in self._free if k not in reasons]
-        for k, share in zip(self._free, self._identified(self._difference(point)).share, strict=True):
+        for k, share in zip(self._free, self._identify_unknowns(self._difference(point)).share, strict=True):
             if share >= AS_WIDE:
                 reasons[k] = f"not determined: its interval is {100 * share:.0f} % as wide as its range"
             elif k == self._noise and self._silent(known, point):
@@ -254,24 +254,24 @@ class Fitter:
         shift = float(known.gain[self._noise] @ change.ravel())
         return shift < _HEARD * known.factor * float(known.deviation[self._noise])
 
-    def _stepped(self, point: Float, difference: Float) -> Float:
+    def _take_step(self, point: Float, difference: Float) -> Float:
         """Take a step of least squares from a point."""
-        step = self._identified(difference).gain @ difference.ravel()
+        step = self._identify_unknowns(difference).gain @ difference.ravel()
         moved = point.copy()
         moved[self._free] += np.clip(step, -_FARTHEST, _FARTHEST)
         return np.clip(moved, 0.0, 1.0)
 
-    def _settled(self, point: Float) -> tuple[Float, Float]:
+    def _settle_on_mean(self, point: Float) -> tuple[Float, Float]:
         """Go by least squares from the best point, by the mean of twins on several tracks."""
         found = []
         for _ in range(_STEPS):
             difference = self._heard - self._seeds(point).mean(axis=0)
             found.append((misfit(difference, self._tolerance), point, difference))
-            point = self._stepped(point, difference)
+            point = self._take_step(point, difference)
         _, best, after = min(found, key=lambda each: each[0])
         return best, after
 
-    def _told(self, k: int, point: Float, known: Identified, last: Identified, reason: str) -> Fit:
+    def _report_unknown(self, k: int, point: Float, known: Identified, last: Identified, reason: str) -> Fit:
         """Tell what is known of an unknown: of one that is left what was known before it was."""
         fitted = k in self._free
         place = self._free.index(k) if fitted else k

@@ -53,7 +53,7 @@ class Identified:
         return np.asarray(np.minimum(2.0 * self.factor * self.deviation, 1.0), np.float64)
 
 
-def identified(
+def identify(
     slope: Float,
     weight: Float,
     scatter: Float,

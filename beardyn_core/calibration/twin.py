@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.calibration.spectra import Hearing, Ride, levels_of
 from beardyn_core.calibration.unknowns import BY_NAME, NOISE
@@ -46,7 +46,7 @@ class Beside:
     _keys: dict[str, Any] = field(init=False)
 
     def __post_init__(self) -> None:
-        self._keys = NOISE.written(written(self.scene), self.sensor, 0.0, Path())
+        self._keys = NOISE.write_into(write_noun(self.scene), self.sensor, 0.0, Path())
 
     def power(self, values: Values, seed: int) -> Float:
         """Simulate a twin at each speed without noise of the accelerometer.
@@ -63,17 +63,17 @@ class Beside:
         float64 array, shape [ride, axis, band]
             [m^2/s^4].
         """
-        return np.stack([self._ridden(values, seed, ride.shaft_frequency) for ride in self.rides])
+        return np.stack([self._ride_track(values, seed, ride.shaft_frequency) for ride in self.rides])
 
     def levels(self, power: Float, noise: float) -> Float:
         """Add noise of a density to powers, shape [..., band], and give levels, [dB re 1 m/s^2]."""
         return np.asarray(10.0 * np.log10(power + noise**2 * self.hearing.widths), np.float64)
 
-    def _ridden(self, values: Values, seed: int, shaft_frequency: float) -> Float:
+    def _ride_track(self, values: Values, seed: int, shaft_frequency: float) -> Float:
         data = self._keys
         for name, value in values.items():
             if name != NOISE.name:
-                data = BY_NAME[name].written(data, self.sensor, value, Path())
+                data = BY_NAME[name].write_into(data, self.sensor, value, Path())
         duration = _SETTLING + self.hearing.stretch + _SPARE
         data = {**data, "operation": operation_at(self.scene, shaft_frequency), "duration_s": duration}
         data["seed"] = self.scene.seed + seed
@@ -99,7 +99,7 @@ def operation_at(scene: Scene, shaft_frequency: float) -> dict[str, Any]:
         It is neither on a track nor constant.
     """
     course = scene.operation
-    keys: dict[str, Any] = written(course)
+    keys: dict[str, Any] = write_noun(course)
     if isinstance(course, QuarterVehicleOperation):
         speed_kmh = 3.6 * shaft_frequency * pi * course.wheel_diameter
         rest = {key: value for key, value in keys.items() if key not in _SPEEDS}

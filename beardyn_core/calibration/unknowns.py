@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.effects import ModalStructure
 from beardyn_core.population.key_paths import Place, with_value
 from beardyn_core.scene.scene import Scene
@@ -45,7 +45,7 @@ class Unknown:
             return heard.amplitude_factor or None if heard is not None and heard.forces else None
         if self.name == "noise":
             return scene.sensors[sensor].noise_density or None
-        return float(written(scene)["end_play_mm"])
+        return float(write_noun(scene)["end_play_mm"])
 
     def ends(self, base: float) -> tuple[float, float]:
         """Lowest and highest value that is thought of, for a base value."""
@@ -60,7 +60,7 @@ class Unknown:
         """Take a value back from the scale on which it is fitted."""
         return exp(scaled) if self.relative else scaled
 
-    def written(self, data: dict[str, Any], sensor: int, value: float, folder: Path) -> dict[str, Any]:
+    def write_into(self, data: dict[str, Any], sensor: int, value: float, folder: Path) -> dict[str, Any]:
         """Write a value into the mapping of a scene file that lies in a folder."""
         place = tuple(sensor if each == SENSOR else each for each in self.place)
         return with_value(data, place, float(f"{value**self.power:.{_DIGITS}g}"), folder)

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.calibration.fitting import Fit
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.scene import Scene
@@ -31,24 +31,24 @@ def scene_keys(
     folder : Path
         Of the file to write: files beside that of the base are named by their whole path in another one.
     """
-    data = written(base) if isinstance(base, Scene) else read_file(base)
+    data = write_noun(base) if isinstance(base, Scene) else read_file(base)
     home = Path() if isinstance(base, Scene) else base.parent
     if home.resolve() != folder.resolve() and not isinstance(base, Scene):
-        data = _located(data, home)
+        data = _locate_files(data, home)
     if "sensors" not in data:
-        data["sensors"] = [written(each) for each in twin.sensors]
+        data["sensors"] = [write_noun(each) for each in twin.sensors]
     for fit in fits:
         if not fit.reason:
-            data = fit.unknown.written(data, sensor, fit.value, home)
+            data = fit.unknown.write_into(data, sensor, fit.value, home)
     return data
 
 
-def _located(value: Any, home: Path) -> Any:
+def _locate_files(value: Any, home: Path) -> Any:
     """Write names of files beside the scene as whole paths; shipped names stay."""
     if isinstance(value, dict):
-        return {key: _located(each, home) for key, each in value.items()}
+        return {key: _locate_files(each, home) for key, each in value.items()}
     if isinstance(value, list):
-        return [_located(each, home) for each in value]
+        return [_locate_files(each, home) for each in value]
     if isinstance(value, str) and "." in value and (home / value).is_file():
         return str((home / value).resolve())
     return value

@@ -101,13 +101,13 @@ def _rules() -> str:
 def _key(scene: Scene, free: Free, given: EffectSet | None) -> str:
     # neither name nor purpose is in any reason
     digest = hashlib.sha256()
-    for part in _spelled((replace(scene, name="", purpose=""), free, given)):
+    for part in _spell_out((replace(scene, name="", purpose=""), free, given)):
         digest.update(part.encode())
         digest.update(b"\n")
     return digest.hexdigest()[:32]
 
 
-def _spelled(value: Any) -> Iterator[str]:
+def _spell_out(value: Any) -> Iterator[str]:
     """Spell a value out, the same in every process; a file by its content."""
     if value is None or isinstance(value, bool | int | float | str):
         yield repr(value)
@@ -120,19 +120,19 @@ def _spelled(value: Any) -> Iterator[str]:
         for field in fields(value):
             if field.compare:
                 yield field.name
-                yield from _spelled(getattr(value, field.name))
+                yield from _spell_out(getattr(value, field.name))
         if isinstance(value, ModalStructure) and not value.content:
-            yield from _spelled(Path(value.table) if is_path(value.table) else table_path(value.table))
+            yield from _spell_out(Path(value.table) if is_path(value.table) else table_path(value.table))
         yield ")"
     elif isinstance(value, tuple | list):
         yield "["
         for each in value:
-            yield from _spelled(each)
+            yield from _spell_out(each)
         yield "]"
     elif isinstance(value, frozenset | set):
-        yield from _spelled(sorted(value))
+        yield from _spell_out(sorted(value))
     elif isinstance(value, Mapping):
-        yield from _spelled(sorted(value.items()))
+        yield from _spell_out(sorted(value.items()))
     else:
         raise _UnhashableError(type(value).__name__)
 

@@ -82,14 +82,14 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
     try:
         evidence = Evidence(replace(scene, tier="full"))
     except ValidityError as error:
-        return _unjudged(scene, free, given, accuracy, str(error))
+        return _choose_all(scene, free, given, accuracy, str(error))
     looked_at = tuple(name for name in asked if name != "vibration" or evidence.moves)
     limits = tuple(tolerance(name, accuracy) for name in looked_at)
     rules = [rule(evidence) for rule in RULES]
     best: tuple[tuple[float, ...], Stage, list[Alternative]] | None = None
     clock = _Clock(evidence, free, "vibration" in looked_at)
     for name in reversed(TIERS) if free.tier else (scene.tier,):
-        offered = [_offered(rule, free, name, given) for rule in rules]
+        offered = [_list_alternatives(rule, free, name, given) for rule in rules]
         if any(not alternatives for alternatives in offered):
             continue
         least = _least_errors(evidence, name, offered, looked_at)
@@ -97,7 +97,7 @@ def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = Non
         if best is not None and best[0][0] == 0.0 and beyond:
             continue
         # no fineness is bought for what a tier that the scene names misses anyway
-        allowed = limits if free.tier else tuple(map(_allowed, limits, least))
+        allowed = limits if free.tier else tuple(map(_widen_limit, limits, least))
         for count in _counts(scene, free, given, name):
             steps = [
                 (deciding, clock.step(scene, name, count, deciding))
@@ -150,7 +150,7 @@ class _Clock:
         return self._known[key]
 
 
-def _allowed(limit: float, least: float) -> float:
+def _widen_limit(limit: float, least: float) -> float:
     """Widen a limit that cannot be kept to what can be."""
     return limit if least <= limit else least + _BESIDES * limit
 
@@ -197,12 +197,12 @@ def _stage(evidence: Evidence, name: str, count: int, asked: tuple[str, ...]) ->
     return Stage(name, count, evidence.costs.base(name, count), total, verdict.reason, lamina.reason)
 
 
-def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:
+def _list_alternatives(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[Alternative]:
     """List the alternatives of a rule in a tier; an effect that the scene fixes is the only one."""
     possible = [
         option
         for option in rule.alternatives
-        if tier_name in option.tiers and _represented(option, tier_name)
+        if tier_name in option.tiers and _is_represented(option, tier_name)
     ]
     members = rule.alternatives[0].members
     if all(name in free.effects for name in members):
@@ -217,10 +217,10 @@ def _offered(rule: Rule, free: Free, tier_name: str, given: EffectSet) -> list[A
         nearest = (possible or rule.alternatives)[-1]
         reason = f"as the scene has it, not in the tier {tier_name}; {nearest.reason}"
         return [replace(nearest, members={**nearest.members, **kept}, reason=reason)]
-    return [_unoffered(rule, kept)]
+    return [_make_unoffered(rule, kept)]
 
 
-def _unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
+def _make_unoffered(rule: Rule, kept: dict[str, Any]) -> Alternative:
     """Make the alternative of options that no rule offers, judged like the most similar one offered."""
 
     def likeness(option: Alternative) -> int:
@@ -246,7 +246,7 @@ def _likeness(one: Any, other: Any) -> int:
     return 1 + sum(type(getattr(one, each.name)) is type(getattr(other, each.name)) for each in options)
 
 
-def _represented(option: Alternative, tier_name: str) -> bool:
+def _is_represented(option: Alternative, tier_name: str) -> bool:
     represented = TIERS[tier_name].represented
     present = (name for name, value in option.members.items() if value is not None)
     return represented is None or all(name in represented for name in present)
@@ -320,12 +320,12 @@ def _choice_of(
     )
 
 
-def _unjudged(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: str) -> Choice:
+def _choose_all(scene: Scene, free: Free, given: EffectSet, accuracy: float, why: str) -> Choice:
     """Choose every effect where no equilibrium exists by which to judge them."""
     name = "full" if free.tier else scene.tier
     usual = scene.numerics.steps_per_sample
     if free.steps:
-        usual = discretisation_error.served(
+        usual = discretisation_error.refine_for_sensors(
             StepChoice(TIERS[name].steps_per_sample, ""), scene.sensors
         ).steps_per_sample
     total = measured_costs().ratios["full"]

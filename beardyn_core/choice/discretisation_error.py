@@ -15,7 +15,7 @@ from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Influence, Verdict, percent
-from beardyn_core.choice.usual_step import served, with_modes
+from beardyn_core.choice.usual_step import refine_for_sensors, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.defect import lamina_cover, surface_radius
@@ -71,7 +71,7 @@ def laminae(evidence: Evidence, count: int) -> Verdict:
     return Verdict(reason, influence)
 
 
-def _uncovered(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
+def _uncovered_laminae(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
     """Find the middle of each lamina, and its length beside a patch, [m]."""
     step = length / count
     middles = [-0.5 * length + (index + 0.5) * step for index in range(count)]
@@ -89,7 +89,7 @@ def tilt_error(patch: Patch | None, length: float, count: int) -> float:
     """
 
     def second_moment(laminae: int) -> float:
-        middles, left = _uncovered(patch, length, laminae)
+        middles, left = _uncovered_laminae(patch, length, laminae)
         return sum(part * place**2 for place, part in zip(middles, left, strict=True))
 
     fine = second_moment(_FINE)
@@ -148,7 +148,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         there = replace(scene, tier=tier, effects=effects)
         slow = vibration and scene.vibration_to is not None and band <= SLOW_BAND
         found = fast_steps(there, long=slow, band=band)
-        return served(with_modes(found, there, band), scene.sensors)
+        return refine_for_sensors(with_modes(found, there, band), scene.sensors)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
         scene.bearing,
@@ -162,7 +162,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         band=band,
         bending=partial(bending_give, scene),
     )
-    return served(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
+    return refine_for_sensors(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
 
 
 def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
@@ -174,7 +174,7 @@ def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
         return Verdict(reason, {"deflection": _QUASISTATIC_SHARE, **influence})
     deflection = roller_load = 0.0
     for case in evidence.loads.cases:
-        spring, exact = evidence.statics.lumped(case, laminae), evidence.statics.at(case)
+        spring, exact = evidence.statics.solve_lumped(case, laminae), evidence.statics.at(case)
         if exact is None:
             continue
         if spring is None:

@@ -90,7 +90,7 @@ def fast_steps(scene: Scene, long: bool = True, band: float = math.inf) -> StepC
     if not long or not limits.long_steps:
         return StepChoice(limits.steps_per_sample, f"the usual step of the tier {scene.tier}")
     slow = band <= SLOW_BAND and scene.tier == "lumped"
-    sudden = _sudden(scene, slow)
+    sudden = _name_sudden_excitation(scene, slow)
     if sudden:
         return StepChoice(limits.steps_per_sample, f"{sudden} fill the band of the waveforms")
     allowed = long_steps(scene.tier, "" if scene.effects.structure is None else scene.effects.structure.kind)
@@ -110,7 +110,7 @@ def _rings(fastest: float, steps: float) -> str:
     return f"the rings on all rollers, at most {kilohertz:.3g} kHz, turn by {turn:.2g} rad a step"
 
 
-def _sudden(scene: Scene, slow: bool = False) -> str:
+def _name_sudden_excitation(scene: Scene, slow: bool = False) -> str:
     """Name the excitation that is too sudden for steps longer than a sample; empty when there is none.
 
     ``slow``: whether only the band is asked for in which faults and rings do with such steps.

@@ -68,23 +68,23 @@ def load_scene(
         ("quantities",): quantities,
         ("vibration_to_Hz",): vibration_to,
     }
-    return closed(read_scene(name, _given(overrides)), outside_load)
+    return complete_scene(read_scene(name, _given_choices(overrides)), outside_load)
 
 
 def scene_with_all(name: str | Path) -> Scene:
     """Load a scene as `load_scene` does, but with every effect, in its own box, where it leaves them open."""
     found = read_scene(name)
-    return found.scene if found.free.effects else closed(found)
+    return found.scene if found.free.effects else complete_scene(found)
 
 
 def scene_from_text(text: str, label: str = "scene") -> Scene:
     """Load the scene of a YAML text, such as the one recorded with a run; see `load_scene`."""
-    return closed(read_scene_text(text, label))
+    return complete_scene(read_scene_text(text, label))
 
 
 def scene_from_mapping(data: dict[str, Any], label: str, folder: Path) -> Scene:
     """Load the scene of the mapping in a scene file that lies in a folder; see `load_scene`."""
-    return closed(read_scene_mapping(data, label, folder))
+    return complete_scene(read_scene_mapping(data, label, folder))
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def explain_scene(
     InputError
         With every mistake.
     """
-    given = _given(
+    given = _given_choices(
         {
             ("effects",): effects,
             ("tier",): tier,
@@ -129,11 +129,11 @@ def explain_scene(
     return Explanation(found.scene, current, choice_for(every))
 
 
-def _given(overrides: dict[Any, Any]) -> dict[Any, Any]:
+def _given_choices(overrides: dict[Any, Any]) -> dict[Any, Any]:
     return {place: value for place, value in overrides.items() if value is not None}
 
 
-def closed(found: OpenScene, outside_load: bool = False) -> Scene:
+def complete_scene(found: OpenScene, outside_load: bool = False) -> Scene:
     """Complete a scene: by the automatic choice with its reasons, or by the usual step of its tier."""
     if found.free.anything:
         choice = choice_for(found)

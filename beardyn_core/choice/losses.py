@@ -261,13 +261,13 @@ class Losses:
         if traction is None:
             return 0.0, _DEEP_SLIP
         if isinstance(traction, LoadSharingTraction):
-            return self._shared(traction, film, loads, needed)
+            return self._share_traction(traction, film, loads, needed)
         if isinstance(traction, CoulombTraction) or film is None:
             friction = (
                 traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
             )
         else:
-            friction = self._blended(traction, film)
+            friction = self._blend_friction(traction, film)
         available = friction * total
         if needed >= available:
             return available, _DEEP_SLIP
@@ -275,7 +275,7 @@ class Losses:
         slip = traction.regularisation_speed * used / math.sqrt(1.0 - used**2) / speed
         return available, min(slip, _DEEP_SLIP)
 
-    def _blended(self, traction: MixedTraction | ShearedFilmTraction, film: LineFilm) -> float:
+    def _blend_friction(self, traction: MixedTraction | ShearedFilmTraction, film: LineFilm) -> float:
         """Blend boundary and full-film coefficients by the sixth power of the film parameter."""
         boundary = traction.boundary_friction
         full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear
@@ -283,7 +283,7 @@ class Losses:
         place = (self.film_parameter(film) - low) / max(high - low, 1.0e-9)
         return float(full + (boundary - full) * (1.0 - min(max(place, 0.0), 1.0)) ** 6)
 
-    def _shared(
+    def _share_traction(
         self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
         """Compute the sum of asperity and film friction over the rollers, solved for the slip."""

@@ -61,7 +61,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     receptance of box and modes. The suspension, the inertia of rollers and the tilt of their contacts are
     left out: below 200 Hz the first counts, towards their bounce at 17 to 22 kHz the second.
     """
-    azimuth, sides, loads = _loaded(scene, static)
+    azimuth, sides, loads = _loaded_rollers(scene, static)
     cosine, wrench = math.cos(scene.bearing.cup_angle), _wrenches(scene, azimuth, sides)
     centres = band_centres(highest)
     if not loads.size:
@@ -104,7 +104,7 @@ def _receptance(own: Float, damping_ratio: Float | float, rate: Float) -> NDArra
     return np.asarray(1.0 / (own**2 - driven**2 + 2j * damping_ratio * own * driven))
 
 
-def _loaded(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
+def _loaded_rollers(scene: Scene, static: StaticSolution) -> tuple[Float, Float, Float]:
     """Give azimuth [rad], side of the bearing centre and load [N] of the rollers that carry."""
     count = scene.bearing.roller_count
     load = static.cup_load
@@ -145,7 +145,7 @@ def bounce(scene: Scene, static: StaticSolution, force: Float) -> Bounce | None:
     ``None`` where the wheelset is rigid, or no roller carries.
     """
     axle = modes_of(scene)
-    azimuth, sides, loads = _loaded(scene, static)
+    azimuth, sides, loads = _loaded_rollers(scene, static)
     if axle is None or not loads.size:
         return None
     spring = np.sqrt(roller_tangent(scene.bearing) * loads**0.1)

@@ -103,7 +103,7 @@ def tolerance(quantity: str, accuracy: float) -> float:
     return VIBRATION_TOLERANCE_DB if quantity == "vibration" else accuracy
 
 
-def _allowed(quantity: str, accuracy: float) -> str:
+def _write_largest_error(quantity: str, accuracy: float) -> str:
     """Write the largest error that a quantity may have."""
     limit = tolerance(quantity, accuracy)
     return f"{limit:g} dB" if quantity == "vibration" else f"{100.0 * limit:.3g} %"
@@ -180,7 +180,7 @@ class Choice:
         unknown = ", ".join(name for name in self.expected if name not in known)
         bounds = ", ".join(f"{name} {error_text(name, error)}" for name, error in known.items())
         wide = [
-            f"{name} {_allowed(name, self.accuracy)}"
+            f"{name} {_write_largest_error(name, self.accuracy)}"
             for name, error in known.items()
             if error > tolerance(name, self.accuracy)
         ]

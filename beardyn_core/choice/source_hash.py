@@ -25,7 +25,7 @@ def source_hash(source: Path) -> str:
         path = waiting.pop()
         if path not in reached:
             reached.add(path)
-            waiting += _imported(path)
+            waiting += _imported_files(path)
     digest = hashlib.sha256()
     for path in sorted(reached):
         digest.update(path.name.encode())
@@ -39,7 +39,7 @@ def _text(path: Path) -> bytes:
 
 
 @cache
-def _imported(source: Path) -> tuple[Path, ...]:
+def _imported_files(source: Path) -> tuple[Path, ...]:
     """List the files of this package that a file imports: of a room its modules that are named, else all."""
     found: list[Path] = []
     for match in _IMPORT.finditer(_text(source)):

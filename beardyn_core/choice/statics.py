@@ -46,10 +46,10 @@ class Statics:
         """Solve the equilibrium under a load case; ``None`` where there is none."""
         key = (case, laminae, coupling, bending)
         if key not in self._known:
-            self._known[key] = self._solved(*key)
+            self._known[key] = self._solve_case(*key)
         return self._known[key]
 
-    def _solved(
+    def _solve_case(
         self, case: LoadCase, laminae: int, coupling: LaminaCoupling | None, bending: bool
     ) -> StaticSolution | None:
         body = self.body if bending else None
@@ -59,7 +59,7 @@ class Statics:
         except (InputError, ValidityError):
             return None
 
-    def lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
+    def solve_lumped(self, case: LoadCase, laminae: int) -> tuple[float, float] | None:
         """Compute the deflection [m] and largest roller load [N] of the springs of the lumped tier."""
         exact = self.at(case)
         if exact is None:

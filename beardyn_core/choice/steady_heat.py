@@ -97,7 +97,7 @@ def steady_heat(scene: Scene) -> SteadyHeat:
     start = cold_start(scene).temperature
     temperature, before, share = np.full(len(NODES), thermal.ambient), np.zeros(len(NODES)), _STEP
     for _ in range(_ITERATIONS):
-        warm = _warmed(scene, thermal, temperature, start)
+        warm = _warm_scene(scene, thermal, temperature, start)
         torque = torque_by_source(warm, case)
         heat = abs(case.speed) * np.array([torque.get(name, 0.0) for name in LOSS_NAMES]) @ heat_shares()
         step = network.steady(heat, thermal.ambient) - temperature
@@ -133,7 +133,7 @@ def torque_by_source(scene: Scene, case: LoadCase) -> dict[str, float]:
     }
 
 
-def _warmed(scene: Scene, thermal: Thermal, temperature: Float, start: Float) -> Scene:
+def _warm_scene(scene: Scene, thermal: Thermal, temperature: Float, start: Float) -> Scene:
     """Give the scene the film temperature and end play that go with some temperatures."""
     change = temperature - start
     closed = end_play_change(

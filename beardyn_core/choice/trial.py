@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
-from beardyn_core.choice.load import choice_for, closed
+from beardyn_core.choice.load import choice_for, complete_scene
 from beardyn_core.config import automatic
 from beardyn_core.config.folders import find
 from beardyn_core.config.load import OpenScene, read_scene_mapping
@@ -69,7 +69,7 @@ def trial_scene(trial: Trial, cell: Cell) -> Scene:
     found = read_trial_scene(trial, cell)
     choice = trial.choice(cell.tier)
     if choice is None:
-        return closed(found)
+        return complete_scene(found)
     numerics = replace(found.scene.numerics, laminae=choice.laminae, steps_per_sample=choice.steps_per_sample)
     return replace(found.scene, effects=choice.effects, numerics=numerics, chosen=choice.reasons)
 
@@ -149,7 +149,7 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
         **operation,
         "irregularity": {**(irregularity if isinstance(irregularity, dict) else {}), "kind": cell.track},
         "speed_profile": [{"time_s": 0, "speed_kmh": UNITS["kmh"].to_edge(cell.speed)}],
-        "wheel_defects": [written(defect) for defect in trial.wheel(cell.wheel).defects],
+        "wheel_defects": [write_noun(defect) for defect in trial.wheel(cell.wheel).defects],
     }
     data |= {
         "scene": f"{trial.name}, {cell.key}"[:80],

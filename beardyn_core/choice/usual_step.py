@@ -30,7 +30,7 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         from beardyn_core.choice.fast_step import fast_steps  # brings the model along
 
         found = fast_steps(scene, long=not outside_load)
-    return served(with_modes(found, scene), scene.sensors)
+    return refine_for_sensors(with_modes(found, scene), scene.sensors)
 
 
 def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> StepChoice:
@@ -51,7 +51,7 @@ def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> S
     return StepChoice(steps, turn if steps > choice.steps_per_sample else f"{choice.reason}; {turn}")
 
 
-def served(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:
+def refine_for_sensors(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:
     """Refine a choice of the step where the sensors need it."""
     steps = choice.steps_per_sample
     problem = steps_do_not_fit(sensors, steps)

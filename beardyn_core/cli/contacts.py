@@ -10,7 +10,7 @@ from pathlib import Path
 from beardyn_core.base.interrupts import last_words, may_be_left
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import file_problems, folder_problems, write_whole
-from beardyn_core.cli.files import checked, made_folder
+from beardyn_core.cli.files import check_inputs, made_folder
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 
@@ -59,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import load_bearing
 
-    with checked(lambda inputs: option_problems(args, inputs)):
+    with check_inputs(lambda inputs: option_problems(args, inputs)):
         bearing = load_bearing(args.bearing)
 
     from beardyn_core.base.jit import when_compiling

@@ -62,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
 
     with last_words(kept):
         try:
-            summary = desk_run.run(scene, [recording], _shown(progress))
+            summary = desk_run.run(scene, [recording], _progress_callback(progress))
         finally:
             progress.close()
         return _report(folder, summary, args)
@@ -79,7 +79,7 @@ def _report(folder: Path, summary: RunSummary, args: argparse.Namespace) -> int:
     return DONE if summary.complete else INVALID
 
 
-def _shown(progress: Progress) -> Callable[[Block], None]:
+def _progress_callback(progress: Progress) -> Callable[[Block], None]:
     """Move the progress with every block."""
     simulated = wall = 0.0
 

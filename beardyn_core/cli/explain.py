@@ -7,9 +7,9 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from beardyn_core.cli.files import checked, tell_doubts
+from beardyn_core.cli.files import check_inputs, tell_doubts
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_choice, add_json, chosen
+from beardyn_core.cli.options import add_choice, add_json, gather_choices
 
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
@@ -37,8 +37,8 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.choice import explain_scene
 
-    with checked():
-        found = explain_scene(args.scene, **chosen(args))
+    with check_inputs():
+        found = explain_scene(args.scene, **gather_choices(args))
     tell_doubts(found.scene)
     print(json_text("explain", json_object(found)) if args.json else text(found))
     return DONE
@@ -79,11 +79,13 @@ def text(found: Explanation) -> str:
 
 def _heard(explanation: Explanation) -> list[str]:
     """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
-    from beardyn_core.base.edge import written
+    from beardyn_core.base.edge import write_noun
 
     scene, found = explanation.scene, list(explanation.current.told)
     if scene.background is not None:
-        parts = [part for part in written(scene.background) if part not in ("name", "description", "sources")]
+        parts = [
+            part for part in write_noun(scene.background) if part not in ("name", "description", "sources")
+        ]
         found.append(f"background {scene.background.name}: {', '.join(parts)}")
     found += [
         f"sensor {sensor.name}: measured path {path.path.name} on {', '.join(path.axes)}, a filter behind "

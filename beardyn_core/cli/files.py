@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def checked(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iterator[None]:
+def check_inputs(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iterator[None]:
     """Read the inputs of a command in the context; raise `InputError` of them and of its options at once.
 
     ``more`` lists what is wrong with the options, from the files that were read.

@@ -24,10 +24,10 @@ def json_text(command: str, content: Mapping[str, Any], indent: int | None = Non
     return strict_text({"schema_version": SCHEMA_VERSION, "command": command, **content}, indent)
 
 
-def renamed(value: Any, names: Mapping[str, str]) -> Any:
+def rename_keys(value: Any, names: Mapping[str, str]) -> Any:
     """Rename the keys of mappings, nested ones and those in lists included; others keep their name."""
     if isinstance(value, Mapping):
-        return {names.get(key, key): renamed(each, names) for key, each in value.items()}
+        return {names.get(key, key): rename_keys(each, names) for key, each in value.items()}
     if isinstance(value, (list, tuple)):
-        return [renamed(each, names) for each in value]
+        return [rename_keys(each, names) for each in value]
     return value

@@ -14,7 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
-from beardyn_core.cli.files import checked, made_folder, tell_doubts
+from beardyn_core.cli.files import check_inputs, made_folder, tell_doubts
 from beardyn_core.cli.generated_parser import names
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
@@ -80,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
 
-    with checked(lambda inputs: option_problems(args, inputs)):
+    with check_inputs(lambda inputs: option_problems(args, inputs)):
         scene = scene_with_all(args.scene)
 
     plan = comparison_of(scene, args.duration, args.settling)

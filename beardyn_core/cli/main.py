@@ -105,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return DONE
     except OSError as error:
         _let_go_of_stdout()
-        _complain([_told(error)])
+        _complain([_explain_refusal(error)])
         return BAD_INPUT
 
 
@@ -121,7 +121,7 @@ def _make_streams_printable() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def _told(error: OSError) -> str:
+def _explain_refusal(error: OSError) -> str:
     """Say what the system refuses, with advice where it is about writing."""
     import errno
 

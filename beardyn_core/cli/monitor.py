@@ -137,7 +137,7 @@ def run(args: argparse.Namespace) -> int:
         )
     if problems:
         raise InputError(problems)
-    results = _recorded(args, algorithm) if recorded else _measured(args, algorithm)
+    results = _monitor_recording(args, algorithm) if recorded else _monitor_measured_files(args, algorithm)
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
@@ -236,7 +236,7 @@ def _ending(findings: list[Finding]) -> str:
     return f"{NOT_DIAGNOSABLE}: no analysis; {reason}{many}"
 
 
-def _recorded(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
+def _monitor_recording(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
     from beardyn_core.record.reading import read_run
 
@@ -298,7 +298,7 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     return heard
 
 
-def _measured(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
+def _monitor_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse measured files, block by block."""
     from beardyn_core.cli.import_ import sensor_problems
     from beardyn_core.measured.heard_speed import with_heard_speed

@@ -85,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
             print(f"{path} written")
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
-    print(_HOW[kind].format(file=_shown(target)))
+    print(_HOW[kind].format(file=_show_path(target)))
     return 0
 
 
@@ -122,7 +122,7 @@ def copied_text(kind: str, source: Path, target: Path) -> str:
         f"# Copied from the shipped {singular} {source.stem}. Units stand in the keys.",
         "# Every key with its meaning, unit, limits and default: docs/reference.md; for editors:",
         f"# `beardyn schema {singular}`.",
-        f"# {_HOW[kind].format(file=_shown(target))}",
+        f"# {_HOW[kind].format(file=_show_path(target))}",
     ]
     ending = []
     if kind == "scenes":
@@ -147,7 +147,7 @@ def referred_files(source: Path) -> list[Path]:
     return [path for path in dict.fromkeys(paths) if path.is_file()]
 
 
-def _shown(target: Path) -> str:
+def _show_path(target: Path) -> str:
     """Write a path so that it is taken for one, not for a shipped name."""
     return str(target) if target.suffix in (".yaml", ".yml") or "/" in str(target) else f"./{target}"
 

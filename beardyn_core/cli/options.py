@@ -12,7 +12,7 @@ _LAST_PORT = 65_535
 
 
 def add_choice(parser: ArgumentParser) -> None:
-    """Add effects and tier, and what `auto` chooses them for; `chosen` reads them."""
+    """Add effects and tier, and what `auto` chooses them for; `gather_choices` reads them."""
     add_parameter(parser, simulate, "effects", metavar="NAME")
     add_parameter(parser, simulate, "tier", metavar="T")
     parser.add_argument(
@@ -35,7 +35,7 @@ def add_choice(parser: ArgumentParser) -> None:
     )
 
 
-def chosen(args: Namespace) -> dict[str, Any]:
+def gather_choices(args: Namespace) -> dict[str, Any]:
     """Gather the options of `add_choice` as `beardyn_core.choice.load_scene` takes them."""
     return {
         "effects": args.effects,

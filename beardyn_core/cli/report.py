@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import is_being_written
-from beardyn_core.cli.json_output import json_text, renamed
+from beardyn_core.cli.json_output import json_text, rename_keys
 from beardyn_core.cli.options import add_box, add_force, add_json
 
 if TYPE_CHECKING:
@@ -92,8 +92,8 @@ def json_object(found: Report, recovered: Sequence[Path]) -> dict[str, Any]:
     content = found.to_json()
     return {
         **{_KEYS.get(key, key): value for key, value in content.items()},
-        "topics": renamed(content["topics"], {"rate": "rate_Hz"}),
-        "gaps": renamed(content["gaps"], {"time": "time_s"}),
+        "topics": rename_keys(content["topics"], {"rate": "rate_Hz"}),
+        "gaps": rename_keys(content["gaps"], {"time": "time_s"}),
         "faults": [defect_from(defect).described() for defect in content["faults"]],
         "defects": [_defect(defect) for defect in content["faults"]],
         "recovered": recovered[0] if recovered else None,
@@ -103,4 +103,4 @@ def json_object(found: Report, recovered: Sequence[Path]) -> dict[str, Any]:
 def _defect(fields: dict[str, Any]) -> dict[str, Any]:
     if fields.get("growth") is None:
         return {_DEFECT.get(key, key): value for key, value in fields.items()}
-    return {**_defect({**fields, "growth": None}), "growth": renamed(fields["growth"], _GROWTH)}
+    return {**_defect({**fields, "growth": None}), "growth": rename_keys(fields["growth"], _GROWTH)}

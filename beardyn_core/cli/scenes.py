@@ -249,11 +249,11 @@ def _sensor(name: str) -> dict[str, Any]:
 
 
 def _background(name: str) -> dict[str, Any]:
-    from beardyn_core.base.edge import written
+    from beardyn_core.base.edge import write_noun
     from beardyn_core.config.nouns import load_background
 
     background = load_background(name)
-    parts = [part for part in written(background) if part not in ("name", "description", "sources")]
+    parts = [part for part in write_noun(background) if part not in ("name", "description", "sources")]
     return {"purpose": background.description, "parts": parts}
 
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import recording_problems
-from beardyn_core.cli.files import checked, tell_doubts
+from beardyn_core.cli.files import check_inputs, tell_doubts
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_choice, add_json, chosen
+from beardyn_core.cli.options import add_choice, add_json, gather_choices
 
 if TYPE_CHECKING:
     from beardyn_core.sensors.block import Block
@@ -48,13 +48,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.choice.load import closed
+    from beardyn_core.choice.load import complete_scene
     from beardyn_core.config.load import read_scene
 
-    with checked(lambda inputs: recording_problems("--output", args.output, inputs=inputs, force=args.force)):
+    with check_inputs(
+        lambda inputs: recording_problems("--output", args.output, inputs=inputs, force=args.force)
+    ):
         found = read_scene(args.scene, changes_of(args))
-    with checked():  # apart, for to choose effects takes long
-        scene = closed(found)
+    with check_inputs():  # apart, for to choose effects takes long
+        scene = complete_scene(found)
 
     if scene.axleboxes is not None:
         from beardyn_core.cli import simulate_train
@@ -97,7 +99,7 @@ def changes_of(args: argparse.Namespace) -> dict[tuple[str | int, ...], Any]:
         "laminae": ("numerics", "laminae"),
         "vibration_to": ("vibration_to_Hz",),
     }
-    given = {"duration": args.duration, "laminae": args.laminae, "seed": args.seed, **chosen(args)}
+    given = {"duration": args.duration, "laminae": args.laminae, "seed": args.seed, **gather_choices(args)}
     return {places.get(name, (name,)): value for name, value in given.items() if value is not None}
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words, may_be_left
 from beardyn_core.base.optional import missing
-from beardyn_core.cli.files import checked
+from beardyn_core.cli.files import check_inputs
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json
 
@@ -72,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.structure.modes import RESIDUAL_WAVES
     from beardyn_core.structure.table import table_text
 
-    with checked(
+    with check_inputs(
         lambda inputs: [
             *_problems(args),
             *file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".csv"),

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     if args.sweep is None:
         raise InputError("SWEEP is missing: give a shipped sweep or a YAML file, or --verify")
     from beardyn_core.experiments import EngineError
-    from beardyn_core.population.request import asked
+    from beardyn_core.population.request import make_plan
     from beardyn_core.population.sweeping import conduct
 
     tls = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
@@ -73,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
     changes = {"runs": args.runs, "seed": args.seed, "hours": args.hours}
     if problems := option_problems(args, cluster):  # told before effects are chosen, which takes long
         raise InputError([*_mistakes_of(args.sweep, changes), *problems])
-    plan = asked(args.sweep, _say, **changes)
+    plan = make_plan(args.sweep, _say, **changes)
     bar = _Bar(plan.sweep.run_count) if sys.stderr.isatty() else Lines()
     try:
         with last_words(
@@ -84,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(str(error)) from error
     finally:
         bar.close()
-    print(json_text("sweep", json_object(swept)) if args.json else told(swept), flush=True)
+    print(json_text("sweep", json_object(swept)) if args.json else describe_sweep(swept), flush=True)
     return DONE
 
 
@@ -126,7 +126,7 @@ def json_object(swept: Swept) -> dict[str, object]:
     }
 
 
-def told(swept: Swept) -> str:
+def describe_sweep(swept: Swept) -> str:
     """Say what there is."""
     if not swept.here:
         return f"{swept.folder}: all {swept.done} runs were done before, {swept.failed} failed"

@@ -37,13 +37,13 @@ def add_trend(parser: argparse.ArgumentParser) -> None:
 def run_trend(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.measured.survey import survey
-    from beardyn_core.measured.trending import remember, remembered, trend_of
+    from beardyn_core.measured.trending import read_memory, remember, trend_of
     from beardyn_core.monitor.trend import Trend
 
     if problems := option_problems(args):
         raise InputError(problems)
     measured = survey(args.files, reading_of(args))
-    trend = (remembered(args.memory) if args.memory else None) or Trend(
+    trend = (read_memory(args.memory) if args.memory else None) or Trend(
         tuple(sorted(measured.files[0].chosen.sensors[0].axes))
     )
     for sentence in measured.warnings:

@@ -12,7 +12,7 @@ from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, folder_problems, write_whole
-from beardyn_core.cli.files import checked, made_folder
+from beardyn_core.cli.files import check_inputs, made_folder
 from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_force, add_json, add_monitor
@@ -82,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.trial_report import json_object, table
     from beardyn_core.study.trial_result import TrialResult
 
-    with checked(lambda inputs: option_problems(args, inputs)):
+    with check_inputs(lambda inputs: option_problems(args, inputs)):
         trial = load_trial(args.matrix, tier=args.tier, seed=args.seed, effects=args.effects)
     folder = args.output
     if leaves_open(trial):

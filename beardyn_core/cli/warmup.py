@@ -42,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     if args.scene:
         named = [(name, load_scene(name, effects=args.effects, tier=args.tier)) for name in args.scene]
     else:
-        named = list(_shipped(args.effects, args.tier))
+        named = list(_shipped_scenes(args.effects, args.tier))
     ready = 0
     with last_words(lambda: f"{ready} of {len(named)} are ready, and kept for the next time"):
         for name, scene in named:
@@ -67,7 +67,7 @@ def _of_one_box(scene: Scene) -> list[Scene]:
     return list({bool(box.faults): box for box in boxes}.values())
 
 
-def _shipped(effects: str | None, tier: str | None) -> Iterator[tuple[str, Scene]]:
+def _shipped_scenes(effects: str | None, tier: str | None) -> Iterator[tuple[str, Scene]]:
     """List shipped scenes as they are, then every preset in every tier, each with its name."""
     from beardyn_core.choice import load_scene
     from beardyn_core.config import shipped_names

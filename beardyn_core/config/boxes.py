@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from beardyn_core.base.edge import Vector
-from beardyn_core.base.packed import packed
+from beardyn_core.base.packed import pack_file
 from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.axleboxes import Box
@@ -43,10 +43,10 @@ def scene_of_box(scene: Scene, box: Box) -> Scene:
         if isinstance(operation, QuarterVehicleOperation):
             operation = replace(operation, wheel_defects=())
         own = replace(own, defects=(), missing_rollers=(), operation=operation)
-    return mirrored(own) if box.side == "right" else own
+    return mirror_box(own) if box.side == "right" else own
 
 
-def mirrored(scene: Scene) -> Scene:
+def mirror_box(scene: Scene) -> Scene:
     """Mirror box, suspension, sensors and rows of a scene at y = 0: a left axlebox becomes a right one.
 
     Row 0 stays the one at -y: inboard on the left, outboard on the right. The operation stays as it is.
@@ -56,9 +56,9 @@ def mirrored(scene: Scene) -> Scene:
         scene,
         mounting=replace(
             mounting,
-            box_centre=_turned(mounting.box_centre),
-            suspension_centre=_turned(mounting.suspension_centre),
-            load_offset=_turned(mounting.load_offset),
+            box_centre=_turn_place(mounting.box_centre),
+            suspension_centre=_turn_place(mounting.suspension_centre),
+            load_offset=_turn_place(mounting.load_offset),
             side="left" if mounting.side == "right" else "right",
         ),
         sensors=tuple(map(_mirrored_sensor, scene.sensors)),
@@ -69,12 +69,12 @@ def mirrored(scene: Scene) -> Scene:
     )
 
 
-def _turned(place: Vector) -> Vector:
+def _turn_place(place: Vector) -> Vector:
     return (place[0], -place[1] if place[1] else 0.0, place[2])
 
 
 def _mirrored_sensor(sensor: Accelerometer) -> Accelerometer:
-    return replace(sensor, position=_turned(sensor.position))
+    return replace(sensor, position=_turn_place(sensor.position))
 
 
 def _with_mirrored_box(effects: EffectSet) -> EffectSet:
@@ -84,7 +84,7 @@ def _with_mirrored_box(effects: EffectSet) -> EffectSet:
         return effects
     modes = modes_of_effects(replace(effects, structure=replace(structure, highest=None)))
     assert modes is not None
-    content = packed(table_text(mirrored_modes(modes)), structure.table)
+    content = pack_file(table_text(mirrored_modes(modes)), structure.table)
     # the factors are in the modes already
     mirrored = replace(structure, content=content, stiffness_factor=1.0, damping_factor=1.0)
     return replace(effects, structure=mirrored)
@@ -100,7 +100,7 @@ def mirrored_modes(modes: Modes) -> Modes:
         modes,
         raceway=raceway,
         seats={name: shape * aside for name, shape in modes.seats.items()},
-        places={name: _turned(place) for name, place in modes.places.items()},
-        centre=_turned(modes.centre),
+        places={name: _turn_place(place) for name, place in modes.places.items()},
+        centre=_turn_place(modes.centre),
         products=(-xy, xz, -yz),
     )

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.base.packed import packed
+from beardyn_core.base.packed import pack_file
 from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.rail.transfer_path import content_of, read_transfer_path
@@ -39,7 +39,7 @@ def with_table(effects: EffectSet) -> EffectSet:
     if not isinstance(structure, ModalStructure) or structure.content or not is_path(structure.table):
         return effects
     path = Path(structure.table).resolve()
-    content = packed(table_text_of(path), path)
+    content = pack_file(table_text_of(path), path)
     return replace(effects, structure=replace(structure, table=str(path), content=content))
 
 

@@ -23,7 +23,7 @@ from beardyn_core.config.content import located_table, self_contained
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
 from beardyn_core.config.missing import entries_of, missing_problems
-from beardyn_core.config.problems import Origin, Place, key_path, located, sentences
+from beardyn_core.config.problems import Origin, Place, key_path, locate, sentences
 from beardyn_core.config.scene_file import overlay, with_length
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.effects import EffectSet
@@ -132,7 +132,7 @@ class _Reading:
         return OpenScene(self_contained(scene), free, given, self.data)
 
     def _complain(self, place: Place, problems: list[str]) -> None:
-        label, key = located(place, self.origins)
+        label, key = locate(place, self.origins)
         where = label if label.startswith("--") else f"{label}: {key}"
         self.problems += [f"{where}: {text}" for text in problems]
 
@@ -243,7 +243,7 @@ class _Reading:
         bearing = valid(Bearing, self.data.get("bearing"))
         if bearing is None:
             return
-        label, _ = located(("bearing",), self.origins)
+        label, _ = locate(("bearing",), self.origins)
         problems = check(bearing)
         self.problems += [f"{label}: {problem.removesuffix('.')}" for problem in problems]
         self._check_forces(bearing)

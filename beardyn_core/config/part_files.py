@@ -21,7 +21,7 @@ from beardyn_core.scene.sensor import ALL_RATES, RATE_WORDS, RATES, Acceleromete
 from beardyn_core.scene.waviness import Band, Waviness
 
 
-def tagged(first: str, is_first: Any, second: str) -> Discriminator:
+def choose_form(first: str, is_first: Any, second: str) -> Discriminator:
     """Choose between two forms of a value."""
     return Discriminator(lambda value: first if is_first(value) else second)
 
@@ -75,7 +75,7 @@ class WavinessFile(FileModel):
     amplitude_um: (
         Annotated[
             Annotated[_Amplitude, Tag("<one>")] | Annotated[tuple[_Amplitude, ...], Tag("<each>")],
-            tagged("<each>", lambda value: isinstance(value, list | tuple), "<one>"),
+            choose_form("<each>", lambda value: isinstance(value, list | tuple), "<one>"),
         ]
         | None
     ) = Field(None, description="of each order: one for all, or a list with one an order")

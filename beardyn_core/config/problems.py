@@ -129,7 +129,7 @@ def sentences(error: ValidationError, origins: Sequence[Origin]) -> list[str]:
                 continue
             short_lists.add(place)
         unit = unit_of(str(next((part for part in reversed(place) if isinstance(part, str)), "")))
-        label, key = located(place, origins)
+        label, key = locate(place, origins)
         if label.startswith("--"):
             found.append(_complaint(label, mistake, unit).replace(f"{label} is ", f"{label} ", 1))
         else:
@@ -147,7 +147,7 @@ def _only_lacks_refused_entries(mistake: Any) -> bool:
     )
 
 
-def located(place: Place, origins: Sequence[Origin]) -> tuple[str, str]:
+def locate(place: Place, origins: Sequence[Origin]) -> tuple[str, str]:
     """Find the file that a place came from, and its key path in that file."""
     owners = [origin for origin in origins if place[: len(origin.place)] == origin.place]
     origin = max(owners, key=lambda owner: len(owner.place))

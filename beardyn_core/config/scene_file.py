@@ -15,7 +15,7 @@ from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
-from beardyn_core.config.part_files import tagged
+from beardyn_core.config.part_files import choose_form
 from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.background import Background
@@ -142,7 +142,7 @@ class SceneFile(FileModel):
     )
     numerics: Annotated[
         Annotated[Literal["auto"], Tag("<name>")] | Annotated[keys_of(Numerics), Tag("<inline>")],  # type: ignore[valid-type]
-        tagged("<name>", lambda value: isinstance(value, str), "<inline>"),
+        choose_form("<name>", lambda value: isinstance(value, str), "<inline>"),
     ] = Field(keys_of(Numerics)(), description="discretisation of the run, or auto")
 
     @classmethod
@@ -172,7 +172,7 @@ class SceneFile(FileModel):
         if self.roughness.rib_um is not None:
             bearing = replace(bearing, rib_roughness=um.to_si(self.roughness.rib_um))
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
-        end_play = _mounted(given, bearing) + _closure(given, bearing)
+        end_play = _mounted_end_play(given, bearing) + _closure(given, bearing)
         given |= {"bearing": bearing, "end_play": end_play, "defects": defects}
         return Scene(**{**given, "mounting": self._with_box_of_table(given, bearing)})
 
@@ -243,7 +243,7 @@ class SceneFile(FileModel):
         yield from _rough_twice(given["background"], given["operation"])
 
 
-def _mounted(given: dict[str, Any], bearing: Bearing) -> float:
+def _mounted_end_play(given: dict[str, Any], bearing: Bearing) -> float:
     """Return the end play when mounted, [m]."""
     return float(bearing.end_play if given["end_play"] is None else given["end_play"])
 
@@ -255,7 +255,7 @@ def _closure(given: dict[str, Any], bearing: Bearing) -> float:
 
 def _play_out_of_range(given: dict[str, Any], bearing: Bearing) -> Iterator[Problem]:
     """Find temperatures that open or close the bearing beyond what its contacts are for."""
-    mm, mounted, closure = UNITS["mm"], _mounted(given, bearing), _closure(given, bearing)
+    mm, mounted, closure = UNITS["mm"], _mounted_end_play(given, bearing), _closure(given, bearing)
     if abs(mounted + closure) > MOST_END_PLAY:
         yield Problem(
             f"temperatures make the end play of {mm.to_edge(mounted):.3g} mm when mounted one of "

@@ -13,7 +13,7 @@ import numpy as np
 from beardyn_core.base.edge import Problem, places, written_value
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
-from beardyn_core.base.packed import unpacked
+from beardyn_core.base.packed import unpack_file
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.config.folders import closest, config_folder
 from beardyn_core.effects import EffectSet, ModalStructure
@@ -66,7 +66,7 @@ def modes_of_effects(effects: EffectSet) -> Modes | None:
 
 def _modes_of(structure: ModalStructure) -> Modes:
     if structure.content:
-        return _unpacked(structure.content, structure.table, structure.highest)
+        return _unpack_modes(structure.content, structure.table, structure.highest)
     path = table_path(structure.table)
     note_read(path)
     try:
@@ -84,10 +84,10 @@ def _read(path: Path, _written: int, highest: float | None) -> Modes:
 
 
 @lru_cache(maxsize=16)
-def _unpacked(content: str, label: str, highest: float | None) -> Modes:
+def _unpack_modes(content: str, label: str, highest: float | None) -> Modes:
     if highest is not None:
-        return _unpacked(content, label, None).below(highest)
-    return modes_of_text(unpacked(content, label), label)
+        return _unpack_modes(content, label, None).below(highest)
+    return modes_of_text(unpack_file(content, label), label)
 
 
 def seat_of(sensor: Accelerometer, modes: Modes) -> str:

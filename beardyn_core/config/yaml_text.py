@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.inputs import text_of_file
 from beardyn_core.base.outputs import note_read
@@ -164,4 +164,4 @@ def scene_text(scene: Scene) -> str:
     """
     from beardyn_core.config.content import self_contained  # brings numpy along
 
-    return write_mapping(written(self_contained(scene)))
+    return write_mapping(write_noun(self_contained(scene)))

@@ -33,7 +33,7 @@ def monitor_digest(name: str) -> str:
         for module, path in sorted(files.items()):
             digest.update(f"\n{module}\n".encode())
             digest.update(path.read_bytes())
-        digest.update("\n".join(_versioned(package) for package in sorted(packages)).encode())
+        digest.update("\n".join(_package_version(package) for package in sorted(packages)).encode())
     return digest.hexdigest()[:_LENGTH]
 
 
@@ -47,7 +47,7 @@ def files_digest(paths: Iterable[Path], root: Path, packages: Sequence[str] = NU
     """Hash files with their places below a folder, Python's version and those of packages."""
     digest = hashlib.sha256(sys.version.encode())
     for package in packages:
-        digest.update(_versioned(package).encode())
+        digest.update(_package_version(package).encode())
     for path in sorted(paths):
         digest.update(f"\n{path.relative_to(root)}\n".encode())
         digest.update(path.read_bytes())
@@ -77,7 +77,7 @@ def modules_of(name: str) -> tuple[dict[str, Path], set[str]]:
         path = _file_of(module)
         if path is None:
             continue
-        if any(path.is_relative_to(folder) for folder in _installed()):
+        if any(path.is_relative_to(folder) for folder in _installed_folders()):
             packages.add(top)
             continue
         files[module] = path
@@ -89,7 +89,7 @@ def modules_of(name: str) -> tuple[dict[str, Path], set[str]]:
 
 
 @cache
-def _installed() -> tuple[Path, ...]:
+def _installed_folders() -> tuple[Path, ...]:
     """List the folders that installed packages and Python's own modules lie in."""
     folders = [*sysconfig.get_paths().values(), *site.getsitepackages(), site.getusersitepackages()]
     wanted = [Path(each).resolve() for each in folders if "packages" in each or each.endswith("lib-dynload")]
@@ -138,7 +138,7 @@ def _bound(module: ModuleType) -> Iterator[str]:
             yield name
 
 
-def _versioned(package: str) -> str:
+def _package_version(package: str) -> str:
     try:
         return f"{package} {version(package)}"
     except PackageNotFoundError:

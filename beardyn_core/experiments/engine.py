@@ -127,7 +127,7 @@ class Engine:
         over = False
         try:
             while True:
-                while not over and len(todo) < self._wanted(len(running)):
+                while not over and len(todo) < self._wanted_workers(len(running)):
                     try:
                         todo.append(next(waiting))
                     except StopIteration:
@@ -139,9 +139,9 @@ class Engine:
                         future = self._client.submit(function, todo[0], *arguments, pure=False, retries=0)
                         running[future] = todo.pop(0)
                         future.add_done_callback(self._done.put)
-                    for future in self._finished(running):
+                    for future in self._wait_for_finished(running):
                         task = running[future]
-                        ended = self._ended(future, task)
+                        ended = self._fetch_result(future, task)
                         del running[future]
                         if ended is None:
                             future.cancel()
@@ -157,10 +157,10 @@ class Engine:
                 with suppress(Exception):
                     future.cancel()
 
-    def _wanted(self, running: int) -> int:
+    def _wanted_workers(self, running: int) -> int:
         return max(_AHEAD * max(self.worker_count(), 1) - running, 0)
 
-    def _finished(self, running: dict[Any, Any]) -> list[Any]:
+    def _wait_for_finished(self, running: dict[Any, Any]) -> list[Any]:
         """Wait until some are finished, a worker has come, or the scheduler has gone."""
         if not self._reachable():
             raise _LostError
@@ -177,7 +177,7 @@ class Engine:
     def _reachable(self) -> bool:
         return self._client.status == "running" and (self._local is None or self._local.alive)
 
-    def _ended(self, future: Any, task: Task) -> Ended[Task] | None:
+    def _fetch_result(self, future: Any, task: Task) -> Ended[Task] | None:
         """Fetch what a task gave; ``None`` where its worker has died with it, and it must be done again."""
         from distributed import CancelledError, KilledWorker
         from distributed.comm import CommClosedError

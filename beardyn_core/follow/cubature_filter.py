@@ -31,7 +31,7 @@ class Corrected(NamedTuple):
     misses: Float  # shape [observation], in standard deviations of what was expected
 
 
-def carried(belief: Belief, law: Callable[[Float], Float], noise: Float) -> Belief:
+def predict_belief(belief: Belief, law: Callable[[Float], Float], noise: Float) -> Belief:
     """Carry a belief on by a law of any form.
 
     Parameters
@@ -61,7 +61,7 @@ def carried(belief: Belief, law: Callable[[Float], Float], noise: Float) -> Beli
     return Belief(mean, apart.T @ apart / len(points) + np.diag(noise))
 
 
-def corrected(belief: Belief, rows: Float, observed: Float, variance: Float) -> Corrected:
+def correct_belief(belief: Belief, rows: Float, observed: Float, variance: Float) -> Corrected:
     """Correct a belief by sums of its numbers that were observed.
 
     Parameters

@@ -134,13 +134,13 @@ class Estimator:
         """Fault frequencies of the bearing per revolution."""
         return self.plate.frequencies
 
-    def standardised(self, descriptors: Float) -> Float:
+    def standardise(self, descriptors: Float) -> Float:
         """Take descriptors, shape [run, descriptor], to zero mean and unit spread; what lacks is usual."""
         return np.nan_to_num((descriptors - self.middle) / self.spread, nan=0.0, posinf=0.0, neginf=0.0)
 
     def strangeness(self, descriptors: Float) -> Float:
         """Compute how far runs lie from those learnt from, shape [run]; one in twenty exceeds 1."""
-        return self.box.distance(self.standardised(descriptors))
+        return self.box.distance(self.standardise(descriptors))
 
     def estimates(self, descriptors: Float) -> Estimates:
         """Estimate from stretches of one run, shape [stretch, descriptor].
@@ -148,7 +148,7 @@ class Estimator:
         The middle of the stretches is told, with the intervals of one stretch: what a box or a track has of
         its own is in all of them, and does not go away with their number.
         """
-        standard = self.standardised(descriptors)
+        standard = self.standardise(descriptors)
         part = None if self.part is None else self.part.estimate(standard)
         known = [BY_NAME[name] for name in BY_NAME if name in self.card["quantities"]]
         spalled = part is None or part.condition != HEALTHY
@@ -169,7 +169,7 @@ class Estimator:
             float(np.median(10.0 ** descriptors[:, names_of(self.axes).index("shaft")])),
         )
 
-    def unidentified(self, quantity: Quantity) -> Estimate:
+    def prior_estimate(self, quantity: Quantity) -> Estimate:
         """Give what is known of a quantity that no signal tells: its range in the runs learnt from."""
         known = self.card["quantities"][quantity.name]
         return _silent(
@@ -238,7 +238,7 @@ class Estimator:
 
     def _estimate(self, quantity: Quantity, standard: Float, strange: float, unusual: float) -> Estimate:
         if quantity.name not in self.regressions:
-            return self.unidentified(quantity)
+            return self.prior_estimate(quantity)
         known = self.card["quantities"][quantity.name]
         far, reason = strange, ELSEWHERE
         if quantity.of_passages and strange <= 1.0:

@@ -66,7 +66,7 @@ def order_of_events(
         return nothing
     grid = first + np.arange(passages * _STEPS) / _STEPS
     loud = np.interp(grid, passed, band_envelope(stretch.acceleration, stretch.rate, *BANDS["high"]))
-    inside, weight = _aligned(loud)
+    inside, weight = _align_passages(loud)
     if not weight.sum() > 0.0:
         return nothing
     weight /= weight.sum()
@@ -93,12 +93,12 @@ def order_of_events(
     return found
 
 
-def _aligned(loud: Float) -> tuple[Int, Float]:
+def _align_passages(loud: Float) -> tuple[Int, Float]:
     """Find the steps of each passage, shape [passage, step], its loudest moment in the middle, and how loud.
 
     The moment is looked for around the loudest place of the mean passage.
     """
-    loudest = int(np.argmax(_smoothed(loud.reshape(-1, _STEPS).mean(axis=0), _SMOOTHED_LONG)))
+    loudest = int(np.argmax(_smooth_circle(loud.reshape(-1, _STEPS).mean(axis=0), _SMOOTHED_LONG)))
     smooth = np.convolve(loud, np.ones(_SMOOTHED) / _SMOOTHED, "same")
     margin = _STEPS // 2 + _OWN
     middles = np.arange(loudest, len(loud), _STEPS)
@@ -110,14 +110,14 @@ def _aligned(loud: Float) -> tuple[Int, Float]:
 
 def _second(mean: Float, spacing: float) -> float:
     """Find the second event of a mean passage whose loudest one is in the middle, [m] behind it; else NaN."""
-    smooth = _smoothed(mean, _SMOOTHED)
+    smooth = _smooth_circle(mean, _SMOOTHED)
     ways = (np.arange(_STEPS) - _STEPS // 2) * spacing / _STEPS
     peak = (smooth >= np.roll(smooth, 1)) & (smooth >= np.roll(smooth, -1)) & (np.abs(ways) > LEAST_WAY)
     places = np.flatnonzero(peak)
     return float(ways[places[np.argmax(smooth[places])]]) if len(places) else float("nan")
 
 
-def _smoothed(mean: Float, steps: int) -> Float:
+def _smooth_circle(mean: Float, steps: int) -> Float:
     """Average over steps around the circle."""
     around = np.convolve(np.tile(mean, 3), np.ones(steps) / steps, "same")
     return np.asarray(around[len(mean) : 2 * len(mean)], np.float64)

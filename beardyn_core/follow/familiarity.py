@@ -44,7 +44,7 @@ class Familiarity:
         along, outside = self._parts(standardised)
         return np.asarray(np.hypot(along, outside / self.outside) / self.farthest, np.float64)
 
-    def bounded(self, standardised: Float) -> Familiarity:
+    def set_bound(self, standardised: Float) -> Familiarity:
         """Set the bound by runs of the kind that were not learnt from, shape [run, descriptor]."""
         _, outside = self._parts(standardised)
         scaled = replace(self, outside=max(float(np.median(outside)), _LEAST_SIZE), farthest=1.0)
@@ -74,4 +74,4 @@ def familiarity_of(standardised: Float, columns: Int) -> Familiarity:
     power = (1.0 - shrinkage) * power + shrinkage * power.sum() / len(columns)
     count = len(columns) if len(columns) <= _ALL_OF else min(_DIRECTIONS, len(turn))
     sizes = np.sqrt(np.maximum(power[:count], _LEAST_SIZE**2))
-    return Familiarity(columns, turn[:count], sizes).bounded(standardised)
+    return Familiarity(columns, turn[:count], sizes).set_bound(standardised)

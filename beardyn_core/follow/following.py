@@ -12,7 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.condition import ConditionBelief
-from beardyn_core.follow.cubature_filter import Belief, carried, corrected
+from beardyn_core.follow.cubature_filter import Belief, correct_belief, predict_belief
 from beardyn_core.follow.estimator import (
     AS_WIDE,
     ELSEWHERE,
@@ -159,7 +159,7 @@ class Follower:
         )
         self._time, self._distance = time, distance
         if self.condition is not None and self.estimator.part is not None:
-            chances = self.estimator.part.probabilities(self.estimator.standardised(descriptors[None]))[0]
+            chances = self.estimator.part.probabilities(self.estimator.standardise(descriptors[None]))[0]
             self.condition.take(dict(zip(self.condition.conditions, chances.tolist(), strict=True)))
         changed = self._correct(heard)
         self.stretches += 1
@@ -192,10 +192,12 @@ class Follower:
         def grown(points: Float) -> Float:
             area = np.exp(points[:, wide] + points[:, across])
             after = points.copy()
-            after[:, wide] = np.log(self.law.grown(area, np.exp(points[:, -1]), metres)) - points[:, across]
+            after[:, wide] = (
+                np.log(self.law.grow_areas(area, np.exp(points[:, -1]), metres)) - points[:, across]
+            )
             return after
 
-        self.belief = carried(self.belief, grown, noise)
+        self.belief = predict_belief(self.belief, grown, noise)
 
     @property
     def _spalled(self) -> bool:
@@ -218,13 +220,13 @@ class Follower:
             observed.append(float(each.quantity.scaled(np.array(each.value))))
             variance.append(max(whole - self._common[k], _LEAST_OWN * whole))
         seen, errors = np.array(observed), np.array(variance)
-        ready = corrected(self.belief, rows, seen, errors)
-        stepped = self._stepped(told, ready.misses)
+        ready = correct_belief(self.belief, rows, seen, errors)
+        stepped = self._find_stepped(told, ready.misses)
         if stepped:  # learnt anew, from this stretch on
             opened = self.belief.covariance.copy()
             for k in stepped:
                 opened[k, k] += self._spread[k] ** 2
-            ready = corrected(self.belief._replace(covariance=opened), rows, seen, errors)
+            ready = correct_belief(self.belief._replace(covariance=opened), rows, seen, errors)
         self.belief = ready.belief
         self._surprise = _KEPT * self._surprise + (1.0 - _KEPT) * float(np.mean(ready.misses**2))
         return tuple(self.names[k] for k in stepped)
@@ -235,7 +237,7 @@ class Follower:
             return True
         return heard.part.condition == self.condition.estimate.condition
 
-    def _stepped(self, told: list[int], misses: Float) -> list[int]:
+    def _find_stepped(self, told: list[int], misses: Float) -> list[int]:
         """Find the numbers that have been missed on one side often enough."""
         found = []
         for k, miss in zip(told, misses, strict=True):
@@ -272,7 +274,7 @@ class Follower:
         if quantity.of_fault and not self._spalled:
             return Estimate(quantity, np.nan, (), "no part is called spalled")
         if quantity.name not in self.names:
-            return self.estimator.unidentified(quantity)
+            return self.estimator.prior_estimate(quantity)
         if self._strangeness > 1.0:
             return Estimate(quantity, np.nan, (), ELSEWHERE.format(self._strangeness))
         k = self.names.index(quantity.name)

@@ -45,7 +45,7 @@ class GrowthLaw:
         fast = np.maximum(end - np.maximum(begin, self.critical_area), 0.0)
         return np.asarray((slow + fast) / rate, np.float64)
 
-    def grown(self, begin: Float, rate: Float, distance: float) -> Float:
+    def grow_areas(self, begin: Float, rate: Float, distance: float) -> Float:
         """Compute the areas to which areas grow over a distance at their rates, [m^2]."""
         slow = self.slow_share * rate
         crawled = np.minimum(distance, np.maximum(self.critical_area - begin, 0.0) / slow)

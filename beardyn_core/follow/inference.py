@@ -99,7 +99,7 @@ def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch
         raise InputError(f"{run.label}: has no vibration with a shaft angle to estimate from")
     inside = (signal.time_ns >= run.shaft.time_ns[0]) & (signal.time_ns <= run.shaft.time_ns[-1])
     heard = np.asarray(signal.values, np.float64)[inside][:, [AXES.index(axis) for axis in estimator.axes]]
-    if doubt := unmeasured(heard, estimator):
+    if doubt := name_unmeasured_axes(heard, estimator):
         raise InputError(f"{run.label}: {doubt}")
     if signal.rate < (1.0 - _SAME_RATE) * estimator.rate:
         raise InputError(
@@ -112,7 +112,7 @@ def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch
     lost = np.flatnonzero(np.diff(time_ns) > LONGEST_STEP * 1e9 / signal.rate) + 1
     for begin, end in pairwise([0, *lost.tolist(), len(time_ns)]):
         if end - begin >= _LEAST_LENGTH * estimator.stretch * signal.rate:
-            piece = _resampled(heard[begin:end], angle[begin:end], signal.rate, estimator.rate)
+            piece = _resample(heard[begin:end], angle[begin:end], signal.rate, estimator.rate)
             yield from _cut(*piece, int(time_ns[begin]), estimator)
 
 
@@ -127,7 +127,7 @@ def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[
             yield Stretch(estimator.rate, *forward, np.nan, end_ns)
 
 
-def unmeasured(heard: Float, estimator: Ear) -> str:
+def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:
     """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
     for axis, values in zip(estimator.axes, heard.T, strict=True):
         if len(values) and np.isnan(values).all():
@@ -163,7 +163,7 @@ def turned_forward(heard: Float, angle: Float) -> tuple[Float, Float] | None:
     return (heard[::-1].copy(), angle[::-1].copy()) if (turned <= 0.0).all() else None
 
 
-def _resampled(heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
+def _resample(heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
     """Bring vibration, shape [sample, axis], and angle to the sampling rate of the estimator."""
     if abs(rate / wanted - 1.0) < _SAME_RATE:
         return heard, angle

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.follow.conformal import Guess
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.labelled import Described, taken
-from beardyn_core.follow.learning import calibrated, known, widened
+from beardyn_core.follow.labelled import Described, select_runs
+from beardyn_core.follow.learning import calibrate_intervals, true_values, widen_intervals
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 
 CROSSWISE = 10  # parts of a calibration set, each judged by the others
@@ -58,7 +58,7 @@ class Judgement(NamedTuple):
 
 def judged_by(estimator: Estimator, runs: Described) -> Judgement:
     """Judge an estimator by runs that it has neither learnt from nor been calibrated with."""
-    return Judgement(guessed(estimator, runs), part_score([part_judged(estimator, runs)]))
+    return Judgement(guess_quantities(estimator, runs), part_score([part_judged(estimator, runs)]))
 
 
 def judged_crosswise(
@@ -77,14 +77,17 @@ def judged_crosswise(
     """
     pieces, of_part = [], []
     for inside in crosswise_parts(runs.bearings, parts):
-        by, asked = calibrated(estimator, taken(runs, ~inside), straightened=True), taken(runs, inside)
-        by = by if own is None else widened(by, own)
+        by, asked = (
+            calibrate_intervals(estimator, select_runs(runs, ~inside), straightened=True),
+            select_runs(runs, inside),
+        )
+        by = by if own is None else widen_intervals(by, own)
         places = np.flatnonzero(inside)
-        found = guessed(by, asked)
+        found = guess_quantities(by, asked)
         pieces.append({name: each._replace(places=places[each.places]) for name, each in found.items()})
         of_part.append(part_judged(by, asked))
     numbers = {
-        name: _joined([each[name] for each in pieces if name in each])
+        name: _join_guesses([each[name] for each in pieces if name in each])
         for name in BY_NAME
         if any(name in each for each in pieces)
     }
@@ -98,19 +101,19 @@ def crosswise_parts(bearings: NDArray[Any], parts: int = CROSSWISE) -> Iterator[
         yield np.isin(bearings, names[k::parts])
 
 
-def guessed(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
+def guess_quantities(estimator: Estimator, runs: Described) -> dict[str, Guessed]:
     """Guess every number of runs that have one and of which it is reported, by quantity."""
-    standard = estimator.standardised(runs.descriptors)
+    standard = estimator.standardise(runs.descriptors)
     found = {}
     for name, each in estimator.regressions.items():
-        values, inside = known(BY_NAME[name], runs)
+        values, inside = true_values(BY_NAME[name], runs)
         inside = inside & estimator.reports(BY_NAME[name], standard)
         if inside.any():
             found[name] = Guessed(each.guess(standard[inside]), values[inside], np.flatnonzero(inside))
     return found
 
 
-def _joined(pieces: Sequence[Guessed]) -> Guessed:
+def _join_guesses(pieces: Sequence[Guessed]) -> Guessed:
     guess = Guess(
         *(np.concatenate([each.guess[k] for each in pieces], axis=-1) for k in range(len(Guess._fields)))
     )
@@ -150,7 +153,7 @@ def part_judged(estimator: Estimator, runs: Described) -> PartJudged | None:
     part = estimator.part
     if part is None or not len(runs.conditions):
         return None
-    probability = part.probabilities(estimator.standardised(runs.descriptors))
+    probability = part.probabilities(estimator.standardise(runs.descriptors))
     named = np.array(part.conditions)[probability.argmax(axis=1)]
     held = [
         [truth in each for each in part.sets(row)]

@@ -39,7 +39,7 @@ class Sampling(NamedTuple):
     seconds: float  # of a run
 
 
-def described(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Described:
+def describe_runs(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Described:
     """Work out the descriptors of the complete runs of a part of a set, of all parts with `None`."""
     chosen = runs.runs_of(part)
     columns = [each.label for each in QUANTITIES if each.label in runs.table]
@@ -155,13 +155,13 @@ def _unlike(runs: LabelledSet, other: LabelledSet, what: str, first: str, second
     )
 
 
-def taken(runs: Described, inside: NDArray[np.bool_]) -> Described:
+def select_runs(runs: Described, inside: NDArray[np.bool_]) -> Described:
     """Take some of the runs."""
     truth = {name: values[inside] for name, values in runs.truth.items()}
     return Described(runs.descriptors[inside], truth, runs.bearings[inside], runs.conditions[inside])
 
 
-def joined(parts: Sequence[Described]) -> Described:
+def join_sets(parts: Sequence[Described]) -> Described:
     """Put runs of several sets together."""
     return Described(
         np.concatenate([each.descriptors for each in parts]),

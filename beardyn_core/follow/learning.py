@@ -30,7 +30,7 @@ from beardyn_core.follow.wide_spall import (
     WideRule,
     agree,
     chance_of,
-    folded,
+    fold_widths,
     spacings_of,
 )
 from beardyn_core.sensors.labels import HEALTHY
@@ -61,7 +61,7 @@ class Judged(NamedTuple):
         return float(np.mean(self.errors**2))
 
 
-def trained(
+def train_estimator(
     train: Described, plate: NamePlate, axes: tuple[str, ...], rate: float, stretch: float
 ) -> Estimator:
     """Learn every quantity from the runs of a training part; intervals are not calibrated yet."""
@@ -73,14 +73,14 @@ def trained(
     found, card = {}, {}
     wide = _wide_rule(train, plate, names_of(axes), middle, spread)
     for quantity in QUANTITIES:
-        values, inside = _taught(quantity, train, wide)
+        values, inside = _training_values(quantity, train, wide)
         if inside.sum() < FEWEST or np.ptp(values[inside]) < 1e-12:
             continue
         bearings = train.bearings[inside]
         best = _learnt(quantity, standard[inside], values[inside], bearings, axes, wide)
         explained = 1.0 - best.square / float(np.var(values[inside]))
         ends = np.array([(0.5 - 0.5 * level, 0.5 + 0.5 * level) for level in LEVELS])
-        truth, there = known(quantity, train)
+        truth, there = true_values(quantity, train)
         ranges = quantity.restored(np.quantile(truth[there], ends)).tolist()
         reached = quantity.restored(np.quantile(truth[there], [0.0, 1.0])).tolist()
         card[quantity.name] = {"runs": int(inside.sum()), "explained": explained, "ranges": ranges,
@@ -97,7 +97,7 @@ def trained(
     )  # fmt: skip
 
 
-def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
+def calibrate_intervals(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
     """Set the widths of the intervals by runs that were not learnt from.
 
     With `straightened` those runs are of a truer tier, and they have more to say. Each number is put on the
@@ -105,12 +105,12 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
     them alone, or is the mean of both, as errs least on bearings left out; one that none explains is not told
     any more.
     """
-    standard = estimator.standardised(runs.descriptors)
+    standard = estimator.standardise(runs.descriptors)
     spalled = runs.conditions != HEALTHY
     estimator = replace(
         estimator,
-        box=estimator.box.bounded(standard) if len(standard) else estimator.box,
-        passages=estimator.passages.bounded(standard[spalled]) if spalled.any() else estimator.passages,
+        box=estimator.box.set_bound(standard) if len(standard) else estimator.box,
+        passages=estimator.passages.set_bound(standard[spalled]) if spalled.any() else estimator.passages,
     )
     found, card = {}, {name: dict(each) for name, each in estimator.card["quantities"].items()}
     for quantity in QUANTITIES:
@@ -127,7 +127,7 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
             given, expected = learnt.value(standard[inside]), learnt.expected_error(standard[inside])
             best = Judged(learnt.ways, values[inside] - given, expected)
             if truer:
-                best = _straightened(best, given, values[inside])
+                best = _straighten(best, given, values[inside])
         if truer:
             shown = (standard[inside], values[inside], runs.bearings[inside], estimator.axes)
             best = _truer(best, quantity, *shown)
@@ -147,14 +147,14 @@ def calibrated(estimator: Estimator, runs: Described, *, straightened: bool = Fa
     return replace(estimator, regressions=found, part=part, card={**estimator.card, "quantities": card})
 
 
-def widened(estimator: Estimator, runs: Described) -> Estimator:
+def widen_intervals(estimator: Estimator, runs: Described) -> Estimator:
     """Widen the intervals to those that other runs not learnt from need, where these are wider.
 
     A truer tier that straightens a number sets intervals that hold for that tier alone; the runs of the tier
     that was learnt from need intervals of their own. An interval is the widest of those of the sets that
     calibrate it; without an end where one of them has too few runs, and then no number is reported.
     """
-    standard = estimator.standardised(runs.descriptors)
+    standard = estimator.standardise(runs.descriptors)
     found = {}
     for name, each in estimator.regressions.items():
         values, inside = _judging(BY_NAME[name], runs, estimator, standard)
@@ -164,11 +164,13 @@ def widened(estimator: Estimator, runs: Described) -> Estimator:
     return replace(estimator, regressions=found)
 
 
-def _taught(quantity: Quantity, runs: Described, wide: WideRule | None) -> tuple[Float, NDArray[np.bool_]]:
+def _training_values(
+    quantity: Quantity, runs: Described, wide: WideRule | None
+) -> tuple[Float, NDArray[np.bool_]]:
     """Give what is learnt of a quantity, on the scale of learning, and from which runs: a width folded."""
-    values, inside = known(quantity, runs)
+    values, inside = true_values(quantity, runs)
     if wide is not None and quantity.of_passages:
-        ways = folded(runs.truth[quantity.name], _spacings(runs, wide.spacings))
+        ways = fold_widths(runs.truth[quantity.name], _spacings(runs, wide.spacings))
         values = quantity.scaled(np.maximum(ways, LEAST_FOLDED))
     return values, inside
 
@@ -181,7 +183,7 @@ def _judging(
     A width is judged by the runs whose number would be reported, whatever they are: of passages like those
     learnt from, and taken for narrow spalls.
     """
-    values, inside = known(quantity, runs)
+    values, inside = true_values(quantity, runs)
     learnt, wide = estimator.regressions.get(quantity.name), estimator.wide
     if wide is not None and quantity.of_passages and learnt is not None:
         value, doubt = learnt.value(standard), learnt.expected_error(standard)
@@ -214,7 +216,7 @@ def _truer(
     return min(both, alone, best, key=lambda each: each.square)
 
 
-def _straightened(best: Judged, given: Float, values: Float) -> Judged:
+def _straighten(best: Judged, given: Float, values: Float) -> Judged:
     """Put a number on the line through runs not learnt from, each error that of a line without its run."""
     table = np.stack([np.ones(len(given)), given], axis=1)
     turn = np.linalg.pinv(table)
@@ -223,7 +225,7 @@ def _straightened(best: Judged, given: Float, values: Float) -> Judged:
     return Judged(tuple(each.on_line(offset, slope) for each in best.ways), errors, best.expected)
 
 
-def known(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:
+def true_values(quantity: Quantity, runs: Described) -> tuple[Float, NDArray[np.bool_]]:
     """Give the truth of a quantity on the scale of learning, and which runs have one."""
     values = quantity.scaled(runs.truth[quantity.name])
     return values, np.isfinite(values)
@@ -242,7 +244,7 @@ def _wide_rule(
 
     contrasts, way = [names.index(name) for name in CONTRASTS], names.index(WAY)
     spacings, widths = _spacings(runs, spacings_of(plate)), runs.truth["width"]
-    ways = folded(widths, spacings)
+    ways = fold_widths(widths, spacings)
     teach = np.isfinite(widths) & (ways > LEAST_WAY) & agree(runs.descriptors[:, way], ways)
     wide = np.mod(widths, spacings)[teach] > 0.5 * spacings[teach]
     if min(wide.sum(), len(wide) - wide.sum()) < FEWEST_OF_KIND:
@@ -267,7 +269,7 @@ def _wide_rule(
     doubt = float(np.std(np.log(ways[teach] / (runs.descriptors[teach, way] + added))[short]))
     rule = WideRule(readings * spread, readings @ middle, spacings_of(plate), largest, added, doubt)
     chances = chance_of(odds, runs.descriptors[teach, way], spacings[teach])
-    return rule.decided(chances, widths[teach], spacings[teach])
+    return rule.set_chances(chances, widths[teach], spacings[teach])
 
 
 def shared_of(errors: Float, bearings: NDArray[Any]) -> float:
@@ -321,15 +323,15 @@ def _by_trees(
     """Learn a number by a forest that asks some of the descriptors; with a rule, by the way of events too."""
     errors, spread = np.empty(len(values)), np.empty(len(values))
     for fit, rest in folds:
-        grown = _grown(standard[fit], values[fit], columns, wide)
+        grown = _grow_forest(standard[fit], values[fit], columns, wide)
         errors[rest] = values[rest] - grown.value(standard[rest])
         spread[rest] = grown.expected_error(standard[rest])
     usual = float(np.median(spread))
-    forest = replace(_grown(standard, values, columns, wide), usual=usual)
+    forest = replace(_grow_forest(standard, values, columns, wide), usual=usual)
     return Judged((forest,), errors, np.maximum(spread, LEAST_DOUBT * usual))
 
 
-def _grown(standard: Float, values: Float, columns: NDArray[np.int64], wide: WideRule | None) -> Forest:
+def _grow_forest(standard: Float, values: Float, columns: NDArray[np.int64], wide: WideRule | None) -> Forest:
     """Grow a forest."""
     from sklearn.ensemble import ExtraTreesRegressor
 
@@ -352,16 +354,18 @@ def _by_kernel(standard: Float, values: Float, folds: list[tuple[NDArray[Any], N
         for setting in product(_DIRECTIONS, _WIDTHS, _RIDGES):
             missed = np.empty(len(values))
             for (fit, rest), along in zip(folds, directions, strict=True):
-                learnt = _fitted(standard[fit], values[fit], along, setting)
+                learnt = _fit_regression(standard[fit], values[fit], along, setting)
                 missed[rest] = values[rest] - learnt.value(standard[rest])
             if (square := float(np.mean(missed**2))) < best:
                 best, errors, screen, chosen = square, missed, kept, setting
     spread, expected = float(np.std(values)), np.empty(len(values))
     for fit, rest in folds:
         # what is expected of a run may not have been learnt from its own error
-        part = _fitted(standard[fit], values[fit], _directions(standard[fit], values[fit], screen), chosen)
+        part = _fit_regression(
+            standard[fit], values[fit], _directions(standard[fit], values[fit], screen), chosen
+        )
         expected[rest] = _doubting(part, standard[fit], errors[fit], spread).expected_error(standard[rest])
-    learnt = _fitted(standard, values, _directions(standard, values, screen), chosen)
+    learnt = _fit_regression(standard, values, _directions(standard, values, screen), chosen)
     return Judged((_doubting(learnt, standard, errors, spread),), errors, expected)
 
 
@@ -398,7 +402,7 @@ def _directions(standard: Float, values: Float, kept: int) -> Float:
     return directions
 
 
-def _fitted(
+def _fit_regression(
     standard: Float, values: Float, directions: Float, setting: tuple[int, float, float]
 ) -> Regression:
     """Fit the number alone, its error everywhere alike."""
@@ -407,11 +411,13 @@ def _fitted(
     mean, reach = float(values.mean()), width * np.sqrt(directions.shape[1])
     nothing = np.zeros(len(standard))
     empty = Regression(directions, standard @ directions, nothing, nothing, reach, mean, 0.0)
-    return replace(empty, weights=empty.solved(standard, values - mean, ridge))
+    return replace(empty, weights=empty.solve_weights(standard, values - mean, ridge))
 
 
 def _doubting(learnt: Regression, standard: Float, errors: Float, spread: float) -> Regression:
     """Learn where the number errs more and where less, from errors on bearings not learnt from."""
     size = np.log(np.maximum(np.abs(errors), _LEAST_ERROR * spread))
     mean = float(size.mean())
-    return replace(learnt, doubt_weights=learnt.solved(standard, size - mean, _DOUBT_RIDGE), doubt=mean)
+    return replace(
+        learnt, doubt_weights=learnt.solve_weights(standard, size - mean, _DOUBT_RIDGE), doubt=mean
+    )

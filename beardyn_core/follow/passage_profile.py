@@ -70,7 +70,7 @@ def profile_of(stretch: Stretch, part: str, order: float, plate: NamePlate) -> d
         for kind, values in zip(KINDS, (envelope, logarithm), strict=True):
             mean = values.reshape(passages, _STEPS).mean(axis=0)
             means[band, kind] = mean - mean.mean()
-            circle = _correlated(means[band, kind], means[band, kind])
+            circle = _correlate_passages(means[band, kind], means[band, kind])
             for lag, value in zip(LAGS, np.interp(LAGS, way, circle, period=spacing), strict=True):
                 found[f"repeat_{band}_{kind}_{1e3 * lag:.1f}"] = float(value)
         near = _near(logarithm)
@@ -85,13 +85,13 @@ def profile_of(stretch: Stretch, part: str, order: float, plate: NamePlate) -> d
             found[f"profile_{band}_{kind}_{1e3 * place:.0f}"] = float(value)
     one, other = (means[band, "envelope"] for band in CROSSED)
     for place, value in zip(
-        PLACES, np.interp(PLACES, way, _correlated(one, other), period=spacing), strict=True
+        PLACES, np.interp(PLACES, way, _correlate_passages(one, other), period=spacing), strict=True
     ):
         found[f"crossed_{1e3 * place:.0f}"] = float(value)
     return {name: found[name] for name in NAMES}
 
 
-def _correlated(one: Float, other: Float) -> Float:
+def _correlate_passages(one: Float, other: Float) -> Float:
     """Correlate two mean passages around the circle, 1 for the same shape in the same place."""
     size = max(float(np.linalg.norm(one) * np.linalg.norm(other)), _FLOOR**2)
     return np.asarray(irfft(np.conj(rfft(one)) * rfft(other), len(one)), np.float64) / size

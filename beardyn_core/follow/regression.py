@@ -47,7 +47,7 @@ class Regression:
         """Put the number on a line of itself."""
         return replace(self, weights=slope * self.weights, mean=offset + slope * self.mean)
 
-    def solved(self, standardised: Float, values: Float, ridge: float) -> Float:
+    def solve_weights(self, standardised: Float, values: Float, ridge: float) -> Float:
         """Solve for the weights, shape [run], that give values of the runs learnt from."""
         kernel = self._kernel(standardised)
         return np.asarray(np.linalg.solve(kernel + ridge * np.eye(len(kernel)), values), np.float64)

@@ -12,7 +12,7 @@ from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.inference import doubt_of
 
 
-def shipped() -> list[Path]:
+def list_shipped() -> list[Path]:
     """List the files of the shipped estimators."""
     return sorted((config_folder() / "estimators").glob("*.npz"))
 
@@ -25,7 +25,7 @@ def shipped_for(bearing: Bearing | NamePlate) -> Estimator:
     InputError
         There is none, with those that there are.
     """
-    known = [read_estimator(path) for path in shipped()]
+    known = [read_estimator(path) for path in list_shipped()]
     for each in known:
         if not doubt_of(each, bearing):
             return each

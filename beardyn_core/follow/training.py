@@ -14,13 +14,13 @@ from beardyn_core.follow.judging import judged_by, judged_crosswise
 from beardyn_core.follow.labelled import (
     check_alike,
     check_unseen,
-    described,
+    describe_runs,
     is_one_bearing,
-    joined,
+    join_sets,
     plate_of,
     sampling_of,
 )
-from beardyn_core.follow.learning import FEWEST, calibrated, trained, widened
+from beardyn_core.follow.learning import FEWEST, calibrate_intervals, train_estimator, widen_intervals
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
 
@@ -54,21 +54,21 @@ def train(
     for place, other in enumerate([*calibration, *([] if test is None else [test])]):
         check_alike(runs, other)
         check_unseen([runs, *calibration[:place]], other)
-    seen, own = described(runs, TRAIN, axes), described(runs, VALIDATION, axes)
+    seen, own = describe_runs(runs, TRAIN, axes), describe_runs(runs, VALIDATION, axes)
     if len(seen.bearings) < FEWEST:
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {FEWEST} are needed"
         )
-    found = trained(seen, plate_of(runs), axes, *sampling_of(runs))
-    learnt, held = found, joined([described(each, None, axes) for each in calibration] or [own])
-    found = calibrated(learnt, held, straightened=bool(calibration))
+    found = train_estimator(seen, plate_of(runs), axes, *sampling_of(runs))
+    learnt, held = found, join_sets([describe_runs(each, None, axes) for each in calibration] or [own])
+    found = calibrate_intervals(learnt, held, straightened=bool(calibration))
     if calibration:
-        found = widened(found, own)
+        found = widen_intervals(found, own)
     across = bool(calibration) and test is None
     if across:
         judged = judged_crosswise(learnt, held, own=own)
     else:
-        others = described(runs, TEST, axes) if test is None else described(test, None, axes)
+        others = describe_runs(runs, TEST, axes) if test is None else describe_runs(test, None, axes)
         judged = judged_by(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.scores.items():

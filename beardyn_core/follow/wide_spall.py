@@ -58,7 +58,7 @@ class WideRule:
         chance = np.where(spacing - high > _BEYOND * self.largest, 0.0, chance)
         return np.asarray(np.where(spacing + low <= self.largest, UNKNOWN, chance), np.float64)
 
-    def decided(self, chances: Float, widths: Float, spacings: Float) -> WideRule:
+    def set_chances(self, chances: Float, widths: Float, spacings: Float) -> WideRule:
         """Set the chances that decide by runs that were not learnt from, each shape [run]; widths in [m]."""
         half = 0.5 * spacings
         far, near = chances[widths > _FAR_SHARE * half], chances[widths < LEAST_SHARE * half]
@@ -79,7 +79,7 @@ def spacings_of(plate: NamePlate) -> Float:
     return np.array([spacing_of(part, plate) for part in RACEWAYS])
 
 
-def folded(widths: Float, spacings: Float) -> Float:
+def fold_widths(widths: Float, spacings: Float) -> Float:
     """Fold widths to the way to the nearest multiple of the distance of two rollers, shape [run], [m]."""
     rest = np.mod(widths, spacings)
     return np.asarray(np.minimum(rest, spacings - rest), np.float64)

@@ -11,7 +11,7 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.inference import FEWEST_TURNS, LONGEST_STEP, turned_forward, unmeasured
+from beardyn_core.follow.inference import FEWEST_TURNS, LONGEST_STEP, name_unmeasured_axes, turned_forward
 from beardyn_core.monitor.chain import Stretch
 
 _SAME_RATE = 1e-3
@@ -61,7 +61,7 @@ class StretchIntake:
                 f"{self.estimator.rate:.0f} Hz"
             )
         heard = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]
-        if doubt := unmeasured(heard, self.estimator):
+        if doubt := name_unmeasured_axes(heard, self.estimator):
             raise InputError(f"vibration: {doubt}")
         if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < LONGEST_STEP * period:
             self.gaps += 1

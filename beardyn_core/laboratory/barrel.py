@@ -22,7 +22,7 @@ from beardyn_core.bearing.contact_law import ExactPointContact
 from beardyn_core.bearing.geometry import Material
 from beardyn_core.laboratory.compiled import batch
 from beardyn_core.laboratory.search import SURFACES, Pair
-from beardyn_core.laboratory.shapes import Arc, placed
+from beardyn_core.laboratory.shapes import Arc, place_along
 
 POINT_EXPONENT = 1.5
 ROWS = 2
@@ -80,16 +80,16 @@ class BarrelBearing:
         axis = (-math.sin(lean), 0.0, math.cos(lean))
         east = (math.cos(lean), 0.0, math.sin(lean))
         half = 0.5 * self.roller_diameter
-        return Arc(placed(centre, axis, east), half - self.roller_contour, self.roller_contour)
+        return Arc(place_along(centre, axis, east), half - self.roller_contour, self.roller_contour)
 
     def outer_raceway(self) -> Arc:
         """Build the sphere around the bearing centre."""
-        return Arc(placed((0, 0, 0), (0, 0, 1)), 0.0, self.outer_sphere, -1.0)
+        return Arc(place_along((0, 0, 0), (0, 0, 1)), 0.0, self.outer_sphere, -1.0)
 
     def inner_raceway(self, shift: Float) -> Arc:
         """Build the groove of one row, displaced by ``shift`` [3]."""
         reach = self.centre_distance - 0.5 * self.roller_diameter + self.inner_contour
-        place = placed(shift + np.array([0.0, 0.0, reach * math.sin(self.contact_angle)]), (0, 0, 1))
+        place = place_along(shift + np.array([0.0, 0.0, reach * math.sin(self.contact_angle)]), (0, 0, 1))
         return Arc(place, reach * math.cos(self.contact_angle), self.inner_contour, -1.0)
 
     def pairs(self, position: Float, shift: Float) -> list[Pair]:

@@ -234,10 +234,10 @@ def batch(pairs: Sequence[Pair], starts: Sequence[Float]) -> Batch:
     for i, parameters in enumerate(starts):
         start[i, : len(parameters)] = parameters
     return Batch(
-        p=np.array([pair.p.coded() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
-        q=np.array([pair.q.coded() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
+        p=np.array([pair.p.encode() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
+        q=np.array([pair.q.encode() for pair in pairs]).reshape(-1, shapes.SHAPE_NUMBERS),
         cut=np.array([pair.p.parameter_count for pair in pairs], dtype=np.int64),
-        forms=np.array([pair.form.coded() for pair in pairs]),
+        forms=np.array([pair.form.encode() for pair in pairs]),
         counts=np.array([len(pair.form.equations) for pair in pairs], dtype=np.int64),
         signed=np.array([pair.form.signed for pair in pairs]),
         start=start,

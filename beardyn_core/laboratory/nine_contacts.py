@@ -19,7 +19,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.search import LINES_ALONG_NORMAL, SURFACE_LINE, SURFACES, Form, Pair
-from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, placed, unit
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Shape, Straight, place_along, unit
 from beardyn_core.physics.lamina_table import lamina_places
 
 SLICES = 6
@@ -96,7 +96,7 @@ class RibFace:
     def shape(self, cone: Float) -> Cone:
         """Return the face with the cone displaced."""
         angle = math.atan2(-self.normal_axial, self.normal_radial)
-        return Cone(placed(cone + np.array([0.0, 0.0, self.axial]), (0, 0, 1)), self.radial, angle, -1.0)
+        return Cone(place_along(cone + np.array([0.0, 0.0, self.axial]), (0, 0, 1)), self.radial, angle, -1.0)
 
 
 def large_rib(bearing: Bearing) -> RibFace:
@@ -128,12 +128,12 @@ def small_rib(bearing: Bearing) -> RibFace:
 def end_sphere(bearing: Bearing, pose: RollerPose) -> Arc:
     """Build the spherical large end, swept about the roller axis as in the text."""
     centre = pose.centre + bearing.sphere_centre * pose.axis
-    return Arc(placed(centre, pose.axis), 0.0, bearing.sphere_radius)
+    return Arc(place_along(centre, pose.axis), 0.0, bearing.sphere_radius)
 
 
 def disc(bearing: Bearing, pose: RollerPose, abscissa: float) -> Circle:
     """Build the edge of a disc of the roller."""
-    return Circle(placed(pose.centre + abscissa * pose.axis, pose.axis), disc_radius(bearing, abscissa))
+    return Circle(place_along(pose.centre + abscissa * pose.axis, pose.axis), disc_radius(bearing, abscissa))
 
 
 def pocket_line(bearing: Bearing, name: str) -> Straight:
@@ -144,12 +144,12 @@ def pocket_line(bearing: Bearing, name: str) -> Straight:
         side = 1.0 if name == "C3.1" else -1.0
         reach = disc_radius(bearing, 0.0) + 0.5 * bearing.cage.circumferential_clearance
         slope = side * math.tan(bearing.half_angle)
-        return Straight(placed(centre + side * reach * ahead, axis + slope * ahead, -side * ahead))
+        return Straight(place_along(centre + side * reach * ahead, axis + slope * ahead, -side * ahead))
     play = 0.5 * bearing.cage.axial_clearance
     if name == "C2.1":
         place = bearing.sphere_centre + bearing.sphere_radius + play
-        return Straight(placed(centre + place * axis, ahead, -axis))
-    return Straight(placed(centre - (0.5 * bearing.roller_length + play) * axis, ahead, axis))
+        return Straight(place_along(centre + place * axis, ahead, -axis))
+    return Straight(place_along(centre - (0.5 * bearing.roller_length + play) * axis, ahead, axis))
 
 
 def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -> list[Contact]:
@@ -174,18 +174,18 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
         ("Inner", bearing.cone_angle, 1.0, pose.cone, math.pi),
         ("Outer", bearing.cup_angle, -1.0, 0.0, 0.0),
     ):
-        raceway = Cone(placed(np.array([0.0, 0.0, apex]) + shift, (0, 0, 1)), 0.0, slope, side)
+        raceway = Cone(place_along(np.array([0.0, 0.0, apex]) + shift, (0, 0, 1)), 0.0, slope, side)
         for x in lamina_places(bearing, SLICES).tolist():
             along = (bearing.apex_distance + x) / math.cos(bearing.half_angle)
             add(name, disc(bearing, pose, x), raceway, azimuth, along, 0.0, abscissa=x)
     sphere = end_sphere(bearing, pose)
     polar = 0.5 * math.pi - bearing.rib_polar_angle
     add("FR", sphere, large_rib(bearing).shape(pose.cone), polar, math.pi, 0.0, 0.0)
-    end = placed(pose.centre - 0.5 * bearing.roller_length * pose.axis, pose.axis)
+    end = place_along(pose.centre - 0.5 * bearing.roller_length * pose.axis, pose.axis)
     radius = bearing.small_end_radius
     add("FL", Circle(end, radius), small_rib(bearing).shape(pose.cone), math.pi, 0.0, 0.0)
     # swept about an axis across the roller: at its crown the other sphere has a pole
-    crown = replace(sphere, place=placed(sphere.place.origin, (0.0, 1.0, 0.0), pose.axis))
+    crown = replace(sphere, place=place_along(sphere.place.origin, (0.0, 1.0, 0.0), pose.axis))
     add("C2.1", pocket_line(bearing, "C2.1"), crown, 0.0, 0.0, 0.0)
     for name, side in (("C3.1", 1.0), ("C3.2", -1.0)):
         add(name, pocket_line(bearing, name), disc(bearing, pose, 0.0), 0.0, side * 0.5 * math.pi)
@@ -195,7 +195,7 @@ def contacts_of(bearing: Bearing, pose: RollerPose, surfaces: Form = SURFACES) -
     return found
 
 
-def turned(pose: RollerPose, tilt: float, skew: float) -> RollerPose:
+def turn_pose(pose: RollerPose, tilt: float, skew: float) -> RollerPose:
     """Turn the axis of a pose in the meridian plane (+: large end outwards) and out of it (+: y)."""
     across = np.cross(np.array([0.0, 1.0, 0.0]), pose.axis)
     axis = unit(pose.axis + tilt * across + skew * np.array([0.0, 1.0, 0.0]))

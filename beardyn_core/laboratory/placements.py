@@ -13,9 +13,9 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory import closed_forms
-from beardyn_core.laboratory.nine_contacts import RollerPose, nominal_centre, nominal_pose, turned
+from beardyn_core.laboratory.nine_contacts import RollerPose, nominal_centre, nominal_pose, turn_pose
 from beardyn_core.laboratory.search import LINES, SURFACE_LINE, SURFACES, Form, Pair
-from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Placement, Shape, Straight, placed
+from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Placement, Shape, Straight, place_along
 from beardyn_core.physics.statics.static import solve
 
 Random = np.random.Generator
@@ -27,7 +27,7 @@ _CONE_SHIFT = 30e-6
 def _place(random: Random) -> Placement:
     """Draw any direction at the origin."""
     random.uniform(size=3)  # the same numbers as ever for the directions
-    return placed(np.zeros(3), random.normal(size=3), random.normal(size=3))
+    return place_along(np.zeros(3), random.normal(size=3), random.normal(size=3))
 
 
 def _sphere(random: Random) -> Arc:
@@ -116,7 +116,7 @@ def random_rollers(bearing: Bearing, count: int, seed: int) -> Iterator[RollerPo
             random.uniform(-_CONE_SHIFT, _CONE_SHIFT, 3),
         )
         tilt, skew = random.uniform(-_TURN, _TURN, 2)
-        yield turned(shifted, float(tilt), float(skew))
+        yield turn_pose(shifted, float(tilt), float(skew))
 
 
 def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPose]:
@@ -138,5 +138,5 @@ def loaded_row(bearing: Bearing, force: float, end_play: float) -> list[RollerPo
             nominal.axis,
             np.array([x * sine + z * cosine, x * cosine - z * sine, y]) + play,
         )
-        poses.append(turned(pose, float(static.roller_tilt[1, k]), 0.0))
+        poses.append(turn_pose(pose, float(static.roller_tilt[1, k]), 0.0))
     return poses

@@ -88,7 +88,7 @@ STEP = 1.0e-5  # [s]
 
 
 @inline
-def _turned(q: Any, v0: Any, v1: Any, v2: Any) -> Any:
+def _rotation_matrix(q: Any, v0: Any, v1: Any, v2: Any) -> Any:
     """Return the matrix from body axes to world axes."""
     w, x, y, z = q
     t0, t1, t2 = 2.0 * (y * v2 - z * v1), 2.0 * (z * v0 - x * v2), 2.0 * (x * v1 - y * v0)
@@ -102,10 +102,10 @@ def _rates(
     """Write the derivative of the state to ``r``; return energy, deepest penetration, failures."""
     mass, axial, transverse, radius = body[0], body[1], body[2], body[3]
     q = (s[3], s[4], s[5], s[6])
-    ex = _turned(q, 1.0, 0.0, 0.0)
-    ey = _turned(q, 0.0, 1.0, 0.0)
-    ez = _turned(q, 0.0, 0.0, 1.0)
-    spin = _turned(q, s[10], s[11], s[12])
+    ex = _rotation_matrix(q, 1.0, 0.0, 0.0)
+    ey = _rotation_matrix(q, 0.0, 1.0, 0.0)
+    ez = _rotation_matrix(q, 0.0, 0.0, 1.0)
+    spin = _rotation_matrix(q, s[10], s[11], s[12])
     force0, force1, force2 = 0.0, -mass * GRAVITY, 0.0
     torque0, torque1, torque2 = 0.0, 0.0, 0.0
     damped, rubbed, elastic, deepest, failed = 0.0, 0.0, 0.0, 0.0, 0
@@ -300,9 +300,9 @@ def run_rolling(
         state,
         np.array([body.mass, body.axial_inertia, body.transverse_inertia, body.radius]),
         body.places,
-        trough.floor().coded(),
+        trough.floor().encode(),
         np.array([trough.stiffness, trough.damping, trough.friction, trough.transition_speed]),
-        SURFACE_LINE.coded(),
+        SURFACE_LINE.encode(),
         x,
         step,
         every,

@@ -38,7 +38,7 @@ class Form:
     equations: A[tuple[tuple[int, int], ...], "pairs of rows, whose scalar products vanish"]
     signed: A[bool, "the gap is d . n_Q, negative inside the body; otherwise it is the length of d"] = True
 
-    def coded(self) -> NDArray[np.int64]:
+    def encode(self) -> NDArray[np.int64]:
         """Return the equations as an array, shape [4, 2], unused rows -1."""
         found = np.full((4, 2), -1, dtype=np.int64)
         found[: len(self.equations)] = self.equations

@@ -40,7 +40,7 @@ class Placement:
     pole: A[Float, "axis of revolution, direction of a straight line"]
 
 
-def placed(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)) -> Placement:
+def place_along(origin: ArrayLike, pole: ArrayLike, east: ArrayLike = (1.0, 0.0, 0.0)) -> Placement:
     """Place along an axis; `east` is made square to it, or replaced when it is parallel."""
     axis = unit(pole)
     wanted = np.asarray(east, dtype=np.float64)
@@ -80,7 +80,7 @@ class Shape(ABC):
     def nearest_parameters(self, point: Float) -> Float:
         """Return parameters near the point of the shape that is nearest to `point`."""
 
-    def coded(self) -> Float:
+    def encode(self) -> Float:
         """Return the surface as numbers, shape [SHAPE_NUMBERS]."""
         place = self.place
         return np.concatenate([self._numbers(), place.origin, place.east, place.north, place.pole])

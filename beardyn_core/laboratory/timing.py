@@ -267,10 +267,10 @@ def form_results(
     truth = np.array(
         [closed_forms.contact_gap(bearing, pose, contact) for pose, contact in zip(poses, sound, strict=True)]
     )
-    solved, reached, _ = _searched(sound)
+    solved, reached, _ = _search_all(sound)
     for form in forms:
         contacts = [_of_rib(bearing, pose, form) for pose in poses]
-        _, iterations, gaps = _searched(contacts)
+        _, iterations, gaps = _search_all(contacts)
         good = iterations >= 0
         conditions = [condition_number(c.pair, solved[i]) for i, c in enumerate(contacts) if reached[i] >= 0]
         even = _of_rib(bearing, nominal_pose(bearing), form)
@@ -286,7 +286,7 @@ def form_results(
     return tuple(found)
 
 
-def _searched(contacts: Sequence[Contact]) -> tuple[Float, NDArray[np.int64], Float]:
+def _search_all(contacts: Sequence[Contact]) -> tuple[Float, NDArray[np.int64], Float]:
     return batch([contact.pair for contact in contacts], [contact.start for contact in contacts]).solve()
 
 

@@ -53,7 +53,7 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
             "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
             "uncertainty": uncertainty_of(survey),
         },
-        "bearings": {each.label: _written(each) for each in bearings},
+        "bearings": {each.label: _write_bearing(each) for each in bearings},
         "understood": list(survey.told),
         "warnings": list(survey.warnings),
     }
@@ -97,7 +97,7 @@ def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:
     return tuple(found)
 
 
-def _written(mounted: Mounted) -> dict[str, Any]:
+def _write_bearing(mounted: Mounted) -> dict[str, Any]:
     """Write a bearing, SI."""
     plate = mounted.plate
     return {

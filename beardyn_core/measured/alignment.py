@@ -48,7 +48,7 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
     out = Aligned([0] * len(tables))
     if log_delays and max(log_delays) - min(log_delays) > longest_delay:
         out.warnings.append(
-            f"the stamps of {_listed(tables)} are of different clocks, "
+            f"the stamps of {_list_tables(tables)} are of different clocks, "
             f"{(max(log_delays) - min(log_delays)) * 1e-9:.6g} s apart; they are aligned by the time of the "
             "log"
         )
@@ -66,14 +66,14 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
     if any(start.dated != first.dated for start in known):
         zero = first.ns
         out.warnings.append(
-            f"the times of {_listed(tables)} are of different clocks, a date and seconds; they are taken "
-            "as begun together, which nothing in the file confirms"
+            f"the times of {_list_tables(tables)} are of different clocks, a date and seconds; they are "
+            "taken as begun together, which nothing in the file confirms"
         )
         starts = [start if start is not None and start.dated == first.dated else None for start in starts]
     elif len(known) < len(starts) and any(start.dated or start.ns for start in known):
         silent = [each for each, start in zip(tables, starts, strict=True) if start is None]
         when = "with the others" if first.dated else "at 0 s"
-        out.warnings.append(f"does not say when {_listed(silent)} began; taken is {when}")
+        out.warnings.append(f"does not say when {_list_tables(silent)} began; taken is {when}")
     ns = [zero if start is None else start.ns for start in starts]
     begin = min(at for at, each in zip(ns, tables, strict=True) if each.is_vibration)
     out.begin_ns = [at - begin for at in ns]
@@ -162,7 +162,7 @@ def _first_out_of_order(
     return None
 
 
-def _listed(tables: Sequence[Begun]) -> str:
+def _list_tables(tables: Sequence[Begun]) -> str:
     return " and ".join(each.what for each in tables)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.measured.claimed_rate import is_plausible
-from beardyn_core.measured.formats import Format, opened
+from beardyn_core.measured.formats import Format, open_measured
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Source
 from beardyn_core.measured.time_column import is_counter, is_ramp, is_time_name
@@ -112,12 +112,12 @@ def choose(path: Path, reading: Reading) -> Chosen:
     InputError
         It cannot be opened.
     """
-    source, kind = opened(path, reading)
+    source, kind = open_measured(path, reading)
     work = _Choosing(path, source, reading)
     work.problems += source.problems
     times = _times(work)
     stamps = {channel.name for channel in times.values()}
-    speed = _speed(work)
+    speed = _choose_speed(work)
     taken = stamps | ({speed.channel.name} if speed.channel is not None else set())
     candidates = [each for each in source.channels if each.name not in taken and not each.is_time]
     ramps, empty = _ramps(work, candidates, times)
@@ -192,7 +192,7 @@ def _complain_of_silence(work: _Choosing, has_time: bool) -> None:
         work.complain("does not say at which rate it was sampled; give --rate-hz or --time-channel")
 
 
-def _listed(names: Sequence[str]) -> str:
+def _list_names(names: Sequence[str]) -> str:
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return f"{', '.join(names[:_SHOWN])}{more}" if names else "none"
 
@@ -206,7 +206,7 @@ def _found(work: _Choosing, option: str, pattern: str) -> Channel | None:
         fitting = [channels[int(pattern) - 1]]
     if len(fitting) == 1:
         return fitting[0]
-    names = _listed([each.name for each in (fitting or channels)])
+    names = _list_names([each.name for each in (fitting or channels)])
     if fitting:
         work.complain(f"{option} {pattern!r} fits several channels, {names}; it must be one")
     else:
@@ -261,7 +261,7 @@ def _in_rpm(name: str) -> bool:
     return bool(unit_in(name, {"rpm": 1.0})) or name.lower() == "rpm"
 
 
-def _speed(work: _Choosing) -> Speed:
+def _choose_speed(work: _Choosing) -> Speed:
     reading = work.reading
     if reading.speed is not None:
         return _constant(work, reading.speed)
@@ -281,7 +281,7 @@ def _speed(work: _Choosing) -> Speed:
         channel = _found(work, "speed_channel", reading.speed_channel)
         if channel is None:
             if work.source.numbers:
-                work.problems[-1] += f", and the numbers {_listed(list(work.source.numbers))}"
+                work.problems[-1] += f", and the numbers {_list_names(list(work.source.numbers))}"
             return Speed()
     name = next(iter(numbers)) if channel is None else channel.name
     factor = _speed_factor(work, name, "" if channel is None else channel.unit)
@@ -333,7 +333,7 @@ def _speed_factor(work: _Choosing, name: str, unit: str) -> float:
 
 
 def _sensors(work: _Choosing, candidates: Sequence[Channel], empty: AbstractSet[str]) -> tuple[Sensor, ...]:
-    chosen = _asked(work) if work.reading.channels else _guessed(work, candidates, empty)
+    chosen = _asked_channels(work) if work.reading.channels else _guess_channels(work, candidates, empty)
     sensors = []
     for name, axes in chosen.items():
         found = {axis: Axis(channel, _factor(work, channel)) for axis, channel in sorted(axes.items())}
@@ -352,7 +352,7 @@ def _sensors(work: _Choosing, candidates: Sequence[Channel], empty: AbstractSet[
     return tuple(sensors)
 
 
-def _asked(work: _Choosing) -> dict[str, dict[str, Channel]]:
+def _asked_channels(work: _Choosing) -> dict[str, dict[str, Channel]]:
     chosen: dict[str, dict[str, Channel]] = {}
     for text in work.reading.channels:
         name, sign, rest = text.partition(":")
@@ -378,7 +378,7 @@ def _asked(work: _Choosing) -> dict[str, dict[str, Channel]]:
     return chosen
 
 
-def _guessed(
+def _guess_channels(
     work: _Choosing, candidates: Sequence[Channel], empty: AbstractSet[str]
 ) -> dict[str, dict[str, Channel]]:
     """Take the only channel, or those that say their axis; an axis without numbers was not measured."""
@@ -413,7 +413,7 @@ def _guessed(
     if names:
         work.complain(
             f"does not say which channel is the acceleration; give --channels z=NAME "
-            f"(or x=NAME,y=NAME,z=NAME), it has {_listed(names)}"
+            f"(or x=NAME,y=NAME,z=NAME), it has {_list_names(names)}"
         )
     else:
         work.complain("has no channel beside time and speed; give the file with the acceleration")

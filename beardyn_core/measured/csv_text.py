@@ -16,9 +16,9 @@ from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
 from beardyn_core.measured.text_table import (
     TextTable,
+    detect_table,
     has_no_value,
     is_comment,
-    understood,
 )
 
 _CHARACTERS = 1 << 22  # in memory at a time
@@ -175,7 +175,7 @@ def _slow(
 
 def open_file(path: Path, reading: Reading) -> Held:
     """Find out how a table is written and list its columns, those without a name by number from 1."""
-    table = understood(path, reading)
+    table = detect_table(path, reading)
     numbers = {}
     for key, value in table.facts.items():
         try:

@@ -83,7 +83,7 @@ def format_of(path: Path) -> Format:
     raise InputError(f"{path}: is of no known format; known are {names}")
 
 
-def opened(path: Path, reading: Reading) -> tuple[Source, Format]:
+def open_measured(path: Path, reading: Reading) -> tuple[Source, Format]:
     """Open a file with the module of its format.
 
     Raises

@@ -13,7 +13,7 @@ from beardyn_core.base.optional import library
 from beardyn_core.measured import source
 from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in, stretches
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import Held, broken, in_text
+from beardyn_core.measured.source import Held, in_text, unreadable_file
 
 _UNITS = ("unit", "units", "Unit", "Units", "UNIT")
 
@@ -36,7 +36,7 @@ class _File(Held):
                 count = min(map(len, columns.values()))
                 yield from stretches(columns, names, count, source.BLOCK)
             except (OSError, RuntimeError, ValueError) as error:
-                raise broken(self.path, "HDF5", error) from error
+                raise unreadable_file(self.path, "HDF5", error) from error
 
 
 def open_file(path: Path, _reading: Reading) -> Held:
@@ -76,7 +76,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
             known = {name: Column(_Length(lengths[name])) for name in columns}
             channels = channels_of(known, {**facts, **numbers}, paths, units)
     except (OSError, RuntimeError, ValueError, KeyError) as error:
-        raise broken(path, "HDF5", error) from error
+        raise unreadable_file(path, "HDF5", error) from error
     found = _File(channels, {name: (places[name], columns[name]) for name in columns}, numbers, facts)
     found.path, found.h5py = path, h5py
     return found

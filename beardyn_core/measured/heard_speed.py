@@ -81,13 +81,13 @@ def _pieces(survey: Survey, rate: float) -> Iterator[tuple[float, Float]]:
             continue
         gap = bool(parts) and part.sample != parts[-1].sample + len(parts[-1].time_ns)
         if parts and (gap or count >= PIECE_S * rate):
-            yield _joined(parts)
+            yield _join_parts(parts)
             parts, count = ([] if gap else parts[-_tail(parts, rate) :]), 0
             count = sum(len(each.time_ns) for each in parts)
         parts.append(part)
         count += len(part.time_ns)
     if parts:
-        yield _joined(parts)
+        yield _join_parts(parts)
 
 
 def _tail(parts: list[Heard], rate: float) -> int:
@@ -95,5 +95,5 @@ def _tail(parts: list[Heard], rate: float) -> int:
     return max(1, int(PIECE_S * rate / 3.0 / max(1, len(parts[-1].time_ns))))
 
 
-def _joined(parts: list[Heard]) -> tuple[float, Float]:
+def _join_parts(parts: list[Heard]) -> tuple[float, Float]:
     return parts[0].time_ns[0] * 1e-9, measured_axes(np.concatenate([part.acceleration for part in parts]))

@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import Held, broken, in_text
+from beardyn_core.measured.source import Held, in_text, unreadable_file
 
 
 def open_file(path: Path, _reading: Reading) -> Held:
@@ -20,7 +20,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
     try:
         content = loadmat(path, squeeze_me=False, struct_as_record=True)
     except Exception as error:  # the reader breaks in any way on bytes that are not what they should be
-        raise broken(path, "MATLAB", error) from error
+        raise unreadable_file(path, "MATLAB", error) from error
     numbers: dict[str, float] = {}
     facts: dict[str, str] = {}
     columns: dict[str, Column] = {}

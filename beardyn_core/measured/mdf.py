@@ -15,7 +15,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_start import Start
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken, in_text
+from beardyn_core.measured.source import BLOCK, Channel, Held, in_text, unreadable_file
 from beardyn_core.measured.units import usual
 
 _TIME = "time"
@@ -28,7 +28,7 @@ class _Mdf(Held):
     def blocks(self, names: Sequence[str]) -> Iterator[Float]:
         """Give the samples of channels of one table from the beginning, shape [sample, channel]."""
         try:
-            with _opened(self.path, self.asammdf) as file:
+            with _open_mdf(self.path, self.asammdf) as file:
                 group = self.columns[names[0]][0]
                 count = file.groups[group].channel_group.cycles_nr
                 self.flagged = dict.fromkeys(names, 0)
@@ -39,11 +39,11 @@ class _Mdf(Held):
                         self.flagged[name] += int(np.isnan(values).sum())
                     yield np.stack(found, axis=1)
         except Exception as error:  # the reader breaks in any way on bytes that are not what they should be
-            raise broken(self.path, "MDF", error) from error
+            raise unreadable_file(self.path, "MDF", error) from error
 
 
 @contextmanager
-def _opened(path: Path, asammdf: Any) -> Iterator[Any]:
+def _open_mdf(path: Path, asammdf: Any) -> Iterator[Any]:
     with path.open("rb") as raw:
         try:
             file = asammdf.MDF(raw)
@@ -85,7 +85,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
     origins: dict[str, int] = {}
     origin = Start(0, False)
     try:
-        with _opened(path, asammdf) as file:
+        with _open_mdf(path, asammdf) as file:
             if (start := in_text(file.header.start_time)) is not None:
                 facts["start"] = start
                 origin = Start(round(file.header.start_time.timestamp() * 1e9), True)
@@ -117,7 +117,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
                     channels.append(Channel(name, table, count, usual(str(channel.unit or ""))))
                     places[name] = (group, index)
     except Exception as error:
-        raise broken(path, "MDF", error) from error
+        raise unreadable_file(path, "MDF", error) from error
     found = _Mdf(tuple(channels), places, {}, facts, origins=origins)
     found.path, found.asammdf = path, asammdf
     return found

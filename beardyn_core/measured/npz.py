@@ -15,7 +15,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.measured.arrays_inside import Column, channels_of, columns_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Held, broken, in_text
+from beardyn_core.measured.source import BLOCK, Held, in_text, unreadable_file
 
 _DAMAGE = (OSError, ValueError, EOFError, zipfile.BadZipFile, KeyError, zlib.error)
 
@@ -50,7 +50,7 @@ class _Archive(Held):
                         axis=1,
                     )
         except _DAMAGE as error:
-            raise broken(self.path, "NumPy", error) from error
+            raise unreadable_file(self.path, "NumPy", error) from error
 
 
 class _Members:
@@ -101,7 +101,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
                         continue
                 columns |= columns_in(name, head)
     except _DAMAGE as error:
-        raise broken(path, "NumPy", error) from error
+        raise unreadable_file(path, "NumPy", error) from error
     units = {name: facts.get(f"{_member(name)}.unit", "") for name in columns}
     channels = channels_of(columns, {**facts, **numbers}, units=units)
     found = _Archive(channels, columns, numbers, facts)

@@ -137,9 +137,9 @@ class Reading:
         for key, value in given.items():
             if key in known and value is not None:
                 try:
-                    values[known[key].field] = _converted(known[key], value)
+                    values[known[key].field] = _convert_value(known[key], value)
                 except (TypeError, ValueError):
-                    problems.append(f"{key} is {value!r}; it must be {_wanted(known[key])}")
+                    problems.append(f"{key} is {value!r}; it must be {_wanted_type(known[key])}")
         if problems:
             raise InputError(problems)
         made = cls(**values)
@@ -147,7 +147,7 @@ class Reading:
         return made
 
 
-def _converted(place: Place, value: Any) -> Any:
+def _convert_value(place: Place, value: Any) -> Any:
     kind = kind_of(place)
     if place.field == "channels":
         if isinstance(value, Mapping):
@@ -162,6 +162,6 @@ def _converted(place: Place, value: Any) -> Any:
     return place.at.scale.to_si(float(value)) if kind is float else kind(value)
 
 
-def _wanted(place: Place) -> str:
+def _wanted_type(place: Place) -> str:
     words = {float: "a number", int: "a whole number", str: "a text"}
     return "a text or several" if place.field == "channels" else words[kind_of(place)]

@@ -13,7 +13,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_by_path, claims_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken
+from beardyn_core.measured.source import BLOCK, Channel, Held, unreadable_file
 from beardyn_core.measured.units import split_unit, usual
 
 _READ_BYTES = 1 << 20
@@ -35,7 +35,7 @@ class _Parquet(Held):
                         [_numbers(batch, self.columns[name], name, first) for name in names], axis=1
                     )
         except Exception as error:  # the reader has errors of its own for every kind of damage
-            raise broken(self.path, "Parquet", error) from error
+            raise unreadable_file(self.path, "Parquet", error) from error
 
 
 def _numbers(batch: Any, key: str, name: str, first: dict[str, int]) -> Float:
@@ -54,7 +54,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
         with parquet.ParquetFile(path) as file:
             count, schema = int(file.metadata.num_rows), file.schema_arrow
     except Exception as error:
-        raise broken(path, "Parquet", error) from error
+        raise unreadable_file(path, "Parquet", error) from error
     said = {
         key.decode(errors="replace"): value.decode(errors="replace")
         for key, value in (schema.metadata or {}).items()

@@ -84,7 +84,7 @@ class Held:
             yield np.stack([np.asarray(self.columns[name][part], np.float64) for name in names], axis=1)
 
 
-def broken(path: Path, kind: str, error: Exception) -> InputError:
+def unreadable_file(path: Path, kind: str, error: Exception) -> InputError:
     """Say that a file cannot be read as what it is."""
     reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
     return InputError(f"{path}: cannot be read as {kind} ({reason}); it is cut off or damaged")

@@ -20,7 +20,7 @@ from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
 from beardyn_core.measured.tacho import PulseLevels, Tacho, judge_pulses
-from beardyn_core.measured.telling import gathered, told
+from beardyn_core.measured.telling import describe_files, gather_sentences
 from beardyn_core.measured.time_column import is_ramp
 from beardyn_core.measured.units import ROTATION
 from beardyn_core.monitor.speed import SpeedTrack
@@ -166,7 +166,7 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
     for each in chosen:
         try:
             if each.sensors:
-                files.append(_surveyed(each, reading, found))
+                files.append(_survey_file(each, reading, found))
         except InputError as error:
             found.problems += error.problems
     files = _in_time(files, reading, found)
@@ -177,14 +177,19 @@ def survey(paths: Sequence[Path | str], reading: Reading, needs_speed: bool = Fa
     if files and not found.problems and files[0].chosen.speed.kind == "tacho":
         tacho = _tacho(files, reading, found, needs_speed)
     if found.problems:
-        raise InputError(gathered(found.problems, map(Path, paths)))
+        raise InputError(gather_sentences(found.problems, map(Path, paths)))
     warnings = [*(w for each in files for w in each.chosen.warnings), *found.warnings]
     return Survey(
-        tuple(files), reading, told(files, tacho), tuple(gathered(warnings, map(Path, paths))), None, tacho
+        tuple(files),
+        reading,
+        describe_files(files, tacho),
+        tuple(gather_sentences(warnings, map(Path, paths))),
+        None,
+        tacho,
     )
 
 
-def _surveyed(chosen: Chosen, reading: Reading, found: _Found) -> Surveyed:
+def _survey_file(chosen: Chosen, reading: Reading, found: _Found) -> Surveyed:
     """Read one file to its end and place its tables in time."""
     tables = {
         name: _table(chosen, name, channels, reading, found) for name, channels in chosen.tables.items()

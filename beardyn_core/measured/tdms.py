@@ -12,7 +12,7 @@ from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in, claims_on
 from beardyn_core.measured.claimed_start import start_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import Channel, Held, broken, in_text
+from beardyn_core.measured.source import Channel, Held, in_text, unreadable_file
 from beardyn_core.measured.units import usual
 
 _UNITS = ("unit_string", "NI_UnitDescription", "Unit", "unit")
@@ -32,7 +32,7 @@ class _Tdms(Held):
                     columns[name] = file[group][channel]
                 yield from Held(self.channels, columns).blocks(names)
         except Exception as error:  # the reader breaks in any way on bytes that are not what they should be
-            raise broken(self.path, "TDMS", error) from error
+            raise unreadable_file(self.path, "TDMS", error) from error
 
 
 def open_file(path: Path, _reading: Reading) -> Held:
@@ -73,7 +73,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
                 if said.get("wf_start_time") is not None:
                     dates.add(str(said["wf_start_time"]))
     except Exception as error:
-        raise broken(path, "TDMS", error) from error
+        raise unreadable_file(path, "TDMS", error) from error
     if len(dates) == 1:
         facts["start"] = dates.pop()
     found = _Tdms(tuple(channels), places, numbers, facts)

@@ -17,20 +17,20 @@ _APART = 3
 _RPM = 30.0 / np.pi
 
 
-def told(files: Sequence[Surveyed], tacho: Tacho | None = None) -> tuple[str, ...]:
+def describe_files(files: Sequence[Surveyed], tacho: Tacho | None = None) -> tuple[str, ...]:
     """Say how files were understood."""
     paths = [each.chosen.path for each in files]
     sentences = [f"{each.chosen.path}: {line}" for each in files for line in _lines(each)]
     if files:
         sentences += [f"{files[0].chosen.path}{_others(len(files))}: {line}" for line in _levels(files)]
-    sentences += [f"{each.chosen.path}: {_speed(each)}" for each in files if tacho is None]
+    sentences += [f"{each.chosen.path}: {_describe_speed(each)}" for each in files if tacho is None]
     if tacho is not None and (channel := files[0].chosen.speed.channel) is not None:
         turning = tacho.told(channel.name, files[-1].end_ns * 1e-9)
         sentences.append(f"{files[0].chosen.path}{_others(len(files))}: {turning}")
-    return tuple(gathered(sentences, paths, apart=1))
+    return tuple(gather_sentences(sentences, paths, apart=1))
 
 
-def gathered(sentences: Iterable[str], paths: Iterable[Path], apart: int = _APART) -> list[str]:
+def gather_sentences(sentences: Iterable[str], paths: Iterable[Path], apart: int = _APART) -> list[str]:
     """Say once what is said of several files.
 
     Parameters
@@ -73,7 +73,7 @@ def _lines(each: Surveyed) -> list[str]:
     return lines
 
 
-def _speed(each: Surveyed) -> str:
+def _describe_speed(each: Surveyed) -> str:
     """Say how the shaft of a file turns."""
     speed = each.chosen.speed
     if speed.kind == "constant":

@@ -84,7 +84,7 @@ def encoding_of(head: bytes) -> str:
     return "utf-8-sig"
 
 
-def understood(path: Path, reading: Reading) -> TextTable:
+def detect_table(path: Path, reading: Reading) -> TextTable:
     """Find out how a table is written.
 
     Raises

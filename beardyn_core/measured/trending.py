@@ -61,7 +61,7 @@ def trend_of(survey: Survey, sensor: str = "", trend: Trend | None = None) -> It
     yield from ended()
 
 
-def remembered(path: Path) -> Trend | None:
+def read_memory(path: Path) -> Trend | None:
     """Read the memory of a trend; ``None`` where there is no such file yet."""
     if not path.exists():
         return None

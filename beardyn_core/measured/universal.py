@@ -12,7 +12,7 @@ from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.claimed_start import seconds_as_start
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import Channel, Held, broken
+from beardyn_core.measured.source import Channel, Held, unreadable_file
 from beardyn_core.measured.units import usual
 
 _TIME_RESPONSE = 1
@@ -27,7 +27,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
         kinds = [int(each) for each in file.get_set_types()]
         sets = [file.read_sets(number) for number, kind in enumerate(kinds) if kind == 58]
     except Exception as error:  # the reader breaks in any way on text that is not what it should be
-        raise broken(path, "a Universal file", error) from error
+        raise unreadable_file(path, "a Universal file", error) from error
     signals = [each for each in sets if int(each.get("func_type", 0)) == _TIME_RESPONSE]
     labels = [_label(each) for each in signals]
     doubled = Counter(labels)

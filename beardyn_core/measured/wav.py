@@ -14,7 +14,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.optional import library
 from beardyn_core.measured.claimed_rate import claims_in
 from beardyn_core.measured.options import Reading
-from beardyn_core.measured.source import BLOCK, Channel, Held, broken
+from beardyn_core.measured.source import BLOCK, Channel, Held, unreadable_file
 from beardyn_core.measured.units import split_unit, usual
 
 _USUAL_STEP = 25.0  # [Hz], of which rates that were not rounded are multiples: 11025, 25600, 44100
@@ -34,7 +34,7 @@ class _Sound(Held):
                 for block in file.blocks(BLOCK, dtype="float64", always_2d=True):
                     yield np.asarray(block[:, wanted], np.float64)
         except self.soundfile.LibsndfileError as error:
-            raise broken(self.path, "WAV", error) from error
+            raise unreadable_file(self.path, "WAV", error) from error
 
 
 def open_file(path: Path, _reading: Reading) -> Held:
@@ -45,7 +45,7 @@ def open_file(path: Path, _reading: Reading) -> Held:
             count, rate, names = file.frames, float(file.samplerate), file.channels
             subtype, facts = file.subtype, file.copy_metadata()
     except soundfile.LibsndfileError as error:
-        raise broken(path, "WAV", error) from error
+        raise unreadable_file(path, "WAV", error) from error
     columns, exact = _comment(str(facts.get("comment", "")), names, rate)
     claims = tuple(claims_in({"sample rate": exact or rate}))
     whole = subtype not in _FLOATS  # another program has scaled them, whatever the comment states

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated as A
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.interrupts import sealed
+from beardyn_core.base.interrupts import hold_interrupts
 from beardyn_core.base.outputs import recording_problems
 from beardyn_core.measured.about import Mounted, about
 from beardyn_core.measured.stream import Heard, Stream
@@ -67,7 +67,7 @@ def write_measured(
         writer.describe_measured(about(survey, bearings))
         for part in stream:
             stamp = int(part.time_ns[0])
-            with sealed():
+            with hold_interrupts():
                 if isinstance(part, Heard):
                     points = points_of(VIBRATION, part.sample, part.time_ns, stamp)
                     fill(points, ACCELERATION_AXES, part.acceleration)
@@ -85,6 +85,6 @@ def write_measured(
         status = error.problems[0]
         raise
     finally:
-        with sealed():
+        with hold_interrupts():
             writer.close(status)
     return Imported(path, survey.duration, survey, tuple(dict.fromkeys(stream.warnings)))

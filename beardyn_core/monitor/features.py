@@ -44,7 +44,7 @@ def analytic_part(
     -------
     complex128 array, shape [sample, ...]
     """
-    weighted, lines = _weighted(spectrum, count, rate, band)
+    weighted, lines = _weigh_band(spectrum, count, rate, band)
     whole = np.zeros((count, *spectrum.shape[1:]), np.complex128)
     whole[lines] = 2.0 * weighted
     return np.asarray(ifft(whole, axis=0, overwrite_x=True), np.complex128)
@@ -62,13 +62,13 @@ def real_part(spectrum: NDArray[np.complex128], count: int, rate: float, band: t
     -------
     float64 array, shape [sample, ...]
     """
-    weighted, lines = _weighted(spectrum, count, rate, band)
+    weighted, lines = _weigh_band(spectrum, count, rate, band)
     part = np.zeros_like(spectrum)
     part[lines] = weighted
     return np.asarray(irfft(part, count, axis=0), np.float64)
 
 
-def _weighted(
+def _weigh_band(
     spectrum: NDArray[np.complex128], count: int, rate: float, band: tuple[float, float]
 ) -> tuple[NDArray[np.complex128], slice]:
     """Weigh the lines of a band with its cosine edges, and say which they are."""

@@ -110,9 +110,9 @@ def severity_of(
     Process. 25: the two events, pre-whitening and the cepstrum of them.
     """
     if fault not in ("cup", "cone"):
-        return _unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
+        return _severity_unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
     if plate.roller_diameter < _LEAST_ROLLER:
-        return _unmeasured(
+        return _severity_unmeasured(
             f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "
             "mm on, not of "
             f"{1e3 * plate.roller_diameter:.3g} mm"
@@ -120,10 +120,10 @@ def severity_of(
     spacing = spacing_of(fault, plate)
     events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
     if events is None:
-        return _unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
+        return _severity_unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
     way = _clear_peak(events)
     if not isfinite(way):
-        return _unmeasured(
+        return _severity_unmeasured(
             "no second event stands out: a small spall, one that is worn round, one wider than "
             f"{1e3 * (events.longest + ENTRY_AND_EXIT):.0f} mm, or a noisy sensor"
         )
@@ -170,7 +170,7 @@ def narrow_width(
     return way + ENTRY_AND_EXIT
 
 
-def _unmeasured(reason: str) -> Severity:
+def _severity_unmeasured(reason: str) -> Severity:
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
 
 

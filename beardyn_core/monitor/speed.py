@@ -154,13 +154,13 @@ def speed_from_vibration(
         found = _window_odds(searched, middle, window, grid, orders, settings)
         chances.append(found[0])
         slopes.append(found[1])
-    posterior, evidence = _chained(np.array(chances), grid, settings, window, count)
+    posterior, evidence = _chain_windows(np.array(chances), grid, settings, window, count)
     shares = [
         float(p[np.abs(grid / grid[p.argmax()] - 1.0) <= max(_NEAR, 1.5 * (grid[1] / grid[0] - 1.0))].sum())
         for p in posterior
     ]
     first = grid[posterior.argmax(axis=1)]
-    frequency, deviation, sure = _refined(fine, middles, first, window, orders, settings)
+    frequency, deviation, sure = _refine_track(fine, middles, first, window, orders, settings)
     share = min(shares)
     lines = evidence >= settings.least_evidence
     others = Alternatives(None, 0.0, 0.0)
@@ -227,7 +227,7 @@ def _grid(lowest: float, highest: float, orders_times_window: float) -> Float:
     return np.exp(np.arange(log(lowest), log(highest) + step, step))
 
 
-def _warped(signal: Signal, middle: float, window: float, slope: float) -> Float:
+def _warp_window(signal: Signal, middle: float, window: float, slope: float) -> Float:
     """Resample a window so that a shaft with a constant relative acceleration [1/s] would turn evenly.
 
     The phase f (t + slope t^2 / 2) about the middle increases evenly in the new time.
@@ -255,7 +255,7 @@ def _window_odds(
         total = np.zeros(len(grid))
         for signal in searched:
             spectrum = line_spectrum(
-                _warped(signal, middle, window, slope), signal.rate, {comb.probable for comb in combs}
+                _warp_window(signal, middle, window, slope), signal.rate, {comb.probable for comb in combs}
             )
             total += weigh(spectrum, combs, grid, settings)
         found[number] = total
@@ -265,7 +265,7 @@ def _window_odds(
     return np.asarray(logsumexp(found + prior[:, None], axis=0)), relative[found.argmax(axis=0)]
 
 
-def _chained(
+def _chain_windows(
     odds: Float, grid: Float, settings: SpeedSettings, window: float, count: int
 ) -> tuple[Float, float]:
     """Chain windows by a random walk; give the probability of each frequency, and the least evidence."""
@@ -291,7 +291,7 @@ def _chained(
     return posterior, evidence / max(1.0, 0.5 * (count + 1)) if count > 1 else evidence
 
 
-def _refined(
+def _refine_track(
     searched: list[Signal], middles: Float, first: Float, window: float,
     orders: Sequence[FaultFrequencies], settings: SpeedSettings,
 ) -> tuple[Float, Float, bool]:  # fmt: skip

@@ -106,7 +106,7 @@ def find_alternatives(
     rivals = []
     if far.any():
         ratio, lead = _closest(ratios, found, far)
-        rivals.append(Rival(ratio, lead, _called(ratio, rows, known, shaft)))
+        rivals.append(Rival(ratio, lead, _name_shared_lines(ratio, rows, known, shaft)))
         for frequency in _MAINS:
             left = odds([_without(each, frequency / shaft.frequency) for each in spectra])
             ratio, lead = _closest(ratios, left[near].max() - left, far)
@@ -187,7 +187,7 @@ def _both(row: _Row, meaning: _Row, ratio: float, shaft: Shaft) -> str:
     )
 
 
-def _called(ratio: float, rows: list[_Row], known: list[_Row], shaft: Shaft) -> str:
+def _name_shared_lines(ratio: float, rows: list[_Row], known: list[_Row], shaft: Shaft) -> str:
     """Say what lines both speeds explain, '' when they have none in common."""
     for row in rows:
         for meaning in known:

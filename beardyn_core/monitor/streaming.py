@@ -53,7 +53,7 @@ def measured_axes(acceleration: Float) -> Float:
     return acceleration if absent.all() or not absent.any() else acceleration[:, ~absent]
 
 
-def listen(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[chain.MonitorResult]:
+def run_monitor(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[chain.MonitorResult]:
     """Feed a monitor with a run, live or recorded, and give its results as they become due.
 
     Parameters

@@ -147,9 +147,9 @@ class Trend:
             "records": self.records,
             "since": None if np.isnan(self.since) else self.since,
             "quiet": self.quiet,
-            "last": [_written(each) for each in self._last],
-            "base": None if self._base is None else _written(self._base),
-            "deviation": None if self._deviation is None else _written(self._deviation),
+            "last": [_write_levels(each) for each in self._last],
+            "base": None if self._base is None else _write_levels(self._base),
+            "deviation": None if self._deviation is None else _write_levels(self._deviation),
         }
 
     @classmethod
@@ -174,7 +174,7 @@ class Trend:
             raise InputError(f"is no memory of a trend: {error!r}") from None
 
 
-def _written(levels: Float) -> list[float | None]:
+def _write_levels(levels: Float) -> list[float | None]:
     return [None if np.isnan(each) else round(float(each), 6) for each in levels]
 
 

@@ -399,7 +399,7 @@ def spring_damage(lanes, spring, damage):
 
 
 @inline
-def soften(lanes, tangent, spring, damage):
+def soften_by_edges(lanes, tangent, spring, damage):
     """Take off a stiffness what the edges of patches give way under a spring."""
     if damage is None:
         return tangent

@@ -115,13 +115,13 @@ def affine_change(line, direction, change):
 
 
 @inline
-def shifted(affine, change, part):
+def add_change(affine, change, part):
     """Add a part of a change to a function that is affine in the abscissa."""
     return affine[0] + part * change[0], affine[1] + part * change[1]
 
 
 @inline
-def weighted(weights, affine):
+def weigh_affine(weights, affine):
     """Sum ``w (a0 + a1 x)`` and ``w (a0 + a1 x) x`` over the laminae from the moments of w."""
     return (weights[0] * affine[0] + weights[1] * affine[1], weights[1] * affine[0] + weights[2] * affine[1])
 
@@ -129,7 +129,7 @@ def weighted(weights, affine):
 @inline
 def power(weights, a, b):
     """Sum ``w (a0 + a1 x)(b0 + b1 x)`` over the laminae from the moments of w."""
-    sums = weighted(weights, a)
+    sums = weigh_affine(weights, a)
     return sums[0] * b[0] + sums[1] * b[1]
 
 

@@ -53,7 +53,11 @@ def couple_laminae(lanes, laminae, coupling):
         balance, next_balance = _products(lanes, coupling.follow, j, other, work, SURFACE)
         lanes.store(work, BALANCE, j, balance)
         lanes.store(work, BALANCE, other, next_balance)
-        change = change + _moved(lanes, work, j, balance) + _moved(lanes, work, other, next_balance)
+        change = (
+            change
+            + _surface_shift(lanes, work, j, balance)
+            + _surface_shift(lanes, work, other, next_balance)
+        )
     if any_positive(where_greater(_NOTHING, change, 0.0, lanes.constant(1.0))):  # or a NaN
         _sweep(lanes, count, coupling)
         _load_springs(lanes, laminae, coupling)
@@ -72,7 +76,7 @@ def couple_laminae(lanes, laminae, coupling):
 
 
 @inline
-def _moved(lanes, work, lamina, balance):
+def _surface_shift(lanes, work, lamina, balance):
     """Work out by how much the others move the surface at a lamina, [m]."""
     surface = at_least(lanes.load(work, DEPTH, lamina), balance)
     return magnitude(surface - lanes.load(work, SURFACE, lamina))
@@ -121,13 +125,13 @@ def _free_laminae(lanes, count, coupling):
     for j in range(0, count, 2):
         other = min(j + 1, count - 1)
         load, next_load = _products(lanes, coupling.root, j, other, work, FORCE)
-        freed = _freed(lanes, coupling, j, load)
-        lanes.store(work, SURFACE, other, _freed(lanes, coupling, other, next_load))
+        freed = _surface_after_step(lanes, coupling, j, load)
+        lanes.store(work, SURFACE, other, _surface_after_step(lanes, coupling, other, next_load))
         lanes.store(work, SURFACE, j, freed)
 
 
 @inline
-def _freed(lanes, coupling, lamina, load):
+def _surface_after_step(lanes, coupling, lamina, load):
     """Work out the surface at a lamina after its step, [m]."""
     surface = lanes.load(coupling.work, SURFACE, lamina)
     depth = lanes.load(coupling.work, DEPTH, lamina)

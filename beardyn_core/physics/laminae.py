@@ -13,7 +13,7 @@ from beardyn_core.physics.bodies.friction_substeps import forget, held_friction,
 from beardyn_core.physics.bodies.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 from beardyn_core.physics.bodies.stage_timer import mark_result
 from beardyn_core.physics.bodies.step_stages import CONTACT, FILM, TRACTION
-from beardyn_core.physics.defect import soften, spring_damage, spring_slopes, springs_of
+from beardyn_core.physics.defect import soften_by_edges, spring_damage, spring_slopes, springs_of
 from beardyn_core.physics.film import log2_film_thickness, log2_load
 from beardyn_core.physics.lamina_coupling import (
     DEPTH,
@@ -134,7 +134,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         slopes = _slopes_of(lanes, k, touching, count, damage, effects.coupling)
         gap_rate = _gap_rate(slopes, raceway.turning, damage)
         rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
-        pressing = _within_the_step(touching, depth, rate, raceway.times)
+        pressing = _partial_contact_mean(touching, depth, rate, raceway.times)
         push = _spring_push(pressing, rate, effects.damping)
         whole = share * (0.9 * tangent * touching)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
@@ -299,7 +299,7 @@ def contact_spring(lanes, approach, k, laminae, damage, coupling):
         depth = _geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, SMALLEST_APPROACH)
         tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
-        tangent = soften(lanes, where_greater(depth, 0.0, tangent, 0.0 * depth), k, damage)
+        tangent = soften_by_edges(lanes, where_greater(depth, 0.0, tangent, 0.0 * depth), k, damage)
         return share, depth, tangent, share * tangent * touching * touching * (0.9 * 9.0 / 19.0)
     work = coupling.work
     share, energy = joint_share(lanes, k, damage), lanes.load(work, FORCE, k)
@@ -323,7 +323,7 @@ def _add_lean(lean, load, slopes, damage):
 
 
 @inline
-def _within_the_step(touching, depth, rate, times):
+def _partial_contact_mean(touching, depth, rate, times):
     """Take what a spring presses with where its contact begins or ends within a step, [m].
 
     A roller that its pocket throws, or that falls through a patch, strikes with up to 1 m/s and moves

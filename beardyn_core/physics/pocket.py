@@ -379,7 +379,7 @@ def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     if cage is None:
         zero = lanes.constant(0.0)
         nothing = (zero, zero, zero)
-        return PocketContact(nothing, _untouched(zero), zero, nothing)
+        return PocketContact(nothing, _empty_sums(zero), zero, nothing)
     view = ring_view(lanes, rings, CAGE_BODY, orbit.cosine, orbit.sine)
     place = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(p.rollers, block, POCKET_ANGLE)
     wear, length = pocket_wear(lanes, block, pockets), pocket_length(lanes, block, pockets)
@@ -480,7 +480,7 @@ def free_pocket(pocket, roller, cage):
     small_end, large_end = (axis, small_radius), (axis, large_radius)
     small_front = add_scaled(small_arm, small_radius, front)
     small_behind = add_scaled(small_arm, small_radius, behind)
-    walls = _untouched(0.0 * still)
+    walls = _empty_sums(0.0 * still)
     depth = height + offset + small * (lift + skew) - clearance
     wall = Wall(centre, small_front, front, depth)
     walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
@@ -532,7 +532,7 @@ def rotating_pocket(pocket, roller, cage):
     large_radius = roller.radius + large_place * roller.taper
     small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
     small_arm = add_scaled(scale(small_place, axis), small_radius, small_normal)
-    nothing = _untouched(0.0 * offset)
+    nothing = _empty_sums(0.0 * offset)
     wall = Wall(centre, small_arm, small_normal, magnitude(small_offset) - clearance)
     small = _touch_wall(nothing, wall, motion, cage, (axis, small_radius), None)
     large_arm = add_scaled(scale(large_place, axis), large_radius, large_normal)
@@ -554,9 +554,13 @@ def kinematic_pocket(pocket, cage, kinematic):
     centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
     ahead, offset, skew = _along_pitch_circle(pocket)
     small_arm, large_arm = scale(-cage.bar_place, axis), scale(cage.bar_place, axis)
-    nothing = _untouched(0.0 * offset)
-    small = _hold(nothing, centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic)
-    both = _hold(small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic)
+    nothing = _empty_sums(0.0 * offset)
+    small = _add_kinematic_spring(
+        nothing, centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic
+    )
+    both = _add_kinematic_spring(
+        small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic
+    )
     slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
     return PocketContact(centre, both, slip_squared, scale(0.0, ahead))
 
@@ -602,7 +606,7 @@ def _wall_slip(centre, arm, motion):
 
 
 @inline
-def _untouched(zero):
+def _empty_sums(zero):
     """Make sums over no walls from a zero, or a NaN, which stays one."""
     nothing = (zero, zero, zero)
     return Walls(nothing, nothing, zero, zero, nothing, nothing)
@@ -640,7 +644,7 @@ def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     stored = 0.5 * cage.stiffness * inside * inside
-    spring = cage.stiffness * _within_the_step(inside, rate, cage.step)
+    spring = cage.stiffness * _partial_contact_mean(inside, rate, cage.step)
     damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)
     load, solid, shear = pocket_loads(depth, spring + damping * rate, rate, slip, direction, shape, film)
     tangential = add_scaled(slip, -rate, direction)
@@ -652,7 +656,7 @@ def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
 
 
 @inline
-def _within_the_step(inside, rate, step):
+def _partial_contact_mean(inside, rate, step):
     """Take what a wall's spring presses with where its contact begins or ends within a step, [m].
 
     A whole step of the force at the first or last instant of contact takes or gives k d (u h - d) / 2 more
@@ -664,7 +668,7 @@ def _within_the_step(inside, rate, step):
 
 
 @inline
-def _hold(walls, centre, arm, direction, offset, motion, kinematic):
+def _add_kinematic_spring(walls, centre, arm, direction, offset, motion, kinematic):
     """Add one spring-damper that pulls as well as it pushes."""
     slip = _wall_slip(centre, arm, motion)
     damper = kinematic.damping * dot(slip, direction)

@@ -82,11 +82,11 @@ def push_point(contact, drilling):
     normal, slip = contact.normal, contact.slip
     tangential = add_scaled(slip, -dot(slip, normal), normal)
     force = add_scaled(scale(-contact.load, normal), -contact.friction, tangential)
-    return Wrench(force, _drilled(cross(contact.arm, force), contact, contact.spin, drilling))
+    return Wrench(force, _add_drilling_moment(cross(contact.arm, force), contact, contact.spin, drilling))
 
 
 @inline
-def _drilled(moment, contact, spin, drilling):
+def _add_drilling_moment(moment, contact, spin, drilling):
     """Add the moment of the friction against the spin about the normal."""
     if drilling is None:
         return moment
@@ -126,7 +126,7 @@ def settle_point(contact, change, here, source, time_constant, drilling, p):
     sliding_after = add(before, d_sliding)
     middle = add_scaled(before, 0.5, d_sliding)
     force = add_scaled(scale(-load, normal), -friction, sliding_after)
-    wrench = Wrench(force, _drilled(cross(arm, force), contact, contact.spin + d_spin, drilling))
+    wrench = Wrench(force, _add_drilling_moment(cross(arm, force), contact, contact.spin + d_spin, drilling))
     react(CONE, contact.centre, wrench, here)
     damping = time_constant * tangent
     drilled, extra = _drilling_loss(contact, d_spin, drilling)

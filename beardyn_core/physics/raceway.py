@@ -13,13 +13,13 @@ from beardyn_core.physics.defect import find_damage
 from beardyn_core.physics.film import film_output, log2_entrainment
 from beardyn_core.physics.generator_line import (
     Line,
+    add_change,
     affine_change,
     generator_line,
     line_slip,
     line_wrench,
     power,
-    shifted,
-    weighted,
+    weigh_affine,
 )
 from beardyn_core.physics.laminae import LaminaSums, Raceway, lamina_sums, released_power
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, sqrt
@@ -149,7 +149,7 @@ def push_raceway(contact, damping):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     slip, sums = contact.slip, contact.sums
     normal = _normal_sums(sums.force, sums.stiffness, slip.rate, (sums.gap, contact.damage), damping)
-    around, along = weighted(sums.friction, slip.around), weighted(sums.friction, slip.along)
+    around, along = weigh_affine(sums.friction, slip.around), weigh_affine(sums.friction, slip.along)
     return add_leaning(line_wrench(contact.line, normal, around, along), contact.lean)
 
 
@@ -161,7 +161,7 @@ def _normal_sums(elastic, stiffness, rate, gap, damping):
     """
     if damping is None:
         return elastic
-    damped = _less_gap(weighted(stiffness, rate), gap[0], gap[1])
+    damped = _less_gap(weigh_affine(stiffness, rate), gap[0], gap[1])
     return (
         elastic[0] + damping.time_constant * damped[0],
         elastic[1] + damping.time_constant * damped[1],
@@ -237,21 +237,21 @@ def settled_contact(contact, change, step, spring_time, damping):
     d_rate = affine_change(line, line.normal, change)
     d_around = affine_change(line, line.around, change)
     d_along = affine_change(line, line.along, change)
-    middle_rate = shifted(slip.rate, d_rate, 0.5)
-    spring = weighted(sums.stiffness, d_rate)
+    middle_rate = add_change(slip.rate, d_rate, 0.5)
+    spring = weigh_affine(sums.stiffness, d_rate)
     elastic = (
         sums.force[0] + spring_time * spring[0],
         sums.force[1] + spring_time * spring[1],
         sums.force[2],
     )
     normal = _normal_sums(elastic, sums.stiffness, middle_rate, (sums.gap, contact.damage), damping)
-    around, along = shifted(slip.around, d_around, 1.0), shifted(slip.along, d_along, 1.0)
-    friction_around = weighted(sums.friction, around)
-    wrench = line_wrench(line, normal, friction_around, weighted(sums.friction, along))
+    around, along = add_change(slip.around, d_around, 1.0), add_change(slip.along, d_along, 1.0)
+    friction_around = weigh_affine(sums.friction, around)
+    wrench = line_wrench(line, normal, friction_around, weigh_affine(sums.friction, along))
     wrench = add_leaning(wrench, contact.lean)
     further = spring_time + 0.5 * exchange.damper_time(damping)
     wrench = add_leaning_change(wrench, sums.gap, d_rate, further, contact.body, contact.damage)
-    around, along = shifted(slip.around, d_around, 0.5), shifted(slip.along, d_along, 0.5)
+    around, along = add_change(slip.around, d_around, 0.5), add_change(slip.along, d_along, 0.5)
     slid = power(sums.friction, around, around) + power(sums.friction, along, along)
     numerical = 0.5 * (power(sums.friction, d_around, around) + power(sums.friction, d_along, along))
     damped = _damping_loss(sums, middle_rate, damping, contact.damage)

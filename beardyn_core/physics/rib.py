@@ -493,7 +493,7 @@ def stiffen_rib(matrix, contact, rib, p):
     """Add the implicit part of the rib contact to the roller's matrix."""
     if rib is None:
         return matrix
-    return _stiffen_other(_stiffen(matrix, contact.first, rib, p), contact.second, rib, p, rib.end)
+    return _stiffen_other(_add_rib_stiffness(matrix, contact.first, rib, p), contact.second, rib, p, rib.end)
 
 
 @inline
@@ -502,11 +502,11 @@ def _stiffen_other(matrix, point, rib, p, end):
         return matrix
     if end.both is None:
         return matrix
-    return _stiffen(matrix, point, rib, p)
+    return _add_rib_stiffness(matrix, point, rib, p)
 
 
 @inline
-def _stiffen(matrix, point, rib, p):
+def _add_rib_stiffness(matrix, point, rib, p):
     if not point_contact.is_pressed(point):
         return matrix
     return point_contact.stiffen_point(matrix, point, p.effects.damping, rib.drilling, p)

@@ -140,7 +140,7 @@ def rolling_params(scene: Scene) -> RollingParams | None:
         biboulet_houpert=biboulet_houpert,
         thermal=thermal,
         hysteresis=hysteresis,
-        starved=_starved(supply, units),
+        starved=_starved_parameters(supply, units),
         supply=effect.supply,
         smallest_speed=effect.regularisation_speed,
         regularisation=effect.regularisation_speed / radii,
@@ -156,7 +156,7 @@ def oil_supply(film: LineFilm | None) -> OilSupply:
     return OilSupply(film.formula, film.oil_layer, film.constant_share)
 
 
-def _starved(supply: OilSupply, units: list[laws.RollingContact]) -> StarvedRollingParams | None:
+def _starved_parameters(supply: OilSupply, units: list[laws.RollingContact]) -> StarvedRollingParams | None:
     layer = layer_params(supply.layer, units[0].viscosity)
     if layer is None:
         return None

@@ -49,7 +49,7 @@ def cold_start(scene: Scene) -> Warmth:
     return Warmth(temperature, np.zeros(LOSSES), scene.temperature, scene.end_play)
 
 
-def warmed(
+def advance_temperatures(
     scene: Scene, thermal: Thermal, now: Warmth, energy: Float, shaft_speed: float, duration: float
 ) -> Warmth:
     """Advance the temperatures over some blocks.

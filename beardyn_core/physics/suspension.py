@@ -61,7 +61,7 @@ def spatial_mass(mass: float, inertia: ArrayLike, centre: ArrayLike) -> Float:
     return np.block([[mass * np.eye(3), -arm], [arm, np.diag(np.asarray(inertia, dtype=float))]])
 
 
-def moved(diagonal: ArrayLike, centre: ArrayLike) -> Float:
+def move_stiffness(diagonal: ArrayLike, centre: ArrayLike) -> Float:
     """Move stiffness or damping of springs at another point to this one, shape [6, 6]."""
     motion = np.eye(6)
     motion[:3, 3:] = -cross_matrix(centre)
@@ -83,8 +83,10 @@ def box_coupling(bearing: Bearing, mounting: Mounting, modes: Modes | None = Non
     return BoxCoupling(
         mass=mass,
         inverse_mass=np.ascontiguousarray(np.linalg.inv(mass)),
-        stiffness=moved([*mounting.stiffness, *mounting.rotational_stiffness], mounting.suspension_centre),
-        damping=moved([*mounting.damping, *mounting.rotational_damping], mounting.suspension_centre),
+        stiffness=move_stiffness(
+            [*mounting.stiffness, *mounting.rotational_stiffness], mounting.suspension_centre
+        ),
+        damping=move_stiffness([*mounting.damping, *mounting.rotational_damping], mounting.suspension_centre),
         weight=np.ascontiguousarray(mass[:, 2] * -1.0),
     )
 
@@ -152,7 +154,7 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
         spring, damper = 0.0, 0.0
         for j in range(6):
             spring += coupling.stiffness[i, j] * (_stretch(bodies, load, j) + box[SEAT_PLACE + j])
-            speed = _speed(bodies, j) + box[SEAT_SPEED + j]
+            speed = _body_speed(bodies, j) + box[SEAT_SPEED + j]
             damper += coupling.damping[i, j] * (speed - _bogie_speed(load, load_before, step, j))
         box[DAMPERS + i] = damper
         box[SUSPENSION + i] = mounting.preload[i] - spring - damper
@@ -166,7 +168,7 @@ def kick_box(bodies, wrench, load, load_before, energy, box, step, mounting, gra
             acceleration += coupling.inverse_mass[i, j] * box[FORCE + j]
         box[i] = acceleration
     for i in range(6):
-        middle = _speed(bodies, i) + 0.5 * step * box[i]
+        middle = _body_speed(bodies, i) + 0.5 * step * box[i]
         bogie_speed = _bogie_speed(load, load_before, step, i)
         pull = coupling.weight[i] * fall(gravity)
         energy[layout.ENERGY_EXTERNAL] += step * (box[SUSPENSION + i] * bogie_speed + pull * middle)
@@ -189,7 +191,7 @@ def box_energy(bodies, mounting, coupling):
         return total
     for i in range(6):
         for j in range(6):
-            total += 0.5 * _speed(bodies, i) * coupling.mass[i, j] * _speed(bodies, j)
+            total += 0.5 * _body_speed(bodies, i) * coupling.mass[i, j] * _body_speed(bodies, j)
     return total
 
 
@@ -201,7 +203,7 @@ def _stretch(bodies, load, i):
 
 
 @inline
-def _speed(bodies, i):
+def _body_speed(bodies, i):
     if i < 3:
         return bodies[layout.CUP_BODY, layout.LINEAR + i]
     return bodies[layout.CUP_BODY, layout.ANGULAR + i - 3]

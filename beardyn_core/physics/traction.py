@@ -390,11 +390,11 @@ def load_sharing_coefficient(contact, film, sharing):
     per_slip = sharing.slope * exp2(-contact.log2_rolling)
     saturated = per_slip * arctangent_with(per_slip * slip, inverse_slip * (1.0 / per_slip))
     asperities = sharing.friction * _TWO_OVER_PI * saturated
-    return _shared(contact, slip, inverse_slip, asperities, film, sharing)
+    return _share_load(contact, slip, inverse_slip, asperities, film, sharing)
 
 
 @inline
-def _shared(contact, slip, inverse_slip, asperities, film, sharing):
+def _share_load(contact, slip, inverse_slip, asperities, film, sharing):
     if film is None:
         return asperities
     wet = _flats(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_shear(

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import unit_in
@@ -83,7 +83,7 @@ def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapp
 
 
 def _sweep(scenes: SweepScenes) -> dict[str, Any]:
-    found = written(scenes.sweep)
+    found = write_noun(scenes.sweep)
     return {key: value for key, value in found.items() if value not in ({}, [], ())}
 
 

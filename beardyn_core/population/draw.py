@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.scene.sweep import BEARING, Drawn, Scaled, Sweep, per_of, rounded
+from beardyn_core.scene.sweep import BEARING, Drawn, Scaled, Sweep, per_of, round_digits
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def rows_of(sweep: Sweep) -> list[Row]:
     own = [each for each in sweep.drawn if per_of(each) == BEARING]
     others = [each for each in sweep.drawn if per_of(each) != BEARING]
     shares = _shares((len(own), len(others)), (ceil(count / sweep.runs_per_bearing), count), sweep)
-    bearings, runs = (_drawn(each, found) for each, found in zip((own, others), shares, strict=True))
+    bearings, runs = (_draw_keys(each, found) for each, found in zip((own, others), shares, strict=True))
     order = [each.key for each in sweep.drawn]
     rows = []
     for run in range(count):
@@ -53,13 +53,15 @@ def rows_of(sweep: Sweep) -> list[Row]:
 
 
 def _row(sweep: Sweep, run: int, bearing: int, drawn: dict[str, Any]) -> Row:
-    return Row(run, bearing, drawn, _seed(sweep.seed, "seed", run), _seed(sweep.seed, "lot", bearing))
+    return Row(
+        run, bearing, drawn, _make_seed(sweep.seed, "seed", run), _make_seed(sweep.seed, "lot", bearing)
+    )
 
 
-def _drawn(variables: Sequence[Drawn], shares: Float) -> list[dict[str, Any]]:
+def _draw_keys(variables: Sequence[Drawn], shares: Float) -> list[dict[str, Any]]:
     """Draw some keys for runs or bearings, which have these shares of their ranges."""
     return [
-        {each.key: rounded(each.at(float(share))) for each, share in zip(variables, point, strict=True)}
+        {each.key: round_digits(each.at(float(share))) for each, share in zip(variables, point, strict=True)}
         for point in shares
     ]
 
@@ -100,7 +102,7 @@ def _generator(seed: int, what: str) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence([seed, zlib.crc32(what.encode())]))
 
 
-def _seed(seed: int, what: str, number: int) -> int:
+def _make_seed(seed: int, what: str, number: int) -> int:
     """Make a seed of the sweep's and a number."""
     words = np.random.SeedSequence([seed, zlib.crc32(what.encode()), number]).generate_state(1)
     return int(words[0])
@@ -111,4 +113,4 @@ def scaled_value(variable: Scaled, values: dict[str, Any]) -> Any:
     number = values.get(variable.by)
     if not isinstance(number, int | float) or isinstance(number, bool):
         return None
-    return rounded(variable.of(float(number)))
+    return round_digits(variable.of(float(number)))

@@ -76,7 +76,7 @@ def _set(owner: Any, place: Place, depth: int, value: Any, folder: Path) -> Any:
         entries[part] = _set(entries[part], place, depth + 1, value, folder)
         return entries
     if isinstance(owner, str) and depth:
-        owner = _opened(place[:depth], owner, folder)
+        owner = _open_named_file(place[:depth], owner, folder)
     if owner is None or isinstance(owner, bool):
         owner = {}
     if not isinstance(owner, dict):
@@ -87,7 +87,7 @@ def _set(owner: Any, place: Place, depth: int, value: Any, folder: Path) -> Any:
     return changed
 
 
-def _opened(place: Place, name: str, folder: Path) -> dict[str, Any]:
+def _open_named_file(place: Place, name: str, folder: Path) -> dict[str, Any]:
     """Read the file that is named at a place."""
     key = place[-1]
     if key == "effects":

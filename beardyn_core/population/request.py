@@ -22,7 +22,7 @@ _UNVARIED = {"key": "seed", "kind": "choice", "one_of": [1]}
 _EMPTY = {"sweep": "mistakes", "purpose": "to find them", "scene": "smooth_run", "runs": 16}
 
 
-def asked(
+def make_plan(
     sweep: str | Path | Mapping[str, Any], say: Callable[[str], None] = lambda _: None, **changes: Any
 ) -> SweepScenes:
     """Make the scenes of a shipped sweep, a file or a mapping.
@@ -61,17 +61,17 @@ def _of_the_rest(name: dict[str, Any] | str | Path) -> list[str]:
             return []
     kept = dict(_EMPTY)
     for key in ("scene", "set", "seed", "signals"):
-        if key in data and _right({**kept, "vary": [_UNVARIED], key: data[key]}):
+        if key in data and _is_mapping({**kept, "vary": [_UNVARIED], key: data[key]}):
             kept[key] = data[key]
     entries: list[Any] = []
     for entry in data["vary"] if isinstance(data.get("vary"), list) else ():
-        if _right({**kept, "vary": [*entries, entry]}):
+        if _is_mapping({**kept, "vary": [*entries, entry]}):
             entries.append(entry)
     found, _ = read_sweep({**kept, "vary": entries or [_UNVARIED]})
     return mistakes_of(replace(found, folder=folder), label) if "scene" in data else []
 
 
-def _right(data: dict[str, Any]) -> bool:
+def _is_mapping(data: dict[str, Any]) -> bool:
     try:
         read_sweep(data)
     except InputError:

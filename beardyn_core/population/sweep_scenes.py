@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any
 
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
-from beardyn_core.choice.load import choice_for, closed
+from beardyn_core.choice.load import choice_for, complete_scene
 from beardyn_core.choice.trial import together
 from beardyn_core.config.folders import find
 from beardyn_core.config.load import OpenScene, read_scene_mapping
@@ -95,12 +95,12 @@ class SweepScenes:
 
     def scene(self, row: Row) -> Scene:
         """Make the scene of a run, ready to run."""
-        return replace(closed(self.opened(row)), chosen=self.chosen)
+        return replace(complete_scene(self.opened(row)), chosen=self.chosen)
 
     @property
     def identity(self) -> dict[str, Any]:
         """Describe all that the runs depend on beside the code, as the folder of the set keeps it."""
-        sweep = written(replace(self.sweep, folder=Path()))
+        sweep = write_noun(replace(self.sweep, folder=Path()))
         for key in ("purpose", "hours", "licence", "split"):
             sweep.pop(key, None)
         if self.sweep.extends:
@@ -111,8 +111,8 @@ class SweepScenes:
 
 def bearing_name(scene: Scene) -> str:
     """Name a bearing by all that it was made with: drawing and scatter, and neither load nor damage."""
-    scatter = None if scene.scattered is None else written(scene.scattered)
-    text = json.dumps([written(scene.bearing), scatter], sort_keys=True, default=str)
+    scatter = None if scene.scattered is None else write_noun(scene.scattered)
+    text = json.dumps([write_noun(scene.bearing), scatter], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:10]
 
 
@@ -141,7 +141,7 @@ def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: N
     few = rows if len(rows) <= CHECKED_HERE else _once([*extremes, *rows[:: len(rows) // CHECKED_HERE]])
     if problems := [*_unknown_signals(scenes, opened.scene), *check_rows(scenes, few)]:
         raise InputError(problems)
-    scenes = _settled(scenes, opened, extremes, say)
+    scenes = _settle_choices(scenes, opened, extremes, say)
     frame = Frame.of(scenes.scene(rows[0]))
     return replace(scenes, frame=frame)
 
@@ -250,7 +250,7 @@ def check_rows(scenes: SweepScenes, rows: Iterable[Row]) -> list[str]:
         names.add(bearing_name(scene))
 
     wrong = _wrong(scenes, rows, look)
-    problems = [*wrong, *([] if wrong else _unused(scenes, rows)), *_unlike(scenes, frames)]
+    problems = [*wrong, *([] if wrong else _unused_keys(scenes, rows)), *_unlike(scenes, frames)]
     if len(names) == 1 and len(rows) > 1 and not wrong:
         problems.append(
             f"{scenes.label}: all {len(rows)} runs are of one and the same bearing, so that no part of the "
@@ -282,7 +282,7 @@ def _kind_of(problem: str, row: Row) -> str:
     return problem.replace(f": run {row.run}:", ":").partition(" is ")[0]
 
 
-def _unused(scenes: SweepScenes, rows: Sequence[Row]) -> list[str]:
+def _unused_keys(scenes: SweepScenes, rows: Sequence[Row]) -> list[str]:
     used = {key for row in rows for key, value in scenes.keys(row)[1].items() if value is not None}
     return [
         f"{scenes.label}: vary[{index}].key is {variable.key!r}: no run has such an entry; its list in the "
@@ -326,7 +326,7 @@ def _unlike(scenes: SweepScenes, frames: dict[Frame, int]) -> list[str]:
     ]
 
 
-def _settled(
+def _settle_choices(
     scenes: SweepScenes, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]
 ) -> SweepScenes:
     """Choose what the scene leaves open, once for all runs: no learner must tell a fault by the effects."""
@@ -335,7 +335,7 @@ def _settled(
     if not free.anything:
         if opened.step_given:
             return scenes
-        steps = max(closed(each).numerics.steps_per_sample for each in found)
+        steps = max(complete_scene(each).numerics.steps_per_sample for each in found)
         return _with_numerics(scenes, opened.scene, steps_per_sample=steps)
     say("choosing the effects of the runs: some seconds for each kind of run, kept for the next time")
     choices = [choice_for(OpenScene(each.scene, free, opened.step_given, {})) for each in found]
@@ -349,7 +349,7 @@ def _settled(
     effects = together([choice.effects for choice in choices], found[0].scene.effects)
     hardest = max(choices, key=lambda choice: choice.seconds)
     scenes = _with_numerics(
-        replace(scenes, base={**scenes.base, "tier": tier, "effects": written(effects)}),
+        replace(scenes, base={**scenes.base, "tier": tier, "effects": write_noun(effects)}),
         opened.scene,
         laminae=max(choice.laminae for choice in choices),
         steps_per_sample=max(choice.steps_per_sample for choice in choices),
@@ -359,5 +359,5 @@ def _settled(
 
 
 def _with_numerics(scenes: SweepScenes, scene: Scene, **changes: Any) -> SweepScenes:
-    numerics = {**written(scene.numerics), **changes}
+    numerics = {**write_noun(scene.numerics), **changes}
     return replace(scenes, base={**scenes.base, "numerics": numerics})

@@ -51,7 +51,7 @@ class TorchRuns(Dataset):
         order = {word: number for number, word in enumerate(self.classes[name])}
         return np.array([order[str(value)] for value in values], np.int64)
 
-    def _opened(self) -> LabelledSet:
+    def _open_set(self) -> LabelledSet:
         if self._set is None:
             from beardyn_core.population.labelled_set import LabelledSet
 
@@ -69,7 +69,7 @@ class TorchRuns(Dataset):
     def __getitem__(self, index: int) -> Item:
         """Read one run."""
         run = int(self.runs[index])
-        arrays = self._opened().arrays
+        arrays = self._open_set().arrays
         signals = {name: torch.from_numpy(np.asarray(arrays[name][run])) for name in self.signals}
         return signals, {name: torch.as_tensor(values[index]) for name, values in self._labels.items()}
 
@@ -93,7 +93,7 @@ class TorchStream(IterableDataset):
 
     def __iter__(self) -> Iterator[Item]:
         """Read the files of this process one after the other."""
-        found = self._runs._opened()
+        found = self._runs._open_set()
         info = get_worker_info()
         share = (0, 1) if info is None else (info.id, info.num_workers)
         place = {int(run): k for k, run in enumerate(self._runs.runs)}

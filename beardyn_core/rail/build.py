@@ -6,12 +6,12 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.low_pass import decimated, thinning_kernel
+from beardyn_core.base.low_pass import decimate, thinning_kernel
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.rail.background import background_force
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
-from beardyn_core.rail.measured import replayed
+from beardyn_core.rail.measured import replay_load
 from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
@@ -86,11 +86,11 @@ def load_history(
         speed = np.full(count, float(operation.speed))
         history = sampled_load(wrench, speed, np.zeros((count, 3)), sample_ns)
     elif isinstance(operation, SteppedOperation):
-        history = _stepped(operation, count, rate)
+        history = _stepped_load(operation, count, rate)
     elif isinstance(operation, QuarterVehicleOperation):
         history = _quarter_vehicle(operation, mounting, count, rate, seed, background, bearing)
     else:
-        history = replayed(operation, count, rate)
+        history = replay_load(operation, count, rate)
     if background is not None:
         if bearing is None:
             raise ValueError("a background needs the bearing")
@@ -121,7 +121,7 @@ def length_of_load(scene: Scene, duration: float) -> float:
     return duration + computed * LOOK_AHEAD * SAMPLE_NS * 1e-9
 
 
-def _stepped(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
+def _stepped_load(operation: SteppedOperation, count: int, rate: float) -> LoadHistory:
     time = np.arange(count) / rate
     levels = np.array([[*step.force, *step.moment, step.speed] for step in operation.steps])
     signals = np.tile(levels[0], (count, 1))
@@ -195,18 +195,18 @@ def _quarter_vehicle(
     force[:, 1] += operation.lateral_force
     imposed = operation.wheelset == "elastic"  # where it is coupled, the twin bends by itself
     pressed = response.contact_force + response.flexing if imposed else response.contact_force
-    force[:, 2] += decimated(pressed, factor, kernel)[:count] - vehicle.journal_weight
+    force[:, 2] += decimate(pressed, factor, kernel)[:count] - vehicle.journal_weight
     frame = response.bogie
     if vehicle.primary.size:
         frame = frame + equivalent_displacement(-response.excess, mounting, 2, 1.0 / RIDE_RATE)
-    bogie[:, 2] += decimated(frame, factor, kernel)[:count]
+    bogie[:, 2] += decimate(frame, factor, kernel)[:count]
     speed = speed_at(operation.speed_profile, np.arange(count) / rate)
     wrench = np.concatenate([force, np.zeros((count, 3))], axis=1)
     if imposed and vehicle.bending is not None and mounting.journal_tilt == "free":
         tilt = response.tilt
         if besides is not None and besides.sway is not None and besides.sway.flexing is not None:
             tilt = tilt + besides.sway.flexing.tilt
-        slow = decimated(tilt, 1, thinning_kernel(_TILT_FACTOR))
+        slow = decimate(tilt, 1, thinning_kernel(_TILT_FACTOR))
         moment = tilting_moment(slow, mounting, 1.0 / RIDE_RATE)
         wrench[:, 3] = (-1.0 if mounting.side == "right" else 1.0) * moment[::factor][:count]
     return sampled_load(wrench, speed / (0.5 * operation.wheel_diameter), bogie, round(1e9 / rate))
@@ -217,5 +217,5 @@ def _columns(signals: Float, factor: int, kernel: Float, count: int) -> Float:
     thinned = np.zeros((count, signals.shape[1]))
     for axis, column in enumerate(signals.T):
         if column.any():
-            thinned[:, axis] = decimated(column, factor, kernel)[:count]
+            thinned[:, axis] = decimate(column, factor, kernel)[:count]
     return thinned

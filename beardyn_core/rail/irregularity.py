@@ -12,7 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
-from beardyn_core.scene.chord_polynomials import refined
+from beardyn_core.scene.chord_polynomials import refine_series
 from beardyn_core.scene.excitation import Irregularity
 from beardyn_core.scene.load import LOOK_AHEAD, UNEVENNESS
 
@@ -90,9 +90,9 @@ def rail_profile(
         When a file is bad, or shorter than the run.
     """
     if irregularity.kind == "csv":
-        profile = _measured(irregularity, distance, direction, patch)
+        profile = _measured_profile(irregularity, distance, direction, patch)
     else:
-        profile = _drawn(irregularity, distance, seed, direction, patch)
+        profile = _draw_profile(irregularity, distance, seed, direction, patch)
     if irregularity.short_waves is None or direction == "lateral":
         return profile
     return RailProfile(
@@ -111,7 +111,7 @@ def irregular_height(irregularity: Irregularity, position: Float, seed: int, pat
     return rail_profile(irregularity, float(np.ptp(position)), seed, patch=patch).height_at(position)
 
 
-def _drawn(
+def _draw_profile(
     irregularity: Irregularity, distance: float, seed: int, direction: str, patch: float
 ) -> RailProfile:
     period = _SHORTEST_PERIOD
@@ -188,7 +188,9 @@ def random_phases(
     return RailProfile(period / points, height, np.fft.irfft(spectrum, points))
 
 
-def _measured(irregularity: Irregularity, distance: float, direction: str, patch: float) -> RailProfile:
+def _measured_profile(
+    irregularity: Irregularity, distance: float, direction: str, patch: float
+) -> RailProfile:
     assert irregularity.path is not None
     table = read_table(irregularity.path, RAIL_LAYOUT)  # its first row is where the run starts
     along = table["distance_m"] - table["distance_m"][0]
@@ -206,7 +208,7 @@ def _measured(irregularity: Irregularity, distance: float, direction: str, patch
     height = 1e-3 * np.interp(grid, along, table[column])
     even = np.ptp(np.diff(along)) < UNEVENNESS * spacing and len(height) > LOOK_AHEAD
     if even and _FINER * len(height) <= _MOST_POINTS:
-        height, spacing = refined(height, _FINER), spacing / _FINER
+        height, spacing = refine_series(height, _FINER), spacing / _FINER
     reach = int(0.5 * patch / spacing)
     if direction == "vertical" and reach > 0:
         weight = 1.0 - (np.arange(-reach, reach + 1) * spacing / (0.5 * patch)) ** 2

@@ -11,7 +11,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.rail.course import Course
-from beardyn_core.rail.vehicle import GRAVITY, linked
+from beardyn_core.rail.vehicle import GRAVITY, link_masses
 from beardyn_core.rail.wheelset import HALF_GAUGE
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
@@ -88,7 +88,7 @@ def lateral_vehicle(operation: QuarterVehicleOperation, mounting: Mounting) -> L
     load = (wheelset + body + bogie) * GRAVITY
 
     def links(longitudinal: float, primary: float, secondary: float) -> Float:
-        matrix = linked([(FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)])
+        matrix = link_masses([(FRAME, SIDEWAYS, primary), (CAR, FRAME, 0.5 * secondary)])
         matrix[YAW, YAW] = longitudinal * arm**2
         return matrix
 

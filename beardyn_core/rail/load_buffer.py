@@ -48,7 +48,7 @@ class LoadBuffer:
         """
         if not self._parts or self._parts[-1][0][-1] < end_ns:
             return False
-        time_ns, _ = self._joined()
+        time_ns, _ = self._join_parts()
         after = int(np.searchsorted(time_ns, end_ns, side="left"))
         known = self.ended or after == 0 or len(time_ns) >= after + LOOK_AHEAD
         return known or any(seam(time_ns, k) for k in range(max(after - 1, 1), len(time_ns) - 1))
@@ -66,10 +66,10 @@ class LoadBuffer:
         same bits as one at a time. Shape [steps * blocks + 1, 10]: wrench [N, N m], shaft speed [rad/s],
         bogie displacement [m].
         """
-        time_ns, values = self._joined(start_ns)
+        time_ns, values = self._join_parts(start_ns)
         return at_steps(time_ns, values, start_ns, (end_ns - start_ns) // blocks, steps, blocks)
 
-    def _joined(self, start_ns: int | None = None) -> tuple[Int, Float]:
+    def _join_parts(self, start_ns: int | None = None) -> tuple[Int, Float]:
         """Join what has arrived to one part, less what nothing after a start depends on."""
         if len(self._parts) > 1:
             times, values = map(np.concatenate, zip(*self._parts, strict=True))

@@ -171,7 +171,7 @@ def speed_points(path: Path, wheel_diameter: float, spacing: float = 0.02) -> tu
     return tuple(zip(mean_time.tolist(), mean_speed.tolist(), strict=True))
 
 
-def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
+def replay_load(operation: MeasuredOperation, count: int, rate: float) -> LoadHistory:
     """Read the load of a file in a number of samples at a rate [Hz], and add the parts that are modelled.
 
     A recorded stream of load that is taken whole is passed on sample by sample, at its own rate. Raises
@@ -186,7 +186,7 @@ def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHisto
         )
     if operation.take == "both" and measured.stream is not None:
         return measured.stream.until(round(end * 1e9))
-    signals = _resampled(measured, count, rate)
+    signals = _resample_load(measured, count, rate)
     time = np.arange(count) / rate
     wrench, shaft_speed, bogie = signals[:, :6], signals[:, 6], signals[:, 7:]
     if operation.take == "force":
@@ -198,17 +198,17 @@ def replayed(operation: MeasuredOperation, count: int, rate: float) -> LoadHisto
     return sampled_load(wrench, shaft_speed, bogie, round(1e9 / rate))
 
 
-def _resampled(measured: Measurement, count: int, rate: float) -> Float:
+def _resample_load(measured: Measurement, count: int, rate: float) -> Float:
     # compiled: not for who reads files
-    from beardyn_core.base.low_pass import decimated, thinning_kernel
-    from beardyn_core.scene.band_limited import interpolated
+    from beardyn_core.base.low_pass import decimate, thinning_kernel
+    from beardyn_core.scene.band_limited import interpolate_columns
 
     signals = np.column_stack([measured.wrench, measured.shaft_speed, measured.bogie])
     factor = int(np.ceil(round(1.0 / (rate * float(np.median(np.diff(measured.time)))), 6)))
     grid_ns = np.arange((count - 1) * factor + 1, dtype=np.float64) * (1e9 / (rate * factor))
     time_ns = np.round(measured.time * 1e9).astype(np.int64)
-    signals = interpolated(time_ns, signals, 0, grid_ns)
+    signals = interpolate_columns(time_ns, signals, 0, grid_ns)
     if factor <= 1:
         return signals
     kernel = thinning_kernel(factor)
-    return np.column_stack([decimated(column, factor, kernel) for column in signals.T])
+    return np.column_stack([decimate(column, factor, kernel) for column in signals.T])

@@ -73,7 +73,7 @@ class TrainLoads:
         self._reach = max(map(train.behind, boxes))
         can_go_on = not isinstance(scene.operation, MeasuredOperation)
         self.length = duration + (self._lead() if can_go_on else 0.0)
-        self._variant = cache(self._computed)
+        self._variant = cache(self._compute_load)
 
     def of(self, box: Box) -> BoxLoad:
         """Make the load of one box."""
@@ -82,13 +82,13 @@ class TrainLoads:
         load, begins = passed_later(history, 0.5 * _wheel_diameter(scene.operation), behind, self._reach)
         return BoxLoad(load, scene, begins, behind)
 
-    def _computed(self, side: str, with_wheel_defects: bool) -> tuple[Scene, LoadHistory]:
+    def _compute_load(self, side: str, with_wheel_defects: bool) -> tuple[Scene, LoadHistory]:
         scene = self._scene
         if isinstance(scene.operation, QuarterVehicleOperation):
             operation = scene.operation if with_wheel_defects else replace(scene.operation, wheel_defects=())
             scene = replace(scene, operation=operation)
             if side == "right":
-                scene = replace(scene, operation=_mirrored(operation), seed=scene.seed + 1)
+                scene = replace(scene, operation=_mirror_operation(operation), seed=scene.seed + 1)
         history = load_of_scene(scene, self.length)
         if side == "right" and isinstance(scene.operation, QuarterVehicleOperation):
             history = LoadHistory(
@@ -197,7 +197,7 @@ def _wheel_diameter(operation: Operation) -> float:
     return float(getattr(operation, "wheel_diameter", USUAL_WHEEL_DIAMETER) or USUAL_WHEEL_DIAMETER)
 
 
-def _mirrored(operation: QuarterVehicleOperation) -> QuarterVehicleOperation:
+def _mirror_operation(operation: QuarterVehicleOperation) -> QuarterVehicleOperation:
     """Turn a run round at the middle of the track: what the left box gets there, the right one gets here."""
     other = {"left": "right", "right": "left"}
     curves = tuple(replace(curve, hand=other[curve.hand]) for curve in operation.curves)

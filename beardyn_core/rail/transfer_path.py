@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
-from beardyn_core.base.packed import packed, unpacked
+from beardyn_core.base.packed import pack_file, unpack_file
 from beardyn_core.rail.table import Column, Layout, read_table
 
 _PAIRS = (("real", "imaginary"), ("magnitude_dB", "phase_deg"))
@@ -49,7 +49,7 @@ def read_transfer_path(path: Path) -> TransferPath:
     path = Path(path)
     if path.suffix.lower() in _UNIVERSAL:
         note_read(path)
-        return _checked(path, *_universal(path))
+        return _check_ratio(path, *_universal(path))
     table = read_table(path, LAYOUT)
     whole = [pair for pair in _PAIRS if all(name in table for name in pair)]
     if len(whole) != 1 or len(table) != 3:
@@ -59,7 +59,7 @@ def read_transfer_path(path: Path) -> TransferPath:
         )
     one, two = (table[name] for name in whole[0])
     ratio = one + 1j * two if whole[0] == _PAIRS[0] else 10.0 ** (one / 20.0) * np.exp(1j * np.deg2rad(two))
-    return _checked(path, table["frequency_Hz"], np.asarray(ratio, dtype=np.complex128))
+    return _check_ratio(path, table["frequency_Hz"], np.asarray(ratio, dtype=np.complex128))
 
 
 def path_read(content: str | None, path: Path) -> TransferPath:
@@ -67,20 +67,20 @@ def path_read(content: str | None, path: Path) -> TransferPath:
     if not content:
         return read_transfer_path(path)
     try:
-        rows = [line.split(",") for line in unpacked(content, path).splitlines()]
+        rows = [line.split(",") for line in unpack_file(content, path).splitlines()]
         frequency, real, imaginary = np.array(rows, dtype=np.float64).T
     except ValueError as error:
         raise InputError(f"{path}: content is no measured path ({error})") from error
-    return _checked(path, frequency, real + 1j * imaginary)
+    return _check_ratio(path, frequency, real + 1j * imaginary)
 
 
 def content_of(measured: TransferPath, path: Path) -> str:
     """Pack what was read of a file so that `path_read` gives the same: frequency, real, imaginary."""
     rows = zip(measured.frequency.tolist(), measured.ratio.tolist(), strict=True)
-    return packed("\n".join(f"{hertz!r},{ratio.real!r},{ratio.imag!r}" for hertz, ratio in rows), path)
+    return pack_file("\n".join(f"{hertz!r},{ratio.real!r},{ratio.imag!r}" for hertz, ratio in rows), path)
 
 
-def _checked(path: Path, frequency: Float, ratio: NDArray[np.complex128]) -> TransferPath:
+def _check_ratio(path: Path, frequency: Float, ratio: NDArray[np.complex128]) -> TransferPath:
     problems = []
     if frequency[0] < 0.0:
         problems.append(f"{path}: frequency_Hz begins at {frequency[0]:g}; it must not be negative")

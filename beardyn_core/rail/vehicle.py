@@ -156,8 +156,8 @@ def quarter_vehicle(
         (BOGIE, BOX, mounting.stiffness[2], mounting.damping[2]),
         (BOX, WHEEL, *rollers),
     )
-    stiffness = linked((upper, lower, spring) for upper, lower, spring, _ in links)
-    damping = linked((upper, lower, damper) for upper, lower, _, damper in links)
+    stiffness = link_masses((upper, lower, spring) for upper, lower, spring, _ in links)
+    damping = link_masses((upper, lower, damper) for upper, lower, _, damper in links)
     static_force = float(mass.sum()) * GRAVITY
     modes = bending_modes(operation, mounting, bearing)
     if modes is not None:
@@ -167,8 +167,8 @@ def quarter_vehicle(
         if bearing is not None:
             mass = np.append(mass, mounting.box_inertia[0] + bearing.cup_inertia[0])
             tilting = _BEARING_TILT_STIFFNESS / rollers[0]
-            stiffness = _tilted(stiffness, modes, tilting * rollers[0], mounting.rotational_stiffness[0])
-            damping = _tilted(damping, modes, tilting * rollers[1], mounting.rotational_damping[0])
+            stiffness = _add_tilt(stiffness, modes, tilting * rollers[0], mounting.rotational_stiffness[0])
+            damping = _add_tilt(damping, modes, tilting * rollers[1], mounting.rotational_damping[0])
     factor, exponent = _CONTACT_FIT[vehicle.wheel_profile]
     return QuarterVehicle(
         mass=mass,
@@ -193,7 +193,7 @@ def _bent(matrix: Float, modes: Modes, own: Float, bearing: float) -> Float:
     return whole
 
 
-def _tilted(matrix: Float, modes: Modes, bearing: float, held: float) -> Float:
+def _add_tilt(matrix: Float, modes: Modes, bearing: float, held: float) -> Float:
     """Add the tilt of a box that its springs hold and that the journal tilts through the bearing."""
     whole = np.pad(matrix, (0, 1))
     pull = np.concatenate([np.zeros(4), modes.journal_slope, [-1.0]])
@@ -202,7 +202,7 @@ def _tilted(matrix: Float, modes: Modes, bearing: float, held: float) -> Float:
     return whole
 
 
-def linked(links: Iterable[tuple[int, int, float]]) -> Float:
+def link_masses(links: Iterable[tuple[int, int, float]]) -> Float:
     """Build the matrix of four masses from links (upper, lower, stiffness or damping) between them."""
     matrix = np.zeros((4, 4))
     for upper, lower, link in links:
@@ -283,7 +283,7 @@ def ride(vehicle: QuarterVehicle, height: Float, step: float, push: Float | None
 
 
 @inline
-def _pressed(room, flexibility, give):
+def _hertz_force(room, flexibility, give):
     """Compute the force of the Hertz contact in series with a spring, 0 while open, by Newton's method."""
     if room <= 0.0:
         return 0.0
@@ -335,7 +335,7 @@ def _run(
                 for mode in range(modes):
                     bent[n, part] += shapes[part, mode] * state[4 + mode]
             room -= bent[n, 0]
-        force = _pressed(room, flexibility, residue[2])
+        force = _hertz_force(room, flexibility, residue[2])
         contact = force - static_force
         shortest -= residue[2] * contact
         if len(primary) > 0:

@@ -73,7 +73,7 @@ class Modes:
         """Keep the modes below a frequency [Hz]."""
         return self.first(int(np.searchsorted(self.frequency, highest)))
 
-    def condensed(self, highest: float, forces: tuple[str, ...] = ("wheel", "journal")) -> Modes:
+    def condense(self, highest: float, forces: tuple[str, ...] = ("wheel", "journal")) -> Modes:
         """Keep the modes below a frequency [Hz], and few that yield as all the others do to steady forces.
 
         By default one force acts at the wheel, one at the journal; a moment there is a force on
@@ -118,7 +118,7 @@ def bending_modes(
     if half is None:
         return None
     forces = ("wheel", "journal") if bearing is None else ("wheel", "journal", "journal_slope")
-    modes = bending(half, mounting.journal_mass + cones, symmetric=True).condensed(_HIGHEST, forces)
+    modes = bending(half, mounting.journal_mass + cones, symmetric=True).condense(_HIGHEST, forces)
     return modes if len(modes) else None
 
 
@@ -175,7 +175,7 @@ def shaft(wheelset: Wheelset, half_mass: float, radius: float, arm: float, box_m
     journal = (max(arm - 0.5 * wheelset.journal_length, seat[1]), arm + 0.5 * wheelset.journal_length)
     discs = wheelset.disc_places
     marks = sorted({0.0, *discs, seat[0], HALF_GAUGE, seat[1], journal[0], arm, journal[1]})
-    node = np.unique(np.concatenate([_between(one, two) for one, two in pairwise(marks)]))
+    node = np.unique(np.concatenate([_between_nodes(one, two) for one, two in pairwise(marks)]))
     middle = 0.5 * (node[:-1] + node[1:])
     outer = np.full(len(middle), wheelset.axle_diameter)
     for begin, diameter in (
@@ -295,7 +295,7 @@ def torsion_matrices(half: Shaft) -> tuple[Float, Float]:
     return stiffness, mass
 
 
-def _between(one: float, two: float) -> Float:
+def _between_nodes(one: float, two: float) -> Float:
     return np.linspace(one, two, int(np.ceil((two - one) / _LONGEST_ELEMENT)) + 1)
 
 

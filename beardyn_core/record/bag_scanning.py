@@ -47,7 +47,7 @@ def files_of(path: Path | str) -> list[Path]:
         return [path]
     folder = path if path.is_dir() else path.parent
     index = folder / INDEX
-    listed = [folder / name for name in _listed(index)] if index.is_file() else []
+    listed = [folder / name for name in _list_files(index)] if index.is_file() else []
     found = [each for each in folder.glob("*.mcap") if re.search(r"_\d+\.mcap$", each.name)]
     further = [
         each for each in found if each not in listed and _number(each) > max(map(_number, listed), default=-1)
@@ -66,7 +66,7 @@ def _number(path: Path) -> int:
     return int(found.group(1)) if found else -1
 
 
-def _listed(index: Path) -> list[str]:
+def _list_files(index: Path) -> list[str]:
     wanted = f"{_INFORMATION}: relative_file_paths as rosbag2 writes it is needed"
     try:
         if index.stat().st_size > _LONGEST_INDEX:

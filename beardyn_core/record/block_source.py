@@ -33,19 +33,19 @@ class BlockSource:
         self._blocks = blocks
         self._description = description
 
-    def _joined(self, part: Callable[[Block], NDArray[np.generic]]) -> Float:
+    def _join_blocks(self, part: Callable[[Block], NDArray[np.generic]]) -> Float:
         """Join an array of all blocks along the time."""
         return np.concatenate([np.asarray(part(block)) for block in self._blocks])
 
     def _times(self, part: Callable[[Block], Int]) -> Int:
-        return np.asarray(self._joined(part), np.int64)
+        return np.asarray(self._join_blocks(part), np.int64)
 
     def force(self) -> arrays.Signal:
         return self._trend(lambda block: block.force, WRENCH_AXES, "N, N m")
 
     def force_waveform(self) -> arrays.Signal:
         times = self._times(lambda block: block.waveform_time_ns)
-        values = self._joined(lambda block: block.force_waveform)
+        values = self._join_blocks(lambda block: block.force_waveform)
         sample = self._times(lambda block: block.waveform_sample + np.arange(len(block.waveform_time_ns)))
         return arrays.Signal(times, values, WRENCH_AXES, "N, N m", sample)
 
@@ -60,33 +60,33 @@ class BlockSource:
 
     def _trend(self, part: Callable[[Block], Float], components: tuple[str, ...], unit: str) -> arrays.Signal:
         times = self._times(lambda block: block.trend_time_ns)
-        return arrays.Signal(times, self._joined(part), components, unit, _NOTHING)
+        return arrays.Signal(times, self._join_blocks(part), components, unit, _NOTHING)
 
     def shaft(self) -> arrays.Turning:
         times = self._times(lambda block: block.trend_time_ns)
-        angle = self._joined(lambda block: block.shaft_angle)
-        return arrays.Turning(times, angle, self._joined(lambda block: block.shaft_speed))
+        angle = self._join_blocks(lambda block: block.shaft_angle)
+        return arrays.Turning(times, angle, self._join_blocks(lambda block: block.shaft_speed))
 
     def torque(self) -> arrays.Signal:
-        values = self._joined(lambda block: _every(block, block.shaft_torque))
+        values = self._join_blocks(lambda block: _every(block, block.shaft_torque))
         return arrays.Signal(self._orbit_times(), values, (), "N m", _NOTHING)
 
     def cages(self) -> arrays.Turning:
-        angle = self._joined(lambda block: _every(block, block.cage_angle))
-        speed = self._joined(lambda block: _every(block, block.cage_speed))
+        angle = self._join_blocks(lambda block: _every(block, block.cage_angle))
+        speed = self._join_blocks(lambda block: _every(block, block.cage_speed))
         return arrays.Turning(self._orbit_times(), angle, speed)
 
     def rollers(self) -> arrays.Turning:
-        angle = self._joined(lambda block: _every(block, block.roller_angle))
-        speed = self._joined(lambda block: _every(block, block.roller_speed))
+        angle = self._join_blocks(lambda block: _every(block, block.roller_angle))
+        speed = self._join_blocks(lambda block: _every(block, block.roller_speed))
         return arrays.Turning(self._orbit_times(), angle, speed)
 
     def _orbit_times(self) -> Int:
         return self._times(lambda block: _every(block, block.trend_time_ns))
 
     def bodies(self) -> arrays.Bodies:
-        pose = self._joined(lambda block: block.body_pose)
-        twist = self._joined(lambda block: block.body_twist)
+        pose = self._join_blocks(lambda block: block.body_pose)
+        twist = self._join_blocks(lambda block: block.body_twist)
         times = self._times(lambda block: block.snapshot_time_ns)
         sample = self._times(lambda block: block.snapshot_sample + np.arange(len(block.snapshot_time_ns)))
         known = self._description
@@ -95,15 +95,15 @@ class BlockSource:
 
     def contacts(self) -> arrays.Contacts:
         times = self._times(lambda block: block.snapshot_time_ns)
-        return arrays.contacts_of(times, self._joined(lambda block: block.contacts))
+        return arrays.contacts_of(times, self._join_blocks(lambda block: block.contacts))
 
     def load(self) -> arrays.Load:
         """Give `Run.load`: the load history up to the end, or without one the load at 400 Hz."""
         history = None if self._description is None else self._description.load
         if history is None:
             times = self._times(lambda block: block.trend_time_ns)
-            wrench = self._joined(lambda block: block.load)
-            speed = self._joined(lambda block: block.shaft_speed)
+            wrench = self._join_blocks(lambda block: block.load)
+            speed = self._join_blocks(lambda block: block.shaft_speed)
             return arrays.Load(times, wrench, speed, np.zeros((len(times), 3)), np.arange(len(times)))
         used = history.until(self._blocks[-1].end_ns)
         return arrays.Load(used.time_ns, used.wrench, used.shaft_speed, used.bogie, np.arange(len(used)))

@@ -103,7 +103,7 @@ class MessageChecker:
                 raise MalformedError(f"the field '{column}' is not there, it has {', '.join(members)}")
             kind = members[column][0]
             if kind.shape or (column in _WHOLE and kind.kind not in "iu"):
-                raise MalformedError(f"the field '{column}' is not one {_wanted(column)} a point")
+                raise MalformedError(f"the field '{column}' is not one {_wanted_columns(column)} a point")
         if name == "bodies":
             self._check_bodies(points["body"])
         elif name == "contacts" and len(points):
@@ -182,7 +182,7 @@ def _joints_of(entry: Topic, cdr: bytes) -> _Joints:
             raise MalformedError(f"it has {count} joints and {length} numbers of {part}")
         fixed.append((begin, at, cdr[begin:at]))
         if length:
-            at = _aligned(at) + 8 * length
+            at = _align_float(at) + 8 * length
         begin = at
     if not at <= len(cdr) <= at + _PADDING:
         raise MalformedError(f"it has {len(cdr)} bytes, its joints take {at}")
@@ -192,7 +192,7 @@ def _joints_of(entry: Topic, cdr: bytes) -> _Joints:
 def _check_numbers(entry: Topic, cdr: bytes) -> None:
     _check_stamp(cdr)
     end, _ = text_at(cdr, 12)
-    size = _aligned(end) + 8 * _NUMBERS[entry.type]
+    size = _align_float(end) + 8 * _NUMBERS[entry.type]
     if not size <= len(cdr) <= size + _PADDING:
         raise MalformedError(f"it has {len(cdr)} bytes, a {entry.type} with its frame has {size}")
 
@@ -231,10 +231,10 @@ def _check_stamp(cdr: bytes) -> None:
         raise MalformedError(f"its stamp has {nanoseconds} nanoseconds in a second")
 
 
-def _aligned(at: int) -> int:
+def _align_float(at: int) -> int:
     """Round up to where a float64 may stand; alignment counts behind the four bytes of the encapsulation."""
     return ((at + 3) & ~7) + 4
 
 
-def _wanted(column: str) -> str:
+def _wanted_columns(column: str) -> str:
     return "whole number" if column in _WHOLE else "number"

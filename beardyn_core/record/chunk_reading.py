@@ -42,10 +42,10 @@ class ChunkReader:
             The chunk holds more than is allowed, or something else than it states.
         """
         limit = min(LARGEST_CHUNK, self._left)
-        data = self._unpacked(chunk, limit)
+        data = self._unpack_chunk(chunk, limit)
         if len(data) > limit:
             raise McapError(
-                f"a chunk of {len(chunk.data)} bytes holds more than {limit} bytes: {_allowed(limit)}"
+                f"a chunk of {len(chunk.data)} bytes holds more than {limit} bytes: {_write_limit(limit)}"
             )
         if len(data) != chunk.uncompressed_size:
             raise McapError(f"a chunk states {chunk.uncompressed_size} bytes and holds {len(data)}")
@@ -66,12 +66,12 @@ class ChunkReader:
             _, length = _RECORD.unpack_from(data, at)
             at += _RECORD.size + length
 
-    def _unpacked(self, chunk: Chunk, limit: int) -> bytes:
+    def _unpack_chunk(self, chunk: Chunk, limit: int) -> bytes:
         """Unpack at most one byte more than the limit, whatever the chunk states."""
         if chunk.uncompressed_size > limit:
             raise McapError(
                 f"a chunk of {len(chunk.data)} bytes states {chunk.uncompressed_size} bytes: "
-                f"{_allowed(limit)}"
+                f"{_write_limit(limit)}"
             )
         if chunk.compression == "zstd":
             with zstandard.ZstdDecompressor().stream_reader(io.BytesIO(chunk.data)) as stream:
@@ -84,5 +84,5 @@ class ChunkReader:
         return chunk.data
 
 
-def _allowed(limit: int) -> str:
+def _write_limit(limit: int) -> str:
     return f"allowed here are {limit} (it would exhaust time and memory); record again with smaller chunks"

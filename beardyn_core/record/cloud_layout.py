@@ -98,7 +98,7 @@ def _read_layout(cdr: bytes) -> CloudLayout:
     if cdr[:2] != _LITTLE:
         raise MalformedError("it is not little-endian CDR")
     at, _ = text_at(cdr, 12)
-    height_at = _aligned(at)
+    height_at = _align_field(at)
     width_at = height_at + 4
     count, at = _COUNT.unpack_from(cdr, width_at + 4)[0], width_at + 8
     if not 0 < count <= _MOST_FIELDS:
@@ -107,8 +107,8 @@ def _read_layout(cdr: bytes) -> CloudLayout:
     formats: list[Any] = []
     offsets: list[int] = []
     for _ in range(count):
-        at, name = text_at(cdr, _aligned(at))
-        at = _aligned(at)
+        at, name = text_at(cdr, _align_field(at))
+        at = _align_field(at)
         offset, datatype, _, _, _, repeats = struct.unpack_from("<IBBBBI", cdr, at)
         at += 12
         if datatype not in _FORMATS:
@@ -119,7 +119,7 @@ def _read_layout(cdr: bytes) -> CloudLayout:
         formats.append((_FORMATS[datatype], (repeats,)) if repeats > 1 else _FORMATS[datatype])
         offsets.append(offset)
     big = cdr[at : at + 1] not in (b"\x00", b"")
-    step_at = _aligned(at + 1)
+    step_at = _align_field(at + 1)
     (step,) = _COUNT.unpack_from(cdr, step_at)
     _COUNT.unpack_from(cdr, step_at + 8)
     if step == 0:
@@ -145,5 +145,5 @@ def text_at(cdr: bytes, at: int) -> tuple[int, str]:
     return end, cdr[at + 4 : end - 1].decode()
 
 
-def _aligned(at: int) -> int:
+def _align_field(at: int) -> int:
     return (at + 3) & ~3

@@ -47,11 +47,11 @@ def read_recorded_load(path: Path, take: str = "both") -> Measurement:
     if found.get("load/blocks"):
         stream = _stream(path, found["load/blocks"])
         time = (stream.time_ns - stream.time_ns[0]) * 1e-9
-        return _checked(path, Measurement(time, stream.wrench, stream.shaft_speed, stream.bogie, stream))
+        return _check_load(path, Measurement(time, stream.wrench, stream.shaft_speed, stream.bogie, stream))
     for force, speed in _PAIRS:
         wanted = [name for name, left in ((force, "speed"), (speed, "force")) if take != left]
         if all(found.get(name) for name in wanted):
-            return _checked(path, _of_pair(found, force, speed, take))
+            return _check_load(path, _of_pair(found, force, speed, take))
     there = ", ".join(sorted(found)) or "no topic of an axlebox"
     raise InputError(
         f"{path}: no {'load' if take == 'both' else take} in it, it has {there}; needed are {_ALLOWED}"
@@ -115,9 +115,9 @@ def _of_pair(found: dict[str, list[bytes]], force: str, speed: str, take: str) -
     time_ns, wrench = force_ns[inside], wrench[inside]
     turning = np.zeros(len(time_ns))
     if speed_ns is not None and shaft is not None:
-        from beardyn_core.scene.band_limited import interpolated  # compiled: not for who reads files
+        from beardyn_core.scene.band_limited import interpolate_columns  # compiled: not for who reads files
 
-        turning = interpolated(speed_ns, shaft, int(start), (time_ns - start).astype(float))[:, 0]
+        turning = interpolate_columns(speed_ns, shaft, int(start), (time_ns - start).astype(float))[:, 0]
     return Measurement((time_ns - start) * 1e-9, wrench, turning, np.zeros((len(time_ns), 3)))
 
 
@@ -139,7 +139,7 @@ def _speeds(cdrs: list[bytes], topic: str) -> Iterator[tuple[int, list[float]]]:
             yield header_stamp(cdr), [float(decode(JOINTS, cdr).velocity[0])]
 
 
-def _checked(path: Path, measured: Measurement) -> Measurement:
+def _check_load(path: Path, measured: Measurement) -> Measurement:
     """Check that the numbers of a measurement can be a load, and return it."""
     if len(measured.time) < 2:
         raise InputError(f"{path}: only {len(measured.time)} sample of load; at least two are needed")

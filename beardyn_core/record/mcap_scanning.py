@@ -113,7 +113,7 @@ class McapScan:
                     self.complete = True
                     return
                 except _DAMAGE as error:
-                    self._stopped(error)
+                    self._stop_at(error)
                     return
                 self.usable_bytes = file.tell()
                 yield from found
@@ -135,7 +135,7 @@ class McapScan:
                 self.metadata[record.name] = dict(record.metadata)
         return messages
 
-    def _stopped(self, error: Exception) -> None:
+    def _stop_at(self, error: Exception) -> None:
         reason = f" ({error})" if str(error) else ""
         self.problem = (
             f"{self.path}: the file was not closed properly; usable up to byte {self.usable_bytes} "

@@ -34,7 +34,7 @@ class Mesh:
     shades: A[Float, "shape [vertex, 3], factor on the part's colour, 0 to 1"]
 
 
-def joined(*meshes: Mesh) -> Mesh:
+def join_meshes(*meshes: Mesh) -> Mesh:
     """Join several meshes to one."""
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     return Mesh(
@@ -121,7 +121,7 @@ def cup(shape: BearingShape) -> Mesh:
     left = [(-y, r) for y, r in reversed(right)]
     profile = np.array([*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]])
     azimuth = np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 121)
-    return joined(
+    return join_meshes(
         revolve(profile, azimuth), section(profile, CUT_OPEN[1], -1.0), section(profile, CUT_OPEN[0], 1.0)
     )
 
@@ -150,7 +150,7 @@ def cone(shape: BearingShape) -> Mesh:
     left = [(-y, r) for y, r in reversed(right)]
     azimuth = np.linspace(0.0, 2.0 * pi, 145)
     mesh = revolve(np.array([*left, *right, left[0]]), azimuth)
-    return marked(mesh, _in_sector(mesh, 0.06))
+    return mark_vertices(mesh, _in_sector(mesh, 0.06))
 
 
 def roller(shape: BearingShape, segments: int = 40) -> Mesh:
@@ -172,7 +172,7 @@ def roller(shape: BearingShape, segments: int = 40) -> Mesh:
     mesh = revolve(profile, np.linspace(0.0, 2.0 * pi, segments + 1))
     at_end = np.abs(np.abs(mesh.vertices[:, 1]) - half) < 1e-9
     outside = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2]) > 0.3 * small
-    mesh = marked(mesh, _in_sector(mesh, 0.45) & at_end & outside)
+    mesh = mark_vertices(mesh, _in_sector(mesh, 0.45) & at_end & outside)
     # y becomes the roller's own x; z stays, so the mark faces the cup at zero spin.
     turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     return replace(mesh, vertices=mesh.vertices @ turn.T, normals=mesh.normals @ turn.T)
@@ -203,7 +203,7 @@ def cage(shape: BearingShape, row: int) -> Mesh:
         middle = (k + 0.5) * gap
         closed = np.vstack((profile, profile[:1]))
         bars.append(_sector(closed, np.linspace(middle - width / 2.0, middle + width / 2.0, 4)))
-    mesh = joined(*rings, *bars)
+    mesh = join_meshes(*rings, *bars)
     return _on_side(replace(mesh, shades=np.ones_like(mesh.vertices)), row)
 
 
@@ -218,7 +218,7 @@ def spall(shape: BearingShape, defect: Patch) -> Mesh:
     return _on_side(mesh, defect.row)
 
 
-def marked(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
+def mark_vertices(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
     """Darken some vertices of a mesh."""
     shades = mesh.shades.copy()
     shades[where] *= np.array(MARK_COLOUR)
@@ -227,7 +227,7 @@ def marked(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:
 
 def _sector(profile: Float, azimuth: Float) -> Mesh:
     """Revolve a closed profile over a part of the circle, with both cuts."""
-    return joined(
+    return join_meshes(
         revolve(profile, azimuth), section(profile, azimuth[0], -1.0), section(profile, azimuth[-1], 1.0)
     )
 

@@ -62,7 +62,7 @@ class MessageSource:
         return self._cdrs.get(name, ())
 
     def force(self) -> arrays.Signal:
-        return _stamped(
+        return _stamped_signal(
             self._of("force"), WRENCH, force_template, "wrench", wrench_values, WRENCH_AXES, "N, N m"
         )
 
@@ -81,7 +81,7 @@ class MessageSource:
         }
 
     def specific_force(self) -> arrays.Signal:
-        return _stamped(
+        return _stamped_signal(
             self._of("imu"), IMU, imu_template, "acceleration", _imu_values, ACCELERATION_AXES, "m/s^2"
         )
 
@@ -258,7 +258,7 @@ def _imu_values(message: Any) -> list[float]:
     return [value.x, value.y, value.z]
 
 
-def _stamped(
+def _stamped_signal(
     cdrs: Sequence[bytes],
     msgtype: str,
     template: Any,

@@ -105,7 +105,7 @@ class Topics:
             if channel.topic in unknown or (known is not None and known.span_ns):
                 continue
             schema = scan.schemas[channel.schema_id]
-            values = self._decoded(channel, schema, message.data)
+            values = self._decode_message(channel, schema, message.data)
             if values is None:
                 unknown[channel.topic] = f"{schema.name} as {channel.message_encoding}"
             elif known is not None:
@@ -139,7 +139,7 @@ class Topics:
             first = stamp if first is None else first
             time = (stamp - first) * 1e-9
             if waiting is not None:
-                rows.append(_placed(waiting, time - waiting[0], members))
+                rows.append(_place_samples(waiting, time - waiting[0], members))
                 count += len(rows[-1])
                 if count >= _BLOCK:
                     yield np.concatenate(rows)
@@ -147,7 +147,7 @@ class Topics:
                 step = (time - waiting[0]) / max(len(waiting[1]), 1)
             waiting = (time, values, offsets)
         if waiting is not None:
-            rows.append(_placed(waiting, step * len(waiting[1]), members))
+            rows.append(_place_samples(waiting, step * len(waiting[1]), members))
         if rows:
             yield np.concatenate(rows)
 
@@ -158,7 +158,7 @@ class Topics:
             channel = scan.channels[message.channel_id]
             if channel.topic != topic:
                 continue
-            values = self._decoded(channel, scan.schemas[channel.schema_id], message.data) or {}
+            values = self._decode_message(channel, scan.schemas[channel.schema_id], message.data) or {}
             count = max((len(values[name]) for name in members if name in values), default=1)
             out = np.full((count, len(members)), np.nan)
             for k, name in enumerate(members):
@@ -168,7 +168,7 @@ class Topics:
             offsets = values.get("t")
             yield begin, out, None if offsets is None or len(offsets) != count else offsets * 1e-9
 
-    def _decoded(self, channel: Channel, schema: Schema, data: bytes) -> dict[str, Any] | None:
+    def _decode_message(self, channel: Channel, schema: Schema, data: bytes) -> dict[str, Any] | None:
         """Give the numbers of a message by their path, arrays; None for what cannot be decoded."""
         if channel.id not in self._decoders:
             self._decoders[channel.id] = _decoder(channel, schema)
@@ -187,7 +187,7 @@ def _stamp_of(values: dict[str, Any], log_time: int) -> int:
     return log_time if stamp is None else int(stamp[0]) * 10**9 + int(stamp[1])
 
 
-def _placed(part: tuple[float, Float, Float | None], span: float, members: Sequence[str]) -> Float:
+def _place_samples(part: tuple[float, Float, Float | None], span: float, members: Sequence[str]) -> Float:
     """Give the samples of a message with their time where it is wanted."""
     begin, values, offsets = part
     count = len(values)
@@ -252,7 +252,7 @@ def _flat(message: Any, above: str = "") -> dict[str, Any]:
         elif isinstance(value, int | float):
             found[path] = np.array([value], np.float64)
         elif isinstance(value, list | tuple | np.ndarray):
-            _add(found, _listed(path, value, shape if name == "data" else None))
+            _add(found, _list_columns(path, value, shape if name == "data" else None))
         elif isinstance(value, dict) or is_dataclass(value):
             _add(found, _flat(value, f"{path}."))
     return found
@@ -291,7 +291,7 @@ def _layout(members: dict[str, Any]) -> _Layout | None:
     return None
 
 
-def _listed(path: str, value: Any, layout: _Layout | None = None) -> dict[str, Any]:
+def _list_columns(path: str, value: Any, layout: _Layout | None = None) -> dict[str, Any]:
     """Give the columns of a list: as its layout has them, the components of a vector, or samples."""
     if not len(value):
         return {}

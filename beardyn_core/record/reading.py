@@ -159,7 +159,7 @@ def _run(
         status=scan.metadata[END_RECORD].get("status") or COMPLETE if END_RECORD in scan.metadata else None,
         scene_text=scene_text or (description.scene_text if description else ""),
         malformed=malformed,
-        measured=_measured(scan),
+        measured=_read_measured(scan),
         boxes=boxes,
     )
 
@@ -186,7 +186,7 @@ def _description(
     return RunDescription.from_json(decode_string(truth[0])) if truth else None
 
 
-def _measured(scan: McapScan | BagScan) -> dict[str, Any]:
+def _read_measured(scan: McapScan | BagScan) -> dict[str, Any]:
     """Give what a measured recording says about itself; empty for a simulated one."""
     if MEASURED_FILE not in scan.attachments:
         return {}

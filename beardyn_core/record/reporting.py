@@ -24,7 +24,7 @@ from beardyn_core.record.published import (
 )
 from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
-from beardyn_core.record.run_summary import chosen_for, diagnosed, recorded_budget
+from beardyn_core.record.run_summary import chosen_for, collect_diagnostic, recorded_budget
 from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
 from beardyn_core.sensors.labels import HEALTHY
@@ -126,7 +126,10 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
     own = [each for (topic, _), each in times.items() if not topic.endswith(NOT_OF_THE_TWIN)]
     own = own or list(times.values())
     description, speed = run.description, run.shaft.speed
-    factors, residuals = diagnosed(run, "real_time_factor"), diagnosed(run, "energy_residual")
+    factors, residuals = (
+        collect_diagnostic(run, "real_time_factor"),
+        collect_diagnostic(run, "energy_residual"),
+    )
     return Report(
         path=str(scan.path),
         size_bytes=scan.size_bytes,

@@ -110,7 +110,7 @@ def log_loads(stream: rr.RecordingStream, run: Run, largest: float | None = None
     whole = largest is None
     if largest is None:
         largest = float(load.max(initial=0.0))
-    packed = _packed(load_colours(load, largest))
+    packed = _pack_colours(load_colours(load, largest))
     for row, k in np.ndindex(2, shape.roller_count):
         if (name := f"roller_{row}_{k}") not in run.described().absent_bodies:
             coloured = rr.Mesh3D.columns(albedo_factor=packed[:, row, k])
@@ -218,7 +218,7 @@ def _polar(azimuth: Float, radius: Any, axial: float) -> Float:
     return np.stack(places, axis=-1)
 
 
-def _packed(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
+def _pack_colours(colours: NDArray[np.uint8]) -> NDArray[np.uint32]:
     opaque = np.full(colours.shape[:-1], 0xFF, np.uint8)
     return np.concatenate((colours, opaque[..., None]), axis=-1).view(">u4")[..., 0].astype(np.uint32)
 

@@ -48,7 +48,7 @@ def log_estimates(stream: rr.RecordingStream, steps: Told) -> None:
     time_ns = np.array([round(1e9 * each["time_s"]) for each in known], np.int64)
     for key in quantities_of(steps):
         _style(stream, key)
-        _, factor, offset = _shown(key)
+        _, factor, offset = _shown_quantity(key)
         told = np.array([key in each["estimates"] for each in known])  # another estimator may have taken over
         rows = [_row(each["estimates"][key]) for each in known if key in each["estimates"]]
         columns = rr.Scalars.columns(scalars=(np.array(rows) - offset) * factor)
@@ -115,7 +115,7 @@ def follower_view(quantities: Sequence[str]) -> rrb.Container:
     curves = [
         rrb.TimeSeriesView(
             origin=f"{ESTIMATES}/{key}",
-            name=f"{key.rpartition('_')[0].replace('_', ' ')}, {_shown(key)[0]}",
+            name=f"{key.rpartition('_')[0].replace('_', ' ')}, {_shown_quantity(key)[0]}",
             plot_legend=legend,
         )
         for key in quantities
@@ -129,7 +129,7 @@ def follower_view(quantities: Sequence[str]) -> rrb.Container:
     return rrb.Horizontal(rrb.Grid(*curves), beside, column_shares=[1.2, 1.0], name="follower")
 
 
-def _shown(key: str) -> tuple[str, float, float]:
+def _shown_quantity(key: str) -> tuple[str, float, float]:
     return _SHOWN_OF.get(key) or _SHOWN[key.rpartition("_")[2]]
 
 

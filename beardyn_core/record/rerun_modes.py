@@ -20,7 +20,7 @@ FRAMES = 24  # of one turn, which takes a second whatever the mode
 _LARGEST = 0.06  # displacement as shown, share of the size of the box
 
 
-def exaggerated(built: Built, mode: int) -> Float:
+def exaggerate_shape(built: Built, mode: int) -> Float:
     """Scale the shape of a free mode so that it can be seen, shape [corner, 3], [m]."""
     shape = built.shapes[mode]
     places = built.body.surface.places
@@ -79,7 +79,7 @@ def save_modes(built: Built, target: Path, *, replace: bool = True) -> Path:
     with rerun_file(target, built.modes.name, layout, replace) as stream:
         stream.log("/", rr.ViewCoordinates.FLU, static=True)
         for mode in shown:
-            shape = exaggerated(built, mode)
+            shape = exaggerate_shape(built, mode)
             far = np.linalg.norm(shape, axis=1)
             skin = rr.Mesh3D.from_fields(
                 triangle_indices=surface.triangles.astype(np.uint32),

@@ -40,8 +40,8 @@ def summary_of(run: Run) -> RunSummary:
     """
     description, truth = run.described(), run.truth
     means = _means(run)
-    factors = diagnosed(run, "real_time_factor")
-    residuals = diagnosed(run, "energy_residual")
+    factors = collect_diagnostic(run, "real_time_factor")
+    residuals = collect_diagnostic(run, "energy_residual")
     waves = [Waviness(**each) for each in truth.get("waviness", ())]
     warm = run.temperature
     return RunSummary(
@@ -116,7 +116,7 @@ def _life(run: Run) -> RatingLife | None:
         return None
 
 
-def diagnosed(run: Run, key: str) -> list[float]:
+def collect_diagnostic(run: Run, key: str) -> list[float]:
     """Collect a number that the diagnostics of the twin carry."""
     values = (_number(status.value(key)) for _, statuses in run.diagnostics for status in statuses)
     return [value for value in values if value is not None]

@@ -97,7 +97,7 @@ class McapSink:
 
     def write(self, block: Block) -> None:
         """Append the messages of a block."""
-        writer = self._opened()
+        writer = self._open_writer()
         for batch in self._messages.of(block):
             writer.add_rows(*batch)
 
@@ -106,7 +106,7 @@ class McapSink:
         if self._writer is not None:
             self._writer.close(status)
 
-    def _opened(self) -> McapWriter:
+    def _open_writer(self) -> McapWriter:
         if self._writer is None:
             raise RuntimeError("McapSink.write before McapSink.open")
         return self._writer
@@ -170,11 +170,11 @@ class RunMessages:
 
     def of(self, block: Block) -> Iterator[Batch]:
         """Make the messages of a block."""
-        for batch in self._own(block):
+        for batch in self._own_messages(block):
             absolute = not self._box or batch.topic.startswith("/")
             yield batch if absolute else batch._replace(topic=f"/{self._box}/{batch.topic}")
 
-    def _own(self, block: Block) -> Iterator[Batch]:
+    def _own_messages(self, block: Block) -> Iterator[Batch]:
         if self._first:
             self._first = False
             yield single("truth", block.start_ns, encode_string(self._run.to_json()))

@@ -15,7 +15,7 @@ from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, UNEVENNESS
 _STRAIGHT = 1e-10
 
 
-def interpolated(time_ns: Int, values: Float, start_ns: int, at: Float) -> Float:
+def interpolate_columns(time_ns: Int, values: Float, start_ns: int, at: Float) -> Float:
     """Interpolate columns of samples; outside them the first and the last are held.
 
     Band-limited where samples are evenly spaced and measured or computed, straight from sample to sample
@@ -41,7 +41,7 @@ def interpolated(time_ns: Int, values: Float, start_ns: int, at: Float) -> Float
 
 
 def at_steps(time_ns: Int, values: Float, start_ns: int, block_ns: int, steps: int, blocks: int) -> Float:
-    """Interpolate as `interpolated` at the step boundaries of blocks.
+    """Interpolate as `interpolate_columns` at the step boundaries of blocks.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ def _correlation(lag: Float, bands: tuple[tuple[float, float], ...]) -> Float:
 POLYNOMIALS = fitted_polynomials(LOOK_AHEAD, _BANDS)
 
 
-def between(samples: Float, polynomials: Float, u: Float) -> Float:
+def interpolate_between(samples: Float, polynomials: Float, u: Float) -> Float:
     """Interpolate between the two middle ones of even samples, as the module says.
 
     Parameters
@@ -87,7 +87,7 @@ def between(samples: Float, polynomials: Float, u: Float) -> Float:
     return left + u[:, None] * rise + (u * (1.0 - u))[:, None] * (powers @ (polynomials.T @ off))
 
 
-def refined(series: Float, factor: int) -> Float:
+def refine_series(series: Float, factor: int) -> Float:
     """Interpolate an evenly spaced series band-limited to a multiple of its rate, whatever it holds.
 
     Parameters

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated as A
 from typing import Any, ClassVar
 
-from beardyn_core.base.edge import At, Problem, Vector, refuse, written
+from beardyn_core.base.edge import At, Problem, Vector, refuse, write_noun
 from beardyn_core.base.units import UNITS
 from beardyn_core.scene.excitation import Irregularity, RailDefect, WheelDefect
 from beardyn_core.scene.load_check import LARGEST_SPEED_JUMP
@@ -250,7 +250,7 @@ class QuarterVehicleOperation:
         del keys["speed_profile"]
         if isinstance(source, Path):
             return {**keys, "measured_speed": str(source)}
-        return {**keys, "timetable": written(source)}
+        return {**keys, "timetable": write_noun(source)}
 
 
 @dataclass(frozen=True)

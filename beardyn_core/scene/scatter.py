@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import SEED, At, written
+from beardyn_core.base.edge import SEED, At, write_noun
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 
@@ -131,7 +131,7 @@ class Scatter:
                 f"{2.0 * bearing.cage.axial_clearance / _MICRON:g}, twice the axial clearance of a pocket"
             )
 
-    def _drawn(self, name: str, row: int, count: int) -> Float:
+    def _draw_deviations(self, name: str, row: int, count: int) -> Float:
         """Draw the deviations of a quantity in one row, shape [count], [m]."""
         draw = np.random.default_rng(np.random.SeedSequence([self.seed, zlib.crc32(name.encode()), row]))
         tries = draw.standard_normal((count, _TRIES))
@@ -141,11 +141,13 @@ class Scatter:
     def deviations(self, bearing: Bearing) -> Deviations:
         """Draw what a bearing differs by from its drawing."""
         each = {
-            field.name: np.stack([self._drawn(field.name, row, bearing.roller_count) for row in range(_ROWS)])
+            field.name: np.stack(
+                [self._draw_deviations(field.name, row, bearing.roller_count) for row in range(_ROWS)]
+            )
             for field in fields(Deviations)
             if field.name != "row_clearance"
         }
-        rows = np.concatenate([self._drawn("row_clearance", row, 1) for row in range(_ROWS)])
+        rows = np.concatenate([self._draw_deviations("row_clearance", row, 1) for row in range(_ROWS)])
         return Deviations(**each, row_clearance=rows)
 
     def waves(self, bearing: Bearing) -> tuple[Waviness, ...]:
@@ -188,7 +190,7 @@ class Scatter:
         """Write grade, seed and all deviations, [m]."""
         own: dict[str, Any] = {name: self.variation(name) for name in _OF_G1}
         full = replace(self, **own)
-        return {**written(full), "deviations_m": self.deviations(bearing).by_name()}
+        return {**write_noun(full), "deviations_m": self.deviations(bearing).by_name()}
 
 
 def passed_on(wavelength: Float, half_contact: float = HALF_CONTACT) -> Float:

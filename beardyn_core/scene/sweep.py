@@ -110,7 +110,7 @@ class Normal:
 
     def grid(self) -> list[Any]:
         """List the numbers of a grid: the middles of shares of equal size."""
-        return [rounded(self.at((k + 0.5) / self.levels)) for k in range(self.levels)]
+        return [round_digits(self.at((k + 0.5) / self.levels)) for k in range(self.levels)]
 
 
 @dataclass(frozen=True)
@@ -303,11 +303,11 @@ def per_of(variable: Drawn) -> str:
     return BEARING if first in OF_A_BEARING else RUN
 
 
-def rounded(value: Any) -> Any:
+def round_digits(value: Any) -> Any:
     """Round a number to six digits: as a table shows it, and the same on every machine."""
     return float(f"{value:.6g}") if isinstance(value, float) and isfinite(value) else value
 
 
 def _evenly(variable: Uniform | LogUniform) -> list[Any]:
     count = variable.levels
-    return [rounded(variable.at(k / (count - 1) if count > 1 else 0.5)) for k in range(count)]
+    return [round_digits(variable.at(k / (count - 1) if count > 1 else 0.5)) for k in range(count)]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.base.edge import ROW, SEED, At, WorkedOut, written
+from beardyn_core.base.edge import ROW, SEED, At, WorkedOut, write_noun
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.scene.defect import no_such, not_on_a_roller
 
@@ -81,7 +81,7 @@ class Waviness:
         band = getattr(self.amplitudes, "source", None)
         if band is not None and band.orders == self.orders:
             del keys["orders"], keys["amplitude_um"]
-            return {**keys, "band": written(band)}
+            return {**keys, "band": write_noun(band)}
         if len(set(self.amplitudes)) == 1:
             keys["amplitude_um"] = keys["amplitude_um"][0]
         return keys

@@ -38,7 +38,7 @@ class Absence:
         self._ahead = self.complete.to_lanes(ahead)
         self._there = self.complete.to_lanes(there.astype(float))
 
-    def completed(self, rollers: Float, bodies: Float) -> tuple[Float, Float]:
+    def complete_rows(self, rollers: Float, bodies: Float) -> tuple[Float, Float]:
         """Fill up the states of all rollers and bodies to two complete rows.
 
         Parameters
@@ -53,7 +53,7 @@ class Absence:
         fields = self._arrangement.to_rollers(np.moveaxis(rollers, -2, 0))
         if self._arrangement.rows < BOTH_ROWS:
             fields = np.concatenate([fields, fields], axis=-2)
-            bodies = np.concatenate([bodies, _mirrored(bodies[..., CAGE_BODY:, :])], axis=-2)
+            bodies = np.concatenate([bodies, _mirror_cage(bodies[..., CAGE_BODY:, :])], axis=-2)
         lanes = fields[..., self.complete.row, self.complete.roller]
         whole = np.ascontiguousarray(np.moveaxis(lanes, 0, -2))
         whole[..., ANGLE, :] += self._ahead
@@ -61,7 +61,7 @@ class Absence:
         return whole, bodies
 
 
-def _mirrored(cage: Float) -> Float:
+def _mirror_cage(cage: Float) -> Float:
     """Mirror a cage at the plane between the rows; both turn the same way."""
     image = cage.copy()
     for field in (POSITION + 1, LINEAR + 1, TILT, TILT + 2, ANGULAR, ANGULAR + 2):

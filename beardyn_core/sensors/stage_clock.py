@@ -48,7 +48,7 @@ class StageClock:
 
     def lap(self, stage: str) -> None:
         """Add the time since the last lap to a stage."""
-        self._seconds[stage] += self._passed()
+        self._seconds[stage] += self._elapsed()
 
     def lap_kernel(self, cycles: NDArray[np.float64]) -> None:
         """Add the time since the last lap to the stages of the kernel.
@@ -58,7 +58,7 @@ class StageClock:
         cycles : float64 array, shape [stage]
             Of a step, by `KERNEL_STAGES`; zeros when not known.
         """
-        passed, total = self._passed(), float(cycles.sum())
+        passed, total = self._elapsed(), float(cycles.sum())
         if total <= 0.0:
             self._seconds[KERNEL] += passed
             return
@@ -69,7 +69,7 @@ class StageClock:
         """List the wall time of every stage that took any, in the order of `STAGES`."""
         return tuple(StageTime(stage, spent) for stage, spent in self._seconds.items() if spent > 0.0)
 
-    def _passed(self) -> float:
+    def _elapsed(self) -> float:
         now = self._now()
         passed = now - self._last
         self._last = now

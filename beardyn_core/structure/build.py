@@ -14,10 +14,10 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.cup import Cup
-from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
+from beardyn_core.structure.elastic import Elastic, elastic_body, stack_functionals
 from beardyn_core.structure.mesh import mesh_of
 from beardyn_core.structure.modes import RESIDUAL_WAVES, WAVES, Modes
-from beardyn_core.structure.reduction import reduced
+from beardyn_core.structure.reduction import reduce_body
 
 MESH = 0.015
 HIGHEST = 12_800.0
@@ -74,7 +74,7 @@ def modes_of(
     body = elastic_body(box, bearing, tetrahedra)
     names = tuple(seat.name for seat in (*box.sensors, *box.suspension))
     progress(f"solving {body.stiffness.shape[0]} unknowns")
-    found = reduced(body, names, highest, waves)
+    found = reduce_body(body, names, highest, waves)
     count = len(found.frequency)
     series = 2 * 3 * (2 * WAVES + 1)
     inertia = body.rigid_mass
@@ -96,8 +96,8 @@ def modes_of(
         tuple(seat.name for seat in box.suspension),
         digest(box, bearing),
     )
-    zone = load_zone(len(stacked(body, names)))
-    loads = stacked(body, names).T @ zone
+    zone = load_zone(len(stack_functionals(body, names)))
+    loads = stack_functionals(body, names).T @ zone
     exact = float(loads @ body.bent(loads[:, None])[:, 0])
     return Built(
         modes,

@@ -60,11 +60,11 @@ class Elastic:
 
     @cached_property
     def _shifted(self) -> Any:
-        return factored(self.stiffness + _SHIFT * self.mass)
+        return factor_matrix(self.stiffness + _SHIFT * self.mass)
 
     @cached_property
     def _soft(self) -> Any:
-        return factored(self.stiffness + _SOFT * self.mass)
+        return factor_matrix(self.stiffness + _SOFT * self.mass)
 
     def modes(self, highest: float, at_least: int = 24) -> tuple[Float, Float]:
         """Compute the free elastic modes up to a frequency [Hz].
@@ -130,7 +130,7 @@ def elastic_body(box: Box, bearing: Bearing, mesh: Mesh) -> Elastic:
         from skfem.helpers import ddot, div, dot, sym_grad
     except ImportError as error:
         raise InputError(f"finite elements need scikit-fem ({error}); {EXTRA}") from error
-    body = _curved(skfem, mesh)
+    body = _curved_mesh(skfem, mesh)
     basis = skfem.Basis(body, skfem.ElementVector(skfem.ElementTetP2()), intorder=4)
     piecewise = basis.with_element(skfem.ElementTetP0())
     steel = mesh.part == CUP
@@ -183,7 +183,7 @@ def _surface(body: Any, unknowns: NDArray[np.int64]) -> Surface:
     return Surface(body.doflocs[:, used].T, triangles.reshape(3, -1).T, unknowns[used])
 
 
-def _curved(skfem: Any, mesh: Mesh) -> Any:
+def _curved_mesh(skfem: Any, mesh: Mesh) -> Any:
     """Give scikit-fem the tetrahedra with the middles of their edges where gmsh has put them."""
     corners, flat = np.unique(mesh.elements[:, :4], return_inverse=True)
     straight = skfem.MeshTet(mesh.nodes[corners].T.copy(), flat.reshape(-1, 4).T.copy())
@@ -282,7 +282,7 @@ def _at(seat: Seat, places: Float, axis: Any) -> Float:
     return found
 
 
-def factored(matrix: Any) -> Any:
+def factor_matrix(matrix: Any) -> Any:
     """Factor a symmetric sparse matrix without pivoting; the result has a method ``solve``."""
     return splu(
         csc_matrix(matrix),
@@ -292,7 +292,7 @@ def factored(matrix: Any) -> Any:
     )
 
 
-def stacked(body: Elastic, names: Sequence[str]) -> Float:
+def stack_functionals(body: Elastic, names: Sequence[str]) -> Float:
     """Join the functionals of raceways and seats, shape [row x field x series, then 3 a seat, unknown]."""
     raceway = body.raceway.reshape(-1, body.raceway.shape[-1])
     return np.concatenate([raceway, *(body.seats[name] for name in names)])

@@ -51,7 +51,7 @@ def mesh_of(box: Box, bearing: Bearing, size: float) -> Mesh:
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
-        return _meshed(gmsh.model, box, bearing, size, gmsh.option.setNumber)
+        return _mesh_parts(gmsh.model, box, bearing, size, gmsh.option.setNumber)
     except InputError:
         raise
     except Exception as error:  # gmsh knows no other
@@ -60,7 +60,7 @@ def mesh_of(box: Box, bearing: Bearing, size: float) -> Mesh:
         gmsh.finalize()
 
 
-def _meshed(model: Any, box: Box, bearing: Bearing, size: float, option: Any) -> Mesh:
+def _mesh_parts(model: Any, box: Box, bearing: Bearing, size: float, option: Any) -> Mesh:
     occ = model.occ
     bore, race = 0.5 * bearing.outer_diameter, cup_raceway(bearing)
     if box.outer_diameter <= bearing.outer_diameter:
@@ -104,7 +104,7 @@ def _meshed(model: Any, box: Box, bearing: Bearing, size: float, option: Any) ->
     option("Mesh.HighOrderOptimize", 0)
     model.mesh.generate(3)
     model.mesh.setOrder(2)
-    return _collected(model, solids, box.name)
+    return _collect_mesh(model, solids, box.name)
 
 
 def _edges(bearing: Bearing) -> tuple[float, ...]:
@@ -130,7 +130,7 @@ def _sector(occ: Any, parts: list[tuple[int, int]], box: Box) -> list[tuple[int,
     return list(kept)
 
 
-def _collected(model: Any, solids: dict[int, int], name: str) -> Mesh:
+def _collect_mesh(model: Any, solids: dict[int, int], name: str) -> Mesh:
     tags, places, _ = model.mesh.getNodes()
     number = np.zeros(int(tags.max()) + 1, np.int64)
     number[tags.astype(np.int64)] = np.arange(len(tags))

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.structure.elastic import Elastic, stacked
+from beardyn_core.structure.elastic import Elastic, stack_functionals
 
 _DEPENDENT = 1e-10  # of the largest: directions that the loads before have given already
 
@@ -28,7 +28,7 @@ class Reduced:
     free: A[Float, "shape [unknown, free mode], shapes of the free modes, which are the first"]
 
 
-def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -> Reduced:
+def reduce_body(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -> Reduced:
     """Reduce a body to free modes up to a frequency [Hz] and residual modes.
 
     Parameters
@@ -43,7 +43,7 @@ def reduced(body: Elastic, names: tuple[str, ...], highest: float, waves: int) -
     Rubin (1975), Improved component-mode representation for structural dynamic analysis, AIAA J. 13.
     """
     frequency, shapes = body.modes(highest)
-    read = stacked(body, names)
+    read = stack_functionals(body, names)
     loads = np.concatenate([_patterns(body, waves), *(body.seats[name] for name in names)]).T
     static = body.bent(loads)
     seen_by_modes = shapes.T @ loads

@@ -45,7 +45,7 @@ def warm_once(scene: Scene, kind: Hashable = None) -> None:
     with _readying:
         if kind in _ready:
             return
-        known = _known(kind)
+        known = _known_file(kind)
         if known.exists():
             Twin(scene).warm()
         else:
@@ -59,7 +59,7 @@ def warm_once(scene: Scene, kind: Hashable = None) -> None:
 
 def is_compiled(scene: Scene) -> bool:
     """Tell whether `warm_once` has compiled the kernels of a scene on this machine."""
-    return _known(_kind_of(scene)).exists()
+    return _known_file(_kind_of(scene)).exists()
 
 
 def _kind_of(scene: Scene) -> Hashable:
@@ -67,7 +67,7 @@ def _kind_of(scene: Scene) -> Hashable:
     return (scene.tier, repr(scene.effects), scene.effect_names, *faults)
 
 
-def _known(kind: Hashable) -> Path:
+def _known_file(kind: Hashable) -> Path:
     key = hashlib.sha256(repr((kind, _steps())).encode()).hexdigest()[:32]
     return cache_root() / "kernels" / "kinds" / key
 

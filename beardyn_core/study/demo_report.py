@@ -88,10 +88,10 @@ def _free_folder(force: bool) -> Path:
     if force:
         return USUAL_FOLDER
     numbered = (USUAL_FOLDER.with_name(f"{USUAL_FOLDER}_{number}") for number in count(2))
-    return next(each for each in chain((USUAL_FOLDER,), numbered) if not _taken(each))
+    return next(each for each in chain((USUAL_FOLDER,), numbered) if not _is_taken(each))
 
 
-def _taken(folder: Path) -> bool:
+def _is_taken(folder: Path) -> bool:
     """Whether there is a file of this name, or a folder with results in it."""
     if not folder.is_dir():
         return os.path.lexists(folder)

@@ -60,11 +60,11 @@ def run(
         The load could not be made and no sink has been opened; or a sink could not be written, then all
         are closed.
     """
-    return _fed(start(scene), scene, sinks, progress, life)
+    return _run_started(start(scene), scene, sinks, progress, life)
 
 
 @held_back()
-def _fed(
+def _run_started(
     simulation: Simulation,
     scene: Scene,
     sinks: Sequence[Sink],
@@ -132,7 +132,7 @@ def _fed(
 def _close(sinks: Sequence[Sink], status: str) -> list[str]:
     """Close every sink, also when one fails; gives what went wrong."""
     failures: list[str] = []
-    with undisturbed():
+    with ignore_interrupts():
         for sink in sinks:
             try:
                 sink.close(status)
@@ -142,7 +142,7 @@ def _close(sinks: Sequence[Sink], status: str) -> list[str]:
 
 
 @contextmanager
-def undisturbed() -> Iterator[None]:
+def ignore_interrupts() -> Iterator[None]:
     """Ignore Ctrl-C: an impatient second one must not cut the file that the first one closes."""
     if threading.current_thread() is not threading.main_thread():
         yield

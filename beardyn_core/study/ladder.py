@@ -2,7 +2,7 @@
 
 All levels get the same load history and sensor noise, one after the other in one process of the engine, for
 they are timed; nothing is kept, for times of another go are those of another state of the machine. Repeated
-runs begin a hair apart: `varied`.
+runs begin a hair apart: `vary_start`.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class Attempt:
 
     place: A[int, "of the level in the ladder; 0 is the reference"]
     level: Level
-    number: A[int, "0 is the scene itself, see `varied`"]
+    number: A[int, "0 is the scene itself, see `vary_start`"]
 
 
 Progress = Callable[[str, float], None]
@@ -139,7 +139,7 @@ def window_edges(times: Float, cage_speed: Float, start: float, end: float) -> t
     return tuple(np.interp(marks, turned, times).tolist()), windows * each
 
 
-def varied(scene: Scene, number: int) -> Scene:
+def vary_start(scene: Scene, number: int) -> Scene:
     """Change the start of a scene very slightly, 0 not at all: end play by nm, cage speed by 1e-4."""
     if number == 0:
         return scene
@@ -196,7 +196,7 @@ def repeats_of(level: Level, least: int = 1) -> int:
 
 def expected_wall(levels: LevelList, comparison: Comparison) -> float:
     """Return the wall time to expect of a ladder, for the time left, [s]."""
-    return sum(_expected(attempt, comparison) for attempt in attempts(levels))
+    return sum(_expected_seconds(attempt, comparison) for attempt in attempts(levels))
 
 
 def attempts(levels: LevelList, reference_runs: int = REFERENCE_RUNS, least: int = 1) -> list[Attempt]:
@@ -212,7 +212,7 @@ def attempts(levels: LevelList, reference_runs: int = REFERENCE_RUNS, least: int
     ]
 
 
-def _expected(attempt: Attempt, comparison: Comparison) -> float:
+def _expected_seconds(attempt: Attempt, comparison: Comparison) -> float:
     return expected_cost(attempt.level) * comparison.block_count * Twin.block_ns * 1e-9
 
 
@@ -274,7 +274,7 @@ def climb(
             if attempt.place == 0 and run.outcome is None:
                 raise ValidityError(f"the reference cannot be computed: {run.status}")
             done[attempt.place].append(run)
-        before = sum((_expected(plan.items[key], comparison) for key in now.latest), 0.0)
+        before = sum((_expected_seconds(plan.items[key], comparison) for key in now.latest), 0.0)
         progress(todo[min(now.here, len(todo) - 1)].level.name, before)
 
     try:
@@ -309,7 +309,9 @@ def climb(
 
 def _run_attempts(items: Sequence[Attempt], comparison: Comparison, runner: Runner) -> list[Run]:
     """Do some runs in this process."""
-    return [runner(varied(each.level.applied(comparison.scene), each.number), comparison) for each in items]
+    return [
+        runner(vary_start(each.level.applied(comparison.scene), each.number), comparison) for each in items
+    ]
 
 
 def _result(level: Level, runs: list[Run], truth: list[Run]) -> LevelResult:

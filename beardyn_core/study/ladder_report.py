@@ -57,19 +57,19 @@ def _band_text(error: QuantityError | None) -> str:
 def heading(ladder: Ladder) -> list[str]:
     """Say what is compared with what."""
     count, windows = ladder.revolutions, len(ladder.edges) - 1
-    turns = counted(count, "whole cage revolution") if count else "no whole cage revolution"
+    turns = count_words(count, "whole cage revolution") if count else "no whole cage revolution"
     reference = ladder.reference
     return [
         f"{ladder.scene}: {ladder.purpose}",
         f"compared over {ladder.edges[-1] - ladder.edges[0]:.2f} s, {turns}, in "
-        f"{counted(windows, 'window')} from {ladder.edges[0]:.2f} s on",
-        f"reference: {_described(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for each "
-        "simulated second",
+        f"{count_words(windows, 'window')} from {ladder.edges[0]:.2f} s on",
+        f"reference: {_describe_result(reference)}, {reference.runs} runs, {reference.cost.median:.1f} s for "
+        "each simulated second",
         f"accuracy {percent(ladder.accuracy)}: {'; '.join(limits_of(ladder))}",
     ]
 
 
-def counted(number: int, what: str) -> str:
+def count_words(number: int, what: str) -> str:
     """Write a count with its word, in singular or plural."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
@@ -81,7 +81,7 @@ def limits_of(ladder: Ladder) -> list[str]:
     return [f"{', '.join(names)} within {words[unit]}" for unit, names in asked.items() if names]
 
 
-def _described(result: LevelResult) -> str:
+def _describe_result(result: LevelResult) -> str:
     level = result.level
     micro = 1e6 / (WAVEFORM_RATE * level.steps_per_sample)
     return f"{level.tier}, effects {level.effects_name}, {level.laminae} laminae, step {micro:.1f} µs"

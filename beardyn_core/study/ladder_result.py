@@ -100,8 +100,8 @@ def errors(found: Sequence[Outcome], reference: Sequence[Outcome]) -> tuple[Quan
 def _parts(
     measure: Measure, index: int, found: Sequence[Outcome], reference: Sequence[Outcome], tail: float
 ) -> list[Part]:
-    here = _stacked(found, index).mean(axis=0)
-    there = _stacked(reference, index).mean(axis=0)
+    here = _stack_runs(found, index).mean(axis=0)
+    there = _stack_runs(reference, index).mean(axis=0)
     if np.all(np.isnan(there)):
         return []
     scatterers = found if len(found) > 1 else reference
@@ -130,7 +130,7 @@ def variance(runs: Sequence[Outcome], index: int) -> Float:
 
     The larger of what whole runs and what equal windows of them say.
     """
-    between = np.var(_stacked(runs, index), axis=0, ddof=1)
+    between = np.var(_stack_runs(runs, index), axis=0, ddof=1)
     windows = np.array([[window[index] for window in run.windows] for run in runs])
     spread = np.var(windows, axis=0, ddof=1)
     # a bin of the load distribution may be empty in a short window
@@ -140,7 +140,7 @@ def variance(runs: Sequence[Outcome], index: int) -> Float:
     return np.fmax(between, within)
 
 
-def _stacked(runs: Sequence[Outcome], index: int) -> Float:
+def _stack_runs(runs: Sequence[Outcome], index: int) -> Float:
     return np.array([run.whole[index] for run in runs])
 
 

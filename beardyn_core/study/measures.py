@@ -279,7 +279,7 @@ class Outcome:
     windows: A[tuple[tuple[Float, ...], ...], "such tuples, over each window"]
 
 
-def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
+def compute_measures(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
     """Compute the components of all `MEASURES` of a stretch."""
     return tuple(measure.take(signals, line) for measure in MEASURES)
 
@@ -287,5 +287,5 @@ def measured(signals: Signals, line: FaultLine | None) -> tuple[Float, ...]:
 def outcome(signals: Signals, edges: tuple[float, ...], line: FaultLine | None) -> Outcome:
     """Measure a run over windows that end at these times, [s]."""
     whole = signals.between(edges[0], edges[-1])
-    windows = tuple(measured(whole.between(start, end), line) for start, end in pairwise(edges))
-    return Outcome(measured(whole, line), windows)
+    windows = tuple(compute_measures(whole.between(start, end), line) for start, end in pairwise(edges))
+    return Outcome(compute_measures(whole, line), windows)

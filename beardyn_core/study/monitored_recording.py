@@ -14,7 +14,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
-from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics
 from beardyn_core.record.run import Run
@@ -226,7 +226,7 @@ class MonitoredRecording(McapSink):
         finding = Finding.of(result)
         self.findings.append(finding)
         message = encode_diagnostics(result.end_ns, FRAME, [finding.to_diagnostic(MONITOR_STATUS)])
-        self._opened().add("monitor/result", result.end_ns, message)
+        self._open_writer().add("monitor/result", result.end_ns, message)
         if self._on_finding is not None:
             self._on_finding(finding)
 
@@ -252,7 +252,7 @@ def results_of(
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
     settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
     monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
-    yield from listen(monitor, run.monitor_inputs(sensor))
+    yield from run_monitor(monitor, run.monitor_inputs(sensor))
 
 
 def findings_of(

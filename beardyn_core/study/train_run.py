@@ -29,7 +29,7 @@ from beardyn_core.scene.axleboxes import Box
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.sensors.summary import COMPLETE, RunSummary
-from beardyn_core.study.desk_run import Trend, undisturbed
+from beardyn_core.study.desk_run import Trend, ignore_interrupts
 
 MOST_THREADS = 8
 CLOSED_EARLY = "the run was interrupted before its end"
@@ -105,10 +105,10 @@ def start(scene: Scene) -> tuple[BoxRun, ...]:
     blocks = max(1, math.ceil(scene.duration * 1e9 / BLOCK_NS - 1e-6))
     seconds = blocks * BLOCK_NS * 1e-9
     loads = TrainLoads(scene, train, train.boxes, length_of_load(scene, seconds))
-    return tuple(_started(scene, box, loads, seconds) for box in train.boxes)
+    return tuple(_start_box(scene, box, loads, seconds) for box in train.boxes)
 
 
-def _started(scene: Scene, box: Box, loads: TrainLoads, seconds: float) -> BoxRun:
+def _start_box(scene: Scene, box: Box, loads: TrainLoads, seconds: float) -> BoxRun:
     own, load = scene_of_box(scene, box), loads.of(box)
     try:
         simulation = run.start(own, seconds, load.history)
@@ -173,7 +173,7 @@ def advance(
         raise
     finally:
         if sink is not None:
-            with undisturbed():
+            with ignore_interrupts():
                 sink.close(closing)
     seconds = max(each.trend.end_ns for each in boxes) * 1e-9
     return TrainRun(boxes, seconds, time.perf_counter() - began, time.process_time() - processor)
@@ -197,12 +197,12 @@ def _rounds(
             size = min(at_once, count - first)
             going = [pool.submit(advanced, each, size) for each in boxes]
             if waiting:  # written while the next round is computed
-                yield _sorted(waiting)
+                yield _sort_results(waiting)
             waiting = [each.result() for each in going]
-        yield _sorted(waiting)
+        yield _sort_results(waiting)
 
 
-def _sorted(
+def _sort_results(
     found: list[tuple[str, Block | None, list[Batch]]],
 ) -> tuple[dict[str, Block], dict[str, list[Batch]]]:
     blocks = {name: block for name, block, _ in found if block is not None}

@@ -23,7 +23,7 @@ from beardyn_core.experiments.code_digest import monitor_digest, simulator_diges
 from beardyn_core.experiments.plan import Plan
 from beardyn_core.experiments.store import Entry, Layout, Store, differing
 from beardyn_core.monitor.chain import FAULTS, MonitorResult, MonitorSettings, algorithm_named
-from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import Cell, Trial
@@ -103,7 +103,7 @@ def results_over(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], s
     """Simulate a scene with a monitor beside it: its results, and how the run ended."""
     results: list[MonitorResult] = []
     try:
-        results.extend(listen(monitor, map(MonitorInput.of_block, blocks(scene))))
+        results.extend(run_monitor(monitor, map(MonitorInput.of_block, blocks(scene))))
     except ValidityError as error:  # the results up to there count
         return results, str(error)
     # the last word, after all revolutions

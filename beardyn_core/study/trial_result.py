@@ -104,11 +104,11 @@ class TrialResult:
 
     def false_alarms(self, where: Where = everywhere) -> Rate:
         """Count healthy runs in which at least one analysis reported a fault."""
-        return false_alarms(_chosen(self.runs, where))
+        return false_alarms(_choose_pairs(self.runs, where))
 
     def false_analyses(self, where: Where = everywhere) -> Rate:
         """Count analyses of healthy runs that reported a fault."""
-        healthy = [run for cell, run in _chosen(self.runs, where) if cell.fault == HEALTHY]
+        healthy = [run for cell, run in _choose_pairs(self.runs, where) if cell.fault == HEALTHY]
         return Rate.of(sum(run.alarms for run in healthy), sum(run.analyses for run in healthy))
 
     @property
@@ -121,7 +121,7 @@ class TrialResult:
 
     def detection(self, where: Where = everywhere) -> Rate:
         """Count faulty runs whose verdict names the faulty part."""
-        return detection(_chosen(self.runs, where))
+        return detection(_choose_pairs(self.runs, where))
 
     def sizes(self) -> list[SizeRow]:
         """Make a row for every part and size."""
@@ -183,7 +183,7 @@ def own_score(cell: Cell, run: TrialRun) -> float:
     return run.scores[PARTS.index(cell.fault)] if cell.fault in PARTS else nan
 
 
-def _chosen(pairs: Pairs, where: Callable[[Cell], bool]) -> list[tuple[Cell, TrialRun]]:
+def _choose_pairs(pairs: Pairs, where: Callable[[Cell], bool]) -> list[tuple[Cell, TrialRun]]:
     return [(cell, run) for cell, run in pairs if run.complete and where(cell)]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import beardyn_core as bd
 from beardyn_core.api.calibrating import calibrate
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.plain_json import plain
 from beardyn_core.calibration.unknowns import UNKNOWNS
 from beardyn_core.cli.calibrate import json_object
@@ -43,7 +43,7 @@ BOXES = (
 
 def play(box: Hidden, path: Path) -> None:
     """Simulate an axlebox in the tier `full`, and record it."""
-    base: dict[str, Any] = written(bd.scene(BASE))
+    base: dict[str, Any] = write_noun(bd.scene(BASE))
     structure: dict[str, Any] = {"kind": "modes", "table": "high_speed"}
     structure |= {"stiffness_factor": box.frequency**2, "damping_factor": box.damping}
     sensor = {**base["sensors"][0], "noise_density_m_per_s2_per_sqrt_Hz": box.noise}

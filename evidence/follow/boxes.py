@@ -16,7 +16,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.config.folders import config_folder
 from beardyn_core.follow.estimate_json import Estimates
 from beardyn_core.follow.estimator import read_estimator
-from beardyn_core.follow.labelled import Described, described
+from beardyn_core.follow.labelled import Described, describe_runs
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.pages import DOCS, with_section
 
@@ -81,7 +81,7 @@ def _numbers(
 def section(folder: Path) -> str:
     """Judge a set and write the section."""
     runs = LabelledSet(folder)
-    known, estimator = described(runs, None), read_estimator(SHIPPED)
+    known, estimator = describe_runs(runs, None), read_estimator(SHIPPED)
     found = [estimator.estimates(row[None]) for row in known.descriptors]
     labels = runs.labels_of(runs.runs_of(None), [STIFFNESS, PLACE])
     stiff = np.asarray(labels[STIFFNESS], np.float64) != 1.0

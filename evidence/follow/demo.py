@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 import beardyn_core as bd
 from beardyn_core.api.following import Following
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.outputs import file_problems
 from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
@@ -35,7 +35,7 @@ TRUTH = {
 
 def played() -> bd.Run:
     """Simulate the train, whose numbers the follower is not told."""
-    operation: dict[str, Any] = written(bd.scene(TRAIN))["operation"]
+    operation: dict[str, Any] = write_noun(bd.scene(TRAIN))["operation"]
     operation["lateral_force_kN"] = LATERAL_LOAD_KN
     spall = {"on": "cup", "row": 0, "width_mm": WIDTH_MM, "length_mm": LENGTH_MM, "depth_um": DEPTH_UM}
     return bd.simulate(

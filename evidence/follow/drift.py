@@ -18,7 +18,7 @@ import numpy as np
 
 import beardyn_core as bd
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.config import load_bearing
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.experiments.code_digest import simulator_digest
@@ -102,7 +102,7 @@ DRIFTS = {
 
 def heard_of(piece: Piece, estimator: Estimator) -> Float:
     """Simulate a piece and describe its stretches, shape [stretch, descriptor]."""
-    operation: dict[str, Any] = written(bd.scene(SCENE))["operation"]
+    operation: dict[str, Any] = write_noun(bd.scene(SCENE))["operation"]
     operation["lateral_force_kN"] = piece.keys.get("lateral_kN", 0.0)
     changes: dict[str, Any] = {"seed": piece.keys["seed"], "operation": operation}
     if "width_mm" in piece.keys:

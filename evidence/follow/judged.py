@@ -26,11 +26,11 @@ from beardyn_core.follow.labelled import (
     Described,
     check_alike,
     check_unseen,
-    described,
+    describe_runs,
     plate_of,
     sampling_of,
 )
-from beardyn_core.follow.learning import trained
+from beardyn_core.follow.learning import train_estimator
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.population.labelled_set import TRAIN, VALIDATION, LabelledSet
 from evidence.pages import DOCS, write_section
@@ -150,9 +150,13 @@ def judged(
     """Learn from one set, whose validation part widens intervals, and guess the runs of another crosswise."""
     check_alike(train, hidden)
     check_unseen([train], hidden)
-    seen, own, unseen = described(train, TRAIN), described(train, VALIDATION), described(hidden, None)
+    seen, own, unseen = (
+        describe_runs(train, TRAIN),
+        describe_runs(train, VALIDATION),
+        describe_runs(hidden, None),
+    )
     sampling = sampling_of(train)
-    estimator = trained(seen, plate_of(train), AXES, sampling.rate, sampling.seconds)
+    estimator = train_estimator(seen, plate_of(train), AXES, sampling.rate, sampling.seconds)
     return judged_crosswise(estimator, unseen, parts, own).guessed, unseen
 
 

@@ -29,8 +29,8 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.follow.conformal import LEVELS, Guess
 from beardyn_core.follow.judging import Guessed, crosswise_parts, score_of
-from beardyn_core.follow.labelled import Described, described, joined, taken
-from beardyn_core.follow.learning import known
+from beardyn_core.follow.labelled import Described, describe_runs, join_sets, select_runs
+from beardyn_core.follow.learning import true_values
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.follow.judged import SHOWN, judged
@@ -70,13 +70,13 @@ def draws(descriptors: Float, values: Float, asked: Float, flow: str) -> Float:
 
 def guessed_by_flow(quantity: Quantity, train: Described, hidden: Described, flow: str) -> Guessed:
     """Guess every hidden run by what both sets without its bearing teach."""
-    values, inside = known(quantity, hidden)
+    values, inside = true_values(quantity, hidden)
     pieces: list[tuple[NDArray[np.int64], Float]] = []
     for part in crosswise_parts(hidden.bearings, PARTS):
-        both = joined([train, taken(hidden, ~part)])
+        both = join_sets([train, select_runs(hidden, ~part)])
         middle, spread = np.nanmean(both.descriptors, axis=0), np.nanstd(both.descriptors, axis=0)
         spread = np.where(spread > 1e-9, spread, 1.0)
-        taught, has = known(quantity, both)
+        taught, has = true_values(quantity, both)
         standard = np.nan_to_num((both.descriptors[has] - middle) / spread)
         columns = heard_best(standard, taught[has])
         asked = np.flatnonzero(part & inside)
@@ -151,7 +151,7 @@ def main(argv: list[str] | None = None) -> int:
     if find_spec("sbi") is None:
         parser.error("sbi is not installed: pip install sbi")
     ours, hidden = judged(LabelledSet(args.train), LabelledSet(args.hidden), PARTS)
-    train = described(LabelledSet(args.train), None)
+    train = describe_runs(LabelledSet(args.train), None)
     began = time.perf_counter()
     flows = {
         flow: {name: guessed_by_flow(BY_NAME[name], train, hidden, flow) for name in SHOWN} for flow in FLOWS

@@ -12,7 +12,7 @@ import numpy as np
 
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
-from beardyn_core.choice.load import closed
+from beardyn_core.choice.load import complete_scene
 from beardyn_core.config.load import read_scene
 from beardyn_core.physics.tiers.status import Status, describe
 from beardyn_core.rail.build import load_history
@@ -64,7 +64,9 @@ def scene_of(effects: str, load_kn: float, speed_rpm: float) -> Scene:
     operation = ConstantOperation(force=force, speed=speed_rpm * math.pi / 30.0)
     if effects == AUTO:
         found = read_scene("static_5kN", {("effects",): AUTO})
-        return closed(replace(found, scene=replace(found.scene, operation=operation, duration=DURATION)))
+        return complete_scene(
+            replace(found, scene=replace(found.scene, operation=operation, duration=DURATION))
+        )
     if effects == FAST:
         turning = max(LISTENED, FAST_TURNS * 60.0 / speed_rpm)
         scene = load_scene("static_5kN", effects="full", tier=FAST)

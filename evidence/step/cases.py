@@ -12,7 +12,7 @@ from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND, choose_steps
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study.ladder import varied
+from beardyn_core.study.ladder import vary_start
 from evidence.standard import standard_scene
 
 EFFECTS = "standard"
@@ -90,7 +90,7 @@ def scene_of(point: Point, method: Method, number: int = 0, effects: str = EFFEC
             scene.numerics, laminae=LAMINAE, integrator=method.integrator, steps_per_sample=method.steps
         ),
     )
-    return varied(scene, number)
+    return vary_start(scene, number)
 
 
 @cache

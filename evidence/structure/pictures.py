@@ -14,7 +14,7 @@ from matplotlib.ticker import ScalarFormatter
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.record.rerun_modes import exaggerated, title
+from beardyn_core.record.rerun_modes import exaggerate_shape, title
 from beardyn_core.structure.build import Built
 from beardyn_core.study.measures import BAND_CENTRES
 from evidence.pages import PICTURES, save_small
@@ -31,7 +31,7 @@ def draw_modes(built: Built) -> None:
     triangles = built.body.surface.triangles
     figure, every = plt.subplots(2, 4, figsize=(11.0, 5.6), subplot_kw={"projection": "3d"})
     for mode, axes in enumerate(every.flat[:SHOWN]):
-        shape = exaggerated(built, mode)
+        shape = exaggerate_shape(built, mode)
         moved = (built.body.surface.places + shape)[triangles]
         far = np.linalg.norm(shape, axis=1)[triangles].mean(axis=1)
         normal = np.cross(moved[:, 1] - moved[:, 0], moved[:, 2] - moved[:, 0])

@@ -15,7 +15,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing, load_box
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import Built, load_zone, modes_of
-from beardyn_core.structure.elastic import factored, stacked
+from beardyn_core.structure.elastic import factor_matrix, stack_functionals
 from beardyn_core.structure.modes import Modes
 
 BOX = "high_speed"
@@ -67,14 +67,14 @@ def unit(modes: Modes, name: str, axis: int) -> Float:
 def answers(built: Built) -> Answer:
     """Shake a box by its raceways, with finite elements and with modes; structural damping in both."""
     body, modes = built.body, built.modes
-    read = stacked(body, tuple(modes.seats))
+    read = stack_functionals(body, tuple(modes.seats))
     zone, vertical = load_zone(len(read)), unit(modes, "axlebox_top", 2)
     load = read.T @ zone
     balanced = load - body.mass @ body.rigid @ np.linalg.solve(body.rigid_mass, body.rigid.T @ load)
     exact = []
     for line in LINES:
         square = (2.0 * np.pi * line) ** 2
-        moved = factored((1.0 + 1j * _LOSS) * body.stiffness - square * body.mass).solve(
+        moved = factor_matrix((1.0 + 1j * _LOSS) * body.stiffness - square * body.mass).solve(
             balanced.astype(complex)
         )
         exact.append(complex(vertical @ (read @ moved)))
@@ -99,7 +99,7 @@ def on_springs(built: Built, stiffness: float, count: int = 8) -> tuple[Float, F
         Frequencies by finite elements and by the modes, rigid motion among them, [Hz].
     """
     body, modes = built.body, built.modes
-    read = stacked(body, tuple(modes.seats))
+    read = stack_functionals(body, tuple(modes.seats))
     zone = load_zone(len(read))
     held = csc_matrix((read.T @ zone)[:, None])
     exact = eigsh(

@@ -17,7 +17,7 @@ from typing import Annotated as A
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial, trial_scene, with_choices
 from beardyn_core.monitor.chain import FAULTS, MonitorSettings
-from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import HEALTHY, Cell
@@ -48,7 +48,7 @@ def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
     judged = []
     for method, algorithm in METHODS.items():
         monitor = Monitor(orders, count, settings=MonitorSettings(interval=interval), algorithm=algorithm)
-        found = [*listen(monitor, signals), monitor.result()]
+        found = [*run_monitor(monitor, signals), monitor.result()]
         said = [result.verdict for result in found if result.verdict != WAITING]
         verdict = conclude([Finding.of(result) for result in found]).verdict
         alarms = sum(each in FAULTS for each in said)

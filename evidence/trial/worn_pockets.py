@@ -29,7 +29,7 @@ from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene, with_choices
 from beardyn_core.monitor.chain import FaultLines, MonitorSettings, Stretch
 from beardyn_core.monitor.chain.competing_orders import Rival
-from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, threshold
+from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, score_threshold
 from beardyn_core.monitor.chain.fault_lines import Candidate, Pattern
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.tracking import logarithm_by_angle
@@ -116,7 +116,7 @@ def cage_lines(stretch: Stretch, ftf: float, settings: MonitorSettings) -> Fault
         pattern=Pattern("cage", "FTF", ftf, 1.0, "shaft", 0, 0),
         order=float(trial[best]),
         score=10.0 * math.log10(max(1.0, summed[best] / (HARMONICS - 1))),
-        threshold=threshold(HARMONICS, round(places, 1), settings.false_alarm_rate / 3.0),
+        threshold=score_threshold(HARMONICS, round(places, 1), settings.false_alarm_rate / 3.0),
         evidence=evidence(float(summed[best]), HARMONICS, places),
         rival=Rival(),
         lines=(),

@@ -17,7 +17,7 @@ from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.topics import NAMESPACE
-from beardyn_core.scene.band_limited import interpolated
+from beardyn_core.scene.band_limited import interpolate_columns
 from beardyn_core.scene.chord_polynomials import PASSED
 from beardyn_core.scene.load import LOOK_AHEAD, LoadHistory
 from beardyn_core.scene.mounting import Mounting
@@ -187,7 +187,7 @@ def test_a_scenario_has_no_images() -> None:
 @pytest.mark.parametrize("rate", [1000.0, 2000.0, 5000.0])
 def test_a_csv_file_has_no_images(tmp_path: Path, rate: float) -> None:
     load, time = ride(), np.arange(int(rate) + 1) / rate
-    force = interpolated(load.time_ns, load.columns(), 0, time * 1e9)[:, 2]
+    force = interpolate_columns(load.time_ns, load.columns(), 0, time * 1e9)[:, 2]
     rows = [f"{t:.6f},700,0,0,{f:.9g}" for t, f in zip(time, force, strict=True)]
     path = tmp_path / "measured.csv"
     path.write_text("\n".join(["time_s,speed_rpm,fx_N,fy_N,fz_N", *rows]) + "\n")
@@ -202,7 +202,7 @@ def test_a_recording_has_no_images(tmp_path: Path, rate: float) -> None:
     A wheelset that bends shakes above 500 Hz, which no samples at 1 kHz can hold.
     """
     load, time = ride("rigid"), np.arange(int(rate) + 1) / rate
-    columns = interpolated(load.time_ns, load.columns(), 0, time * 1e9)
+    columns = interpolate_columns(load.time_ns, load.columns(), 0, time * 1e9)
     time_ns = np.round(time * 1e9).astype(np.int64)
     sent = LoadHistory(time_ns, columns[:, :6].copy(), columns[:, 6].copy(), columns[:, 7:].copy())
     stream = tmp_path / "stream.mcap"

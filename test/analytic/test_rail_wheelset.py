@@ -196,7 +196,7 @@ def test_few_modes_and_what_yields_are_the_dense_beam(monkeypatch):
     assert error() < 0.005
     monkeypatch.setattr(subject, "_HIGHEST", 600.0)
     assert error() < 0.02
-    monkeypatch.setattr(subject.Modes, "condensed", lambda modes, highest, forces: modes.below(highest))
+    monkeypatch.setattr(subject.Modes, "condense", lambda modes, highest, forces: modes.below(highest))
     assert error() > 0.2
 
 

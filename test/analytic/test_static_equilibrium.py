@@ -356,6 +356,6 @@ def test_a_choice_solves_each_equilibrium_once(monkeypatch):
         return solve(*arguments, **conditions)
 
     monkeypatch.setattr(equilibria, "solve", counted)
-    equilibria._solved.cache_clear()
+    equilibria._solve_equilibrium.cache_clear()
     choose(load_scene("smooth_run"))
     assert len(solved) == len(set(solved)) > 5

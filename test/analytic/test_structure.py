@@ -12,7 +12,7 @@ from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.config import load_bearing
 from beardyn_core.structure.box import Block, Box, Disc, Seat
 from beardyn_core.structure.build import Built, load_zone, modes_of
-from beardyn_core.structure.elastic import Elastic, elastic_body, stacked
+from beardyn_core.structure.elastic import Elastic, elastic_body, stack_functionals
 from beardyn_core.structure.mesh import mesh_of
 from test.finite_elements import need_finite_elements
 
@@ -136,7 +136,7 @@ def test_static_bending_is_that_of_the_finite_elements(built: Built) -> None:
     natural = 2.0 * np.pi * built.modes.frequency[: built.modes.free_count]
     assert (strength / natural) @ (strength / natural) < 0.98 * built.yielding[0]
     # from the load zone to the seats, and between the seats
-    read = stacked(built.body, ("top", "spring"))
+    read = stack_functionals(built.body, ("top", "spring"))
     loads = np.stack([read.T @ zone, *read[-6:]], axis=1)
     exact = read[-6:] @ built.body.bent(loads)
     unit = np.concatenate([zone[None], np.eye(len(zone))[-6:]])
@@ -149,7 +149,7 @@ def test_the_answer_at_a_frequency_is_that_of_the_finite_elements(built: Built) 
     """From the load zone to the sensor, off resonance, within 1 dB (the elastic part alone)."""
     from scipy.sparse.linalg import splu
 
-    read = stacked(built.body, ("top", "spring"))
+    read = stack_functionals(built.body, ("top", "spring"))
     zone = load_zone(len(read))
     vertical = np.zeros(len(read))
     vertical[-4] = 1.0

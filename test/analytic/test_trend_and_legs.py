@@ -7,7 +7,7 @@ import pytest
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
-from beardyn_core.measured.trending import remember, remembered
+from beardyn_core.measured.trending import read_memory, remember
 from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.monitor.trend import ALARM, LEARNING, STEADY, Trend, record_levels
@@ -65,14 +65,14 @@ def test_memory_goes_on_as_if_there_had_been_no_break(tmp_path):
     first = Trend(("z",))
     _states(first, levels[:230])
     remember(first, tmp_path / "memory.json")
-    second = remembered(tmp_path / "memory.json")
+    second = read_memory(tmp_path / "memory.json")
     assert second is not None
     rest = [second.take(each, 230.0 + k) for k, each in enumerate(levels[230:])]
     assert [point.state for point in rest] == [point.state for point in whole[230:]]
     assert rest[-1].since == whole[-1].since
     (tmp_path / "other.json").write_text("{}", encoding="utf-8")
     with pytest.raises(InputError, match=r"other\.json: is no memory of a trend"):
-        remembered(tmp_path / "other.json")
+        read_memory(tmp_path / "other.json")
 
 
 def test_levels_are_the_power_in_their_bands():

@@ -7,7 +7,7 @@ import pytest
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.calibration.fitting import FEWEST_RUNS, Fitted
-from beardyn_core.calibration.identify import PRIOR, common_slope, identified
+from beardyn_core.calibration.identify import PRIOR, common_slope, identify
 from beardyn_core.calibration.spectra import Heard, Hearing, levels_of, rides_of
 from beardyn_core.calibration.unknowns import BY_NAME
 from test.calibration.law import BASES, fitter, law
@@ -119,7 +119,7 @@ def test_intervals_widen_with_what_the_fit_leaves_and_with_scatter() -> None:
     model = np.full(50, 1e-3)
 
     def deviation(slope: Float, scatter: Float, excess: float, model: Float, twins: int = 4) -> Float:
-        return identified(slope, weight, scatter, excess, model, (1, 2, 50), twins).deviation
+        return identify(slope, weight, scatter, excess, model, (1, 2, 50), twins).deviation
 
     usual = deviation(slope, scatter, 1.0, model)
     assert (deviation(slope, 2.0 * scatter, 1.0, model) > 1.5 * usual).all()

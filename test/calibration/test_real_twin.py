@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import beardyn_core as bd
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 
 SCENE = "service_high_speed"
 FREQUENCY, NOISE = 1.07, 0.04
@@ -18,7 +18,7 @@ FREQUENCY, NOISE = 1.07, 0.04
 @pytest.mark.usefixtures("shipped_configuration")
 def test_a_box_that_rings_higher_and_a_louder_accelerometer_are_found(tmp_path: Path) -> None:
     """The recording is of another track and another bearing of the lot, in the tier of the twin."""
-    base = written(bd.scene(SCENE))
+    base = write_noun(bd.scene(SCENE))
     structure = {"kind": "modes", "table": "high_speed", "stiffness_factor": FREQUENCY**2}
     recording = tmp_path / "hidden.mcap"
     bd.simulate(

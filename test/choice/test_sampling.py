@@ -10,7 +10,7 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import explain_scene, load_scene, load_trial, scene_from_mapping, trial_scene
 from beardyn_core.choice.sampling import rate_for
@@ -109,7 +109,7 @@ def test_it_is_told_with_its_reason() -> None:
 
 
 def test_a_run_written_down_is_read_again_with_its_rate() -> None:
-    scene = scene_from_mapping(written(asked()), "again", find("scenes", "smooth_run").parent)
+    scene = scene_from_mapping(write_noun(asked()), "again", find("scenes", "smooth_run").parent)
     assert scene.sensors == asked().sensors
 
 

@@ -22,7 +22,7 @@ def hash_after(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Call
     monkeypatch.setattr(source_hash, "_CORE", core)
 
     def forget() -> None:
-        for remembered in (source_hash.source_hash, source_hash._text, source_hash._imported):
+        for remembered in (source_hash.source_hash, source_hash._text, source_hash._imported_files):
             remembered.cache_clear()
 
     def changed(edited: str = "", new: str = "# changed\n") -> str:

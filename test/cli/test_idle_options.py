@@ -103,7 +103,7 @@ def test_an_output_of_a_simulation_is_refused_before_effects_are_chosen(
 def test_a_sweep_tells_of_its_options_and_of_its_file_at_once_and_early(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("beardyn_core.population.request.asked", too_late)
+    monkeypatch.setattr("beardyn_core.population.request.make_plan", too_late)
     told = refused(capsys, "sweep", "fifty", "--runs", -3, "--workers", 0, "-o", tmp_path / "missing" / "set")
     for mistake in ("runs is -3", "--workers 0: allowed is 1 to", "does not exist; create it first"):
         assert mistake in told

@@ -359,7 +359,7 @@ def test_no_set_goes_into_a_folder_of_something_else(
     def too_late(*_: object, **__: object) -> None:
         raise AssertionError("the folder was looked at too late")
 
-    monkeypatch.setattr("beardyn_core.population.request.asked", too_late)
+    monkeypatch.setattr("beardyn_core.population.request.make_plan", too_late)
     (tmp_path / "notes.txt").write_text("mine")
     assert command.main(["sweep", "fifty", "-o", str(tmp_path), *force]) == command.BAD_INPUT
     said = capsys.readouterr().err

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.packed import packed, unpacked
+from beardyn_core.base.packed import pack_file, unpack_file
 from beardyn_core.config.content import self_contained
 from beardyn_core.config.load import read_scene, read_scene_text
 from beardyn_core.config.nouns import load_effects
@@ -94,7 +94,7 @@ def test_the_table_of_a_file_of_effects_lies_beside_that_file(tmp_path: Path) ->
     modes = modes_of_effects(load_effects(library / "effects.yaml"))
     assert modes is not None
     # content of the table before goes with it
-    recorded = {**MODES, "content": packed(table_path("metro").read_text(), library / "mine.CSV")}
+    recorded = {**MODES, "content": pack_file(table_path("metro").read_text(), library / "mine.CSV")}
     (library / "effects.yaml").write_text(yaml.safe_dump({"name": "mine", "structure": recorded}))
     changed = {"preset": "../library/effects.yaml", "structure": {"table": "high_speed"}}
     assert len(frequencies(read_scene(written(tmp_path / "scenes", effects=changed)).scene)) == len(
@@ -126,7 +126,7 @@ def test_the_content_of_another_file_is_refused(tmp_path: Path) -> None:
                 read_scene_text(text.replace(here, other))
             told = "\n".join(found.value.problems)
             assert f"{other}: content beside it is that of {here}; leave content out" in told
-    assert unpacked(packed("1", "/a/b.csv"), "C:\\a\\b.csv") == "1"
+    assert unpack_file(pack_file("1", "/a/b.csv"), "C:\\a\\b.csv") == "1"
 
 
 @pytest.mark.parametrize("word", ["AAAA", "no base64", "eJw="])

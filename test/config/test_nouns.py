@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as some
 
-from beardyn_core.base.edge import Place, outside, places, rules_of, written
+from beardyn_core.base.edge import Place, outside, places, rules_of, write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.thermal import Temperatures
@@ -175,23 +175,23 @@ def test_a_timetable_and_a_band_are_recorded_as_such() -> None:
     mapping = read_mapping(text, "curve")
     timetable = Timetable((Stop(900.0, 30.0, 20.0), Stop(400.0, 20.0, 15.0)), 0.7, 0.9, 2.0)
     del mapping["operation"]["speed_profile"]
-    mapping["operation"]["timetable"] = written(timetable)
+    mapping["operation"]["timetable"] = write_noun(timetable)
     band = Band(2, 30, 4e-7, 1.5)
-    mapping["waviness"] = [{"on": "cup", "row": 0, "band": written(band)}]
+    mapping["waviness"] = [{"on": "cup", "row": 0, "band": write_noun(band)}]
     scene = scene_from_text(json.dumps(mapping))
     assert isinstance(scene.operation, QuarterVehicleOperation)
     assert scene.operation.speed_profile == timetable.speed_profile()
     again = read_mapping(scene_text(scene), "again")
     assert again["operation"]["timetable"] == mapping["operation"]["timetable"]
-    assert again["waviness"][0]["band"] == written(band)
+    assert again["waviness"][0]["band"] == write_noun(band)
     assert scene_from_text(scene_text(scene)) == scene
     slower = replace(scene.operation, speed_profile=((0.0, 10.0),))
-    assert "timetable" not in written(replace(scene, operation=slower))["operation"]
+    assert "timetable" not in write_noun(replace(scene, operation=slower))["operation"]
 
 
 def test_orders_may_have_an_amplitude_each() -> None:
     wave = Waviness("cup", 0, (5, 9), (0.1 / 1e6, 0.3 / 1e6))
-    assert written(wave)["amplitude_um"] == [0.1, 0.3]
+    assert write_noun(wave)["amplitude_um"] == [0.1, 0.3]
     scene = replace(load_scene("static_80kN"), waviness=(wave,))
     assert scene_from_text(scene_text(scene)) == scene
 

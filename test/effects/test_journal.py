@@ -112,7 +112,7 @@ def test_force_and_moment_at_the_journal_bend_an_even_axle_as_in_the_textbook() 
     even = Wheelset(diameter, diameter, diameter, diameter)
     half = shaft(even, 1.0e6, 0.46, arm)
     modes = bending(half, 1.0e6, symmetric=True)
-    few = modes.condensed(1500.0, ("wheel", "journal", "journal_slope"))
+    few = modes.condense(1500.0, ("wheel", "journal", "journal_slope"))
     assert len(few) < 12
     rigidity = YOUNG * np.pi / 64.0 * diameter**4
     area, share = 0.25 * np.pi * diameter**2, 6.0 * 1.3 / (7.0 + 6.0 * 0.3)

@@ -79,7 +79,7 @@ def test_the_simulator_has_one_digest_of_all_its_sources(
     (tmp_path / "room" / "force.py").write_text("A = 2\n")
     simulator_digest.cache_clear()
     other = simulator_digest()
-    monkeypatch.setattr(code_digest, "_versioned", lambda name: f"{name} 0")
+    monkeypatch.setattr(code_digest, "_package_version", lambda name: f"{name} 0")
     simulator_digest.cache_clear()
     third = simulator_digest()
     simulator_digest.cache_clear()

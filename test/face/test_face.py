@@ -12,7 +12,7 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core import run as run_module
-from beardyn_core.base.edge import written
+from beardyn_core.base.edge import write_noun
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
@@ -215,7 +215,7 @@ def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
 @pytest.mark.parametrize("name", shipped_names("bearings"))
 def test_a_bearing_goes_to_its_keys_and_back(name: str) -> None:
     bearing = bd.bearing(name)
-    assert bearing_from_mapping(written(bearing), "keys") == bearing
+    assert bearing_from_mapping(write_noun(bearing), "keys") == bearing
 
 
 def test_contradictions_of_a_scene_in_code_are_sentences() -> None:

@@ -13,7 +13,7 @@ import beardyn_core as bd
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.cli.main import main
 from beardyn_core.monitor.chain import MonitorSettings
-from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.run import blocks
@@ -51,8 +51,8 @@ def test_a_hot_box_is_called_beside_the_run_over_its_recording_and_in_a_trial(
 def test_run_and_blocks_feed_a_monitor_with_the_same_signals() -> None:
     scene, memory = replace(spalled(), duration=1.2), MemorySink()  # long enough for a verdict that is clear
     desk_run.run(scene, [memory])
-    live = list(listen(monitor_of(scene), map(MonitorInput.of_block, blocks(scene))))
-    later = list(listen(monitor_of(scene), memory.to_run().monitor_inputs()))
+    live = list(run_monitor(monitor_of(scene), map(MonitorInput.of_block, blocks(scene))))
+    later = list(run_monitor(monitor_of(scene), memory.to_run().monitor_inputs()))
     # the blocks of a run end where its filters let them, the parts of a recording every 512 samples: what is
     # hardly heard in one may be heard in the other, and then the verdicts are the same
     verdicts = [[each.verdict for each in heard] for heard in (live, later)]

@@ -13,7 +13,7 @@ from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described
-from beardyn_core.follow.learning import calibrated, trained
+from beardyn_core.follow.learning import calibrate_intervals, train_estimator
 from beardyn_core.follow.quantities import QUANTITIES
 
 PLATE = load_plate("HS130x230")
@@ -69,12 +69,12 @@ def heard(
 def train_once(runs: int = 240) -> Estimator:
     """Train on runs without a shift; nothing has set the intervals yet."""
     plate = PLATE if isinstance(PLATE, NamePlate) else NamePlate.of(PLATE)
-    return trained(drawn(runs, 1), plate, AXES, RATE, STRETCH)
+    return train_estimator(drawn(runs, 1), plate, AXES, RATE, STRETCH)
 
 
 def taught(calibration: Described, straightened: bool = False, runs: int = 240) -> Estimator:
     """Train on runs without a shift, and set the intervals by others."""
-    return calibrated(train_once(runs), calibration, straightened=straightened)
+    return calibrate_intervals(train_once(runs), calibration, straightened=straightened)
 
 
 @cache

@@ -11,7 +11,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.judging import judged_by
-from beardyn_core.follow.learning import known, widened
+from beardyn_core.follow.learning import true_values, widen_intervals
 from beardyn_core.follow.quantities import BY_NAME
 from test.follow.synthetic import NAMES, drawn, standard_estimator, taught
 
@@ -132,19 +132,19 @@ def test_files_that_are_no_estimator_are_refused(
 def test_an_interval_is_the_widest_of_those_of_the_sets_that_calibrate_it() -> None:
     quiet, loud = drawn(200, 12), drawn(200, 13, noise=6.0)
     one = taught(quiet)
-    both = widened(one, loud)
+    both = widen_intervals(one, loud)
     for runs in (drawn(400, 14), drawn(400, 15, noise=6.0)):
-        shown = both.standardised(runs.descriptors)
+        shown = both.standardise(runs.descriptors)
         for name in ("width", "length"):
-            values, there = known(BY_NAME[name], runs)
+            values, there = true_values(BY_NAME[name], runs)
             guess = both.regressions[name].guess(shown[there])
             held = (guess.low[-1] <= values[there]) & (values[there] <= guess.high[-1])
             assert held.mean() > LEVELS[-1] - FOUR_SIGMA * np.sqrt(0.09 * (1 / there.sum() + 1 / 130))
-    for name, each in widened(one, quiet).regressions.items():
+    for name, each in widen_intervals(one, quiet).regressions.items():
         np.testing.assert_array_equal(each.reach, one.regressions[name].reach)  # none gets narrower
 
 
 def test_too_few_runs_that_judge_an_interval_give_no_number() -> None:
-    found = widened(taught(drawn(200, 12)), drawn(5, 16)).estimates(drawn(1, 9).descriptors)
+    found = widen_intervals(taught(drawn(200, 12)), drawn(5, 16)).estimates(drawn(1, 9).descriptors)
     assert np.isnan(found["vertical_load"].value)
     assert "not reported: too few runs" in found["vertical_load"].sentence

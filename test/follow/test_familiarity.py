@@ -52,7 +52,7 @@ def test_a_box_is_noticed_that_differs_where_the_runs_learnt_from_hardly_do() ->
     def runs(count: int) -> Float:
         return random.normal(size=(count, 120)) * sizes @ turn
 
-    found = familiarity_of(runs(320), np.arange(120)).bounded(runs(100))
+    found = familiarity_of(runs(320), np.arange(120)).set_bound(runs(100))
     assert np.mean(found.distance(runs(400)) > 1.0) < 0.05 + FOUR_SIGMA * np.sqrt(
         0.0475 * (1 / 400 + 1 / 100)
     )

@@ -10,7 +10,7 @@ import pytest
 from beardyn_core.base.arrays import Float
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.condition import ConditionBelief
-from beardyn_core.follow.cubature_filter import Belief, carried, corrected
+from beardyn_core.follow.cubature_filter import Belief, correct_belief, predict_belief
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import (
     SOUND,
@@ -62,12 +62,12 @@ def followed(
 def test_a_linear_law_is_carried_exactly_and_a_correction_is_that_of_gauss() -> None:
     belief = Belief(np.array([1.0, -2.0]), np.array([[2.0, 0.5], [0.5, 1.0]]))
     turn = np.array([[1.0, 0.3], [-0.2, 0.9]])
-    after = carried(belief, lambda points: points @ turn.T, np.array([0.1, 0.2]))
+    after = predict_belief(belief, lambda points: points @ turn.T, np.array([0.1, 0.2]))
     np.testing.assert_allclose(after.mean, turn @ belief.mean, rtol=1e-9)
     expected = turn @ belief.covariance @ turn.T + np.diag([0.1, 0.2])
     np.testing.assert_allclose(after.covariance, expected, rtol=1e-9)
     row = np.array([[1.0, 1.0]])
-    seen = corrected(belief, row, np.array([0.0]), np.array([0.5]))
+    seen = correct_belief(belief, row, np.array([0.0]), np.array([0.5]))
     information = np.linalg.inv(belief.covariance) + row.T @ row / 0.5
     np.testing.assert_allclose(seen.belief.covariance, np.linalg.inv(information), rtol=1e-9)
     mean = np.linalg.solve(information, np.linalg.inv(belief.covariance) @ belief.mean)
@@ -78,7 +78,7 @@ def test_an_area_grows_in_the_distance_that_its_growth_takes() -> None:
     law = GrowthLaw()
     begin, rate = np.array([50e-6, 200e-6, 400e-6]), np.array([1e-10, 3e-10, 2e-10])
     for distance in (1e5, 3e6, 2e7):
-        end = law.grown(begin, rate, distance)
+        end = law.grow_areas(begin, rate, distance)
         np.testing.assert_allclose(law.distance(begin, end, rate), distance, rtol=1e-9)
 
 
@@ -173,7 +173,7 @@ def test_width_and_rate_of_a_growing_spall_are_followed(estimator: Estimator, ra
     law, length, metres, count = GrowthLaw(), 40e-3, 5e4, 15
     area = np.full(count, 260e-6)
     for k in range(1, count):
-        area[k] = law.grown(area[k - 1 : k], np.array([rate]), metres)[0]
+        area[k] = law.grow_areas(area[k - 1 : k], np.array([rate]), metres)[0]
     ones = np.ones(count)
     ends = []
     for seed in (12, 13, 14):  # one of several draws can be off by chance

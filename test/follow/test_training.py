@@ -36,7 +36,7 @@ def bearings_made(seed: int, one: bool = False) -> pd.DataFrame:
 def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
     """A set whose runs are drawn when they are asked for."""
     seeds = {part: seed for seed, part in enumerate(PARTS, start=20)}
-    monkeypatch.setattr(training, "described", lambda _runs, part, _axes: drawn(PARTS[part], seeds[part]))
+    monkeypatch.setattr(training, "describe_runs", lambda _runs, part, _axes: drawn(PARTS[part], seeds[part]))
     for module in (training, labelled):
         monkeypatch.setattr(module, "plate_of", lambda each: each.plate)
     time = np.arange(round(STRETCH * RATE) + 1) / RATE

@@ -14,8 +14,16 @@ from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.event_order import CONTRASTS, WAY
 from beardyn_core.follow.labelled import Described
-from beardyn_core.follow.learning import calibrated, trained
-from beardyn_core.follow.wide_spall import NARROW, UNKNOWN, WIDE, WideRule, chance_of, folded, spacings_of
+from beardyn_core.follow.learning import calibrate_intervals, train_estimator
+from beardyn_core.follow.wide_spall import (
+    NARROW,
+    UNKNOWN,
+    WIDE,
+    WideRule,
+    chance_of,
+    fold_widths,
+    spacings_of,
+)
 from test.follow.synthetic import NAMES, PLATE, RATE, STRETCH, heard
 
 DRAWING = PLATE if isinstance(PLATE, NamePlate) else NamePlate.of(PLATE)
@@ -35,7 +43,7 @@ def spalled(count: int, seed: int, noise: float = 1.0) -> Described:
     width = np.exp(random.uniform(np.log(1.5e-3), np.log(LARGEST), count))
     runs = heard(random, np.full(count, 5e4), np.full(count, 1e-4), condition, width)
     spacing = np.where(condition == "cone", CONE, CUP)
-    way, wide = folded(width, spacing), np.mod(width, spacing) > 0.5 * spacing
+    way, wide = fold_widths(width, spacing), np.mod(width, spacing) > 0.5 * spacing
     for name in ("way_cup", "way_cone", "kurtosis"):
         place = NAMES.index(name)
         runs.descriptors[:, place] = 1e3 * way + 0.3 * noise * random.normal(size=count)
@@ -52,7 +60,9 @@ def spalled(count: int, seed: int, noise: float = 1.0) -> Described:
 
 @pytest.fixture(scope="module")
 def estimator() -> Estimator:
-    return calibrated(trained(spalled(240, 1), DRAWING, AXES, RATE, STRETCH), spalled(150, 2))
+    return calibrate_intervals(
+        train_estimator(spalled(240, 1), DRAWING, AXES, RATE, STRETCH), spalled(150, 2)
+    )
 
 
 def test_no_wide_spall_is_reported_as_a_narrow_one_and_most_narrow_ones_are_numbers(
@@ -90,7 +100,7 @@ def test_numbers_that_are_judged_are_those_that_are_reported(estimator: Estimato
                         if each.quantity.name == name).quantity  # fmt: skip
         told = [np.isfinite(estimator.estimates(row[None])[name].value) for row in runs.descriptors]
         np.testing.assert_array_equal(
-            estimator.reports(quantity, estimator.standardised(runs.descriptors)), told
+            estimator.reports(quantity, estimator.standardise(runs.descriptors)), told
         )
 
 
@@ -108,7 +118,7 @@ def test_hardly_a_wide_spall_is_taken_for_a_narrow_one(seed: int, apart: float) 
     random = np.random.default_rng(seed)
     widths = np.concatenate([random.uniform(2e-3, 11e-3, 100), random.uniform(24e-3, 34e-3, 100)])
     chances = 1.0 / (1.0 + np.exp(-random.normal(0.0, 0.3, 200) - apart * np.repeat([-1.0, 1.0], 100)))
-    found = rule().decided(chances, widths, np.full(200, CUP))
+    found = rule().set_chances(chances, widths, np.full(200, CUP))
     assert np.mean(chances[100:] <= found.narrow) <= 0.04
     assert np.mean(chances[:100] > found.wide) <= 0.04
     assert found.narrow <= NARROW < UNKNOWN < WIDE <= found.wide
@@ -117,7 +127,7 @@ def test_hardly_a_wide_spall_is_taken_for_a_narrow_one(seed: int, apart: float) 
 @given(width=st.floats(1.5e-3, 34e-3), cone=st.booleans())
 def test_widths_that_fold_alike_are_decided_by_the_order_or_not_at_all(width: float, cone: bool) -> None:
     spacing = CONE if cone else CUP
-    way = folded(np.array([width]), np.array([spacing]))
+    way = fold_widths(np.array([width]), np.array([spacing]))
     for odds in (-9.0, 9.0):
         shown = np.array([[odds, float(way[0]), float(cone)]])
         chance = float(rule().chance(shown, way, 0.95 * way, 1.05 * way)[0])

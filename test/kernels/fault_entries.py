@@ -11,7 +11,7 @@ from beardyn_core.physics.defect import (
     find_damage,
     pocket_length,
     pocket_wear,
-    soften,
+    soften_by_edges,
     spring_damage,
     spring_slopes,
 )
@@ -22,7 +22,7 @@ from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
 from beardyn_core.physics.tiers.massless_roller import over_patches
 from beardyn_core.physics.tiers.planar_roller import cone_waves
-from beardyn_core.physics.tiers.rolling_waves import fetch_waves, wave_places, waved
+from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.waviness import wave_gap
 from test.kernels.entries import pocket_of
 
@@ -42,7 +42,7 @@ def patch_springs(
         for k in range(count):
             share, gap = spring_damage(lanes, count + k, damage)
             ring_slope, roller_slope = spring_slopes(lanes, count + k, depth, damage)
-            firmness = soften(lanes, lanes.constant(1.0), count + k, damage)
+            firmness = soften_by_edges(lanes, lanes.constant(1.0), count + k, damage)
             lanes.store(out, case, 5 * k, share * near)
             lanes.store(out, case, 5 * k + 1, gap * near)
             lanes.store(out, case, 5 * k + 2, ring_slope * near)
@@ -75,7 +75,7 @@ def rolling_gaps(lanes: Any, turns: Any, out: Any, block: Any, waves: Any) -> No
     for case in range(turns.shape[0]):
         places = wave_places((turns[case, 0], turns[case, 1], turns[case, 2]), waves)
         fetch_waves(lanes, block + 1, places, waves)
-        lanes.store(out, case, 0, waved(lanes, block, lanes.constant(0.0), places, waves))
+        lanes.store(out, case, 0, subtract_waviness(lanes, block, lanes.constant(0.0), places, waves))
 
 
 @entry

@@ -21,7 +21,7 @@ from beardyn_core.laboratory.search import (
     residual,
     search,
 )
-from beardyn_core.laboratory.shapes import Cone, Straight, placed
+from beardyn_core.laboratory.shapes import Cone, Straight, place_along
 from test.laboratory.bearings import bearing
 
 NANOMETRE = 1e-9
@@ -97,8 +97,8 @@ def test_closed_form_of_crossed_cylinders_is_the_least_of_many_points() -> None:
 
 
 def test_parallel_lines_have_no_single_pair_and_the_search_says_so() -> None:
-    line = Straight(placed((0, 0, 0), (0, 0, 1)))
-    other = Straight(placed((0.1, 0, 0.3), (0, 0, 1)))
+    line = Straight(place_along((0, 0, 0), (0, 0, 1)))
+    other = Straight(place_along((0.1, 0, 0.3), (0, 0, 1)))
     pair = Pair(line, other, LINES)
     assert not search(pair, [0.0, 0.0]).converged
     assert batch([pair], [np.zeros(2)]).solve()[1][0] == -1

@@ -5,9 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from beardyn_core.laboratory.shapes import Arc, Circle, Cone, FaceCircle, Placement, Shape, Straight, placed
+from beardyn_core.laboratory.shapes import (
+    Arc,
+    Circle,
+    Cone,
+    FaceCircle,
+    Placement,
+    Shape,
+    Straight,
+    place_along,
+)
 
-PLACE = placed((0.01, -0.02, 0.03), (0.3, -0.5, 0.8), (1.0, 0.2, 0.1))
+PLACE = place_along((0.01, -0.02, 0.03), (0.3, -0.5, 0.8), (1.0, 0.2, 0.1))
 SHAPES: tuple[Shape, ...] = (
     Cone(PLACE, 0.02),
     Cone(PLACE, 0.02, math.radians(12.0), -1.0),
@@ -59,7 +68,7 @@ class TestFrame:
 
 
 def test_a_pole_along_the_wanted_east_gets_another_east() -> None:
-    place: Placement = placed((0, 0, 0), (1, 0, 0), (1, 0, 0))
+    place: Placement = place_along((0, 0, 0), (1, 0, 0), (1, 0, 0))
     axes = np.array([place.east, place.north, place.pole])
     np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-15)
     assert np.linalg.det(axes) == pytest.approx(1.0)

@@ -12,7 +12,7 @@ from hypothesis import strategies as some
 
 import beardyn_core as bd
 from beardyn_core.measured.options import DECIMALS, SEPARATORS, Reading
-from beardyn_core.measured.text_table import understood
+from beardyn_core.measured.text_table import detect_table
 from beardyn_core.measured.units import ACCELERATION, STANDARD_GRAVITY, split_unit, unit_in, usual
 from test.examples import examples
 from test.measured.files import G, noise
@@ -176,7 +176,7 @@ def test_text_without_numbers_is_a_sentence(content: str, tmp_path: Path) -> Non
     path = tmp_path / "a.csv"
     path.write_text(content)
     with pytest.raises(bd.InputError, match=r"a\.csv: has no lines of numbers in columns"):
-        understood(path, Reading())
+        detect_table(path, Reading())
 
 
 @pytest.mark.parametrize(

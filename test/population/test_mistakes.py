@@ -11,7 +11,7 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.config import read_sweep, scene_text
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.request import asked
+from beardyn_core.population.request import make_plan
 from beardyn_core.population.sweep_scenes import scenes_of
 from test.population.sweeps import TINY, planned, tiny
 
@@ -142,8 +142,8 @@ def test_a_base_scene_may_come_from_anywhere(tmp_path: Path) -> None:
 
 def test_a_learner_is_warned_of_draws_that_go_together() -> None:
     said: list[str] = []
-    asked({**TINY, "sampling": "sobol"}, said.append)
+    make_plan({**TINY, "sampling": "sobol"}, said.append)
     assert any("take random for a set to learn from" in each for each in said)
     said.clear()
-    asked({**TINY, "sampling": "random"}, said.append)
+    make_plan({**TINY, "sampling": "random"}, said.append)
     assert not any("take random" in each for each in said)

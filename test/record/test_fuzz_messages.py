@@ -26,7 +26,7 @@ from beardyn_core.record.messages import (
     encode_string,
 )
 from beardyn_core.record.reading import run_of_messages
-from beardyn_core.record.run_summary import diagnosed
+from beardyn_core.record.run_summary import collect_diagnostic
 from beardyn_core.record.topics import topic
 from test.examples import examples
 from test.record.synthetic_run import SyntheticRun, description
@@ -76,7 +76,7 @@ def test_what_the_checker_takes_every_reader_can_read(name: str, data: st.DataOb
     )
     for array in (*ARRAYS, *MORE_ARRAYS):
         getattr(run, array)
-    assert isinstance(diagnosed(run, "real_time_factor"), list)
+    assert isinstance(collect_diagnostic(run, "real_time_factor"), list)
 
 
 @QUICKLY
@@ -96,7 +96,7 @@ def test_a_foreign_diagnostic_stops_no_reader(value: str) -> None:
     cdr = encode_diagnostics(0, value.replace("\0", ""), [status])
     assert decode_diagnostics(cdr)
     run = run_of_messages({**{key: [each] for key, each in MESSAGES.items()}, "/diagnostics": [cdr]}, RUN)
-    assert len(diagnosed(run, "real_time_factor")) <= 1
+    assert len(collect_diagnostic(run, "real_time_factor")) <= 1
 
 
 SCENE = """

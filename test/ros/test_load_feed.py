@@ -48,7 +48,7 @@ def test_handing_load_over_is_no_waiting(absent: bool, monkeypatch: pytest.Monke
     feed = LoadFeed(OPTIONS, threading.Condition(), wait, lambda _state, _sentence: None)
     gate = SimpleNamespace(take_through=lambda _ns: parts.pop(0), failure="", ended=False, waiting=1)
     monkeypatch.setattr(feed, "gate", gate)
-    monkeypatch.setattr(load_feed, "shifted", lambda part, _ns: part)
+    monkeypatch.setattr(load_feed, "shift_load", lambda part, _ns: part)
     waited = feed.cover(SlowlyFed())
     assert waited is not None
     if absent:

@@ -26,7 +26,7 @@ from beardyn_core.study.ladder import (
     climb,
     comparison_of,
     repeats_of,
-    varied,
+    vary_start,
 )
 from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expected_cost, level_of, levels_of
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
@@ -297,8 +297,8 @@ def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(comparison: Comparis
     assert len({scene.end_play for scene in reference}) == REFERENCE_RUNS
     assert all(scene.seed == comparison.scene.seed for scene in runs.scenes)
     assert max(abs(scene.end_play - comparison.scene.end_play) for scene in runs.scenes) < 1e-8
-    assert varied(comparison.scene, 0) is comparison.scene
-    other = varied(comparison.scene, 1)
+    assert vary_start(comparison.scene, 0) is comparison.scene
+    other = vary_start(comparison.scene, 1)
     assert other.effects.cage is not None
     assert comparison.scene.effects.cage is not None
     assert other.effects.cage.initial_speed_ratio == pytest.approx(1.0001)
@@ -315,7 +315,7 @@ def test_levels_run_as_often_as_is_asked_each_a_hair_apart(comparison: Compariso
 
 def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(comparison: Comparison) -> None:
     kinematic = replace(comparison.scene, effects=replace(comparison.scene.effects, cage=KinematicCage()))
-    other = varied(kinematic, 1)
+    other = vary_start(kinematic, 1)
     assert other.effects.cage == kinematic.effects.cage
     assert other.end_play != kinematic.end_play
 

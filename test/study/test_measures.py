@@ -22,10 +22,10 @@ from beardyn_core.study.measures import (
     Outcome,
     SignalCollector,
     Signals,
+    compute_measures,
     fault_line_of,
     line_level,
     load_distribution,
-    measured,
     outcome,
     third_octave_levels,
 )
@@ -236,7 +236,7 @@ def test_the_distribution_error_is_the_rms_over_the_load_zone() -> None:
     assert part(found["roller_load"], "rms over the load zone") == pytest.approx(250.0 / largest, rel=0.02)
 
 
-TEMPLATE = measured(steady(duration=0.3, tone=1.0), FaultLine("BPFO", 8.5))
+TEMPLATE = compute_measures(steady(duration=0.3, tone=1.0), FaultLine("BPFO", 8.5))
 
 
 def noisy(generator: np.random.Generator, shift: float = 0.0, windows: int = 5) -> Outcome:

@@ -13,7 +13,7 @@ from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.monitor.chain import MonitorResult
-from beardyn_core.monitor.streaming import Monitor, MonitorInput, listen
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIER_NAMES
@@ -165,7 +165,7 @@ def verdicts(tier: str, name: str, healthy: bool) -> list[MonitorResult]:
     scene = scene_of(name, tier)
     scene = replace(scene, defects=()) if healthy else scene
     monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
-    found = listen(monitor, map(MonitorInput.of_block, blocks_of(scene, 2.2)))
+    found = run_monitor(monitor, map(MonitorInput.of_block, blocks_of(scene, 2.2)))
     return [result for result in found if result.verdict != "waiting"]
 
 

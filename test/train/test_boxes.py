@@ -13,7 +13,7 @@ from beardyn_core.base.edge import NounError
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_mapping
 from beardyn_core.config import read_scene
-from beardyn_core.config.boxes import mirrored, mirrored_modes, scene_of_box
+from beardyn_core.config.boxes import mirror_box, mirrored_modes, scene_of_box
 from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.rail.train import MIRRORED
@@ -89,14 +89,14 @@ def test_a_mirror_of_a_mirror_is_the_box() -> None:
     assert np.array_equal(twice.raceway, modes.raceway)
     assert (twice.centre, twice.products, twice.places) == (modes.centre, modes.products, modes.places)
     scene = load_scene("cup_spall", effects="standard", tier="lumped")
-    assert mirrored(mirrored(scene)) == scene
-    assert mirrored(scene).defects[0].row == 1
+    assert mirror_box(mirror_box(scene)) == scene
+    assert mirror_box(scene).defects[0].row == 1
 
 
 def test_a_mirrored_box_that_is_stiffer_than_its_table_rings_as_the_left_one() -> None:
     structure = {"kind": "modes", "table": "high_speed", "stiffness_factor": 1.44, "damping_factor": 2.0}
     scene = load_scene("service_high_speed", effects={"preset": "standard", "structure": structure})
-    left, right = modes_of_effects(scene.effects), modes_of_effects(mirrored(scene).effects)
+    left, right = modes_of_effects(scene.effects), modes_of_effects(mirror_box(scene).effects)
     assert left is not None
     assert right is not None
     # a table has five digits
@@ -117,7 +117,7 @@ def test_a_right_axlebox_answers_a_mirrored_load_as_the_left_one_the_load(box: s
         mounting = replace(mounting, load_offset=(0.0, -0.1, 0.0))
         sensors = tuple(replace(each, position=(0.0, 0.06, 0.17)) for each in sensors)
     left = replace(left, scatter=None, background=None, sensors=sensors, mounting=mounting)
-    right = mirrored(left)
+    right = mirror_box(left)
     assert right.mounting.side == "right"
     if box == "modes":
         modes = modes_of_effects(right.effects)

@@ -29,7 +29,7 @@ class Rival:
     own: A[float, "of those alone which the candidate does not explain, [nat]"] = -inf
 
 
-def related(order: float, fundamental: float, most: int = 5) -> bool:
+def is_related(order: float, fundamental: float, most: int = 5) -> bool:
     """Tell whether a comb is that of a fundamental: of its multiples, or of every line between them."""
     ratio = order / fundamental
     whole = max(1.0, round(ratio)) if ratio > 1.0 else 1.0 / max(1.0, round(1.0 / ratio))
@@ -41,7 +41,9 @@ def reach(order: Float, resolution: float) -> Float:
     return np.minimum(resolution + 0.003 * order, 0.25)
 
 
-def explained(order: Float, fundamental: float, sideband: float, sidebands: int, resolution: float) -> Bool:
+def mark_explained(
+    order: Float, fundamental: float, sideband: float, sidebands: int, resolution: float
+) -> Bool:
     """Tell which orders are harmonics of a fundamental, or sidebands of these up to a number."""
     found = np.zeros(np.shape(order), dtype=bool)
     for k in range(-sidebands, sidebands + 1):

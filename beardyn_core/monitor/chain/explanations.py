@@ -53,7 +53,7 @@ def explanations(
     orders = [each.order for each in patterns]
     others = [
         (abs(pattern.order / order - 1.0), Explanation(pattern.fault, speed, name))
-        for name, shipped in _shipped()
+        for name, shipped in _shipped_patterns()
         if [each.order for each in shipped] != orders
         for pattern in shipped
     ]
@@ -65,7 +65,7 @@ def explanations(
 
 
 @cache
-def _shipped() -> tuple[tuple[str, tuple[Pattern, ...]], ...]:
+def _shipped_patterns() -> tuple[tuple[str, tuple[Pattern, ...]], ...]:
     from beardyn_core.config import load_plate, shipped_names
 
     names = (*shipped_names("plates"), *shipped_names("bearings"))

@@ -16,7 +16,7 @@ _LARGEST_SUM = 1e6  # as far as the saddle point is found
 
 
 @cache
-def threshold(lines: int, places: float, rate: float) -> float:
+def score_threshold(lines: int, places: float, rate: float) -> float:
     """Compute the score that noise exceeds somewhere at the false-alarm rate.
 
     Parameters

@@ -22,12 +22,12 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.competing_orders import (
     LOWEST_COMB,
     Rival,
-    explained,
+    mark_explained,
     reach,
     shaft_of,
     strongest_rival,
 )
-from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, threshold
+from beardyn_core.monitor.chain.false_alarm_rate import PLACES_PER_RESOLUTION, evidence, score_threshold
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.features import OrderSpectrum, line_at, order_spectrum
 
@@ -109,7 +109,7 @@ class Candidate:
     def explains(self, orders: Float, resolution: float) -> Bool:
         """Tell which orders are its harmonics, or sidebands of these that its fault may have."""
         own = self.pattern
-        return explained(orders, self.order / own.divided, own.sideband, own.explained, resolution)
+        return mark_explained(orders, self.order / own.divided, own.sideband, own.explained, resolution)
 
 
 @dataclass(frozen=True)
@@ -294,7 +294,9 @@ def _lay(
         rivals = [(order, pattern.other_sideband)]
         rivals += [(order + side * fitted.sideband, fitted.sideband) for side in (-1.0, 1.0)]
         otherwise = max(weigh(each * places[:, 0] + side * places[:, 1]) for each, side in rivals)
-    known = explained(spectrum.order, order / pattern.divided, fitted.sideband, pattern.explained, resolution)
+    known = mark_explained(
+        spectrum.order, order / pattern.divided, fitted.sideband, pattern.explained, resolution
+    )
     lines = []
     for h, k in places.tolist():
         where = h * order + k * fitted.sideband
@@ -305,7 +307,7 @@ def _lay(
         pattern=fitted,
         order=order,
         score=float(10.0 * np.log10(max(1.0, total / (count - 1)))),
-        threshold=threshold(count, round(independent, 1), rate),
+        threshold=score_threshold(count, round(independent, 1), rate),
         evidence=sure,
         alone=alone,
         odd=weigh(order * np.array(_ODD)),

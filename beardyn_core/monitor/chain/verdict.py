@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from math import isnan, log
 from typing import Annotated as A
 
-from beardyn_core.monitor.chain.competing_orders import related
+from beardyn_core.monitor.chain.competing_orders import is_related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
 from beardyn_core.monitor.chain.explanations import Explanation, explanations
 from beardyn_core.monitor.chain.fault_lines import COMB, FAULTS, ROLLER, Candidate, FaultLines
@@ -74,7 +74,7 @@ def _stranger(found: FaultLines, settings: MonitorSettings) -> Candidate | None:
         and each.score >= each.threshold
         and all(other.evidence <= each.evidence for other in found.neighbours)
         and not any(
-            own.evidence >= each.evidence and related(each.order, own.order) for own in found.candidates
+            own.evidence >= each.evidence and is_related(each.order, own.order) for own in found.candidates
         )
         and (comb is None or comb.evidence <= each.evidence or _same(comb, each))
         and each.otherwise <= _SURER * max(each.evidence, each.alone)
@@ -98,7 +98,7 @@ def _contradiction(
     of a rolling element only where its order leaves no doubt.
     """
     chance = max(-log(settings.false_alarm_rate), best.evidence)
-    if any(each.evidence > chance and not related(each.order, best.order) for each in found.neighbours):
+    if any(each.evidence > chance and not is_related(each.order, best.order) for each in found.neighbours):
         return NEIGHBOUR
     if best.rival.own > -log(settings.false_alarm_rate) and best.rival.evidence > best.evidence:
         return f"multiples of order {best.rival.order:.3f} are surer"
@@ -119,10 +119,10 @@ def _same(other: Candidate, best: Candidate) -> bool:
     A comb of a multiple of its order is, where lines between show that the order itself is there.
     """
     if other.pattern.fault != COMB:
-        return other.pattern.fault == best.pattern.fault and related(other.order, best.order)
+        return other.pattern.fault == best.pattern.fault and is_related(other.order, best.order)
     if other.order > _MULTIPLE * best.order and best.odd <= 0.0 and other.evidence > best.evidence:
         return False
-    return related(other.order, best.order) or related(other.order, best.order / best.pattern.divided)
+    return is_related(other.order, best.order) or is_related(other.order, best.order / best.pattern.divided)
 
 
 def _verdict_on(

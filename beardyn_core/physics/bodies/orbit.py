@@ -129,7 +129,7 @@ def entrainment_speed(line, centre, body, view):
 
 
 @inline
-def weight(cosine, sine, mass, gravity):
+def rotate_weight(cosine, sine, mass, gravity):
     """Turn the weight of a roller into its orbit frame, [N]."""
     if gravity is None:
         return 0.0 * cosine, 0.0 * cosine, 0.0 * cosine

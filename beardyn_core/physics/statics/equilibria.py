@@ -49,11 +49,11 @@ def equilibrium(
         As `solve`; errors are not remembered.
     """
     bumps = tuple(None if each is None else (each.shape, each.tobytes()) for each in (oversize, crown))
-    return _solved(bearing, force, moment, bumps, **conditions)
+    return _solve_equilibrium(bearing, force, moment, bumps, **conditions)
 
 
 @lru_cache(maxsize=_MOST)
-def _solved(
+def _solve_equilibrium(
     bearing: Bearing,
     force: tuple[float, float, float],
     moment: tuple[float, float, float],

@@ -163,7 +163,7 @@ def line_law(model: ContactModel, approach: Float) -> tuple[Float, Float, Float]
     return force, stiffness, energy[..., None]
 
 
-def stiffened(stiffness: Float, direction: Float) -> Float:
+def apply_stiffness(stiffness: Float, direction: Float) -> Float:
     """Multiply the stiffness of a `ContactSet` by changes of the approaches, [row, roller, lamina, n]."""
     if stiffness.ndim == direction.ndim:
         product: Float = stiffness @ direction
@@ -222,7 +222,7 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: b
     gap = cosine * distance - sine * (outwards * point[..., 1] - bearing.apex_place) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)
     force, stiffness, energy = line_law(model, -gap)
-    return _assembled(model, pose, -gap, force, stiffness, energy, centre, point, normal, by_cone)
+    return _assemble_contacts(model, pose, -gap, force, stiffness, energy, centre, point, normal, by_cone)
 
 
 def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bool = True) -> ContactSet:
@@ -258,7 +258,7 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bo
     normal[..., 1] = normal_axial * outwards
     point = sphere + bearing.sphere_radius * normal
     force, stiffness, energy = power_law(approach, model.rib_factor, POINT_EXPONENT)
-    return _assembled(
+    return _assemble_contacts(
         model,
         pose,
         approach[..., None],
@@ -290,7 +290,7 @@ def _cone_normal(point: Float, outwards: Float, sine: float, cosine: float) -> F
     return normal
 
 
-def _assembled(
+def _assemble_contacts(
     model: ContactModel,
     pose: ConePose,
     approach: Float,

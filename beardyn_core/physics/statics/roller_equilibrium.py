@@ -23,11 +23,11 @@ from beardyn_core.physics.statics.roller_contacts import (
     ConePose,
     ContactModel,
     ContactSet,
+    apply_stiffness,
     cone_contacts,
     contact_model,
     cup_contacts,
     rib_contacts,
-    stiffened,
 )
 from beardyn_core.physics.tiers.tier_parameters import SpringParams, lever_of_cup
 
@@ -151,7 +151,7 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
     free |= model.missing  # what is not there touches nothing either
     if guess is not None:
         warm = solver.at(guess)
-        start = _chosen(warm.energy < start.energy, warm, start)
+        start = _choose_trials(warm.energy < start.energy, warm, start)
     trial = _newton(solver, start, free)
     position = np.where(free[..., None], touching, trial.position)
     return solver.state(position, free)
@@ -198,7 +198,7 @@ class _Rollers:
             energy += contact.energy.sum(axis=-1)
             load += contact.force.sum(axis=-1)
             force -= np.sum(contact.force[..., None] * direction, axis=-2)
-            stiffness += np.swapaxes(direction, -1, -2) @ stiffened(contact.stiffness, direction)
+            stiffness += np.swapaxes(direction, -1, -2) @ apply_stiffness(contact.stiffness, direction)
         if self.active == 2:
             force[..., 2] = 0.0
             stiffness[..., 2, :] = 0.0
@@ -218,7 +218,7 @@ class _Rollers:
         coupling = np.zeros((*position.shape, size))
         for contact in contacts:
             cone_force -= np.einsum("ijk,ijkm->m", contact.force, contact.by_cone)
-            weighted = stiffened(contact.stiffness, contact.by_cone)
+            weighted = apply_stiffness(contact.stiffness, contact.by_cone)
             stiffness += np.einsum("ijkm,ijkn->mn", contact.by_cone, weighted)
             coupling += np.swapaxes(contact.by_roller / self.scale, -1, -2) @ weighted
         if self.active == 2:
@@ -263,7 +263,7 @@ def _newton(solver: _Rollers, start: _Trial, free: NDArray[np.bool_]) -> _Trial:
         near = size <= 1.0e-7 * best.load + 1.0e-6
         stalled = np.where(accepted | ~near, 0, stalled + 1)
         damping = np.clip(np.where(accepted, 0.1 * damping, 20.0 * damping), 1.0e-14, 1.0e6)
-        best = _chosen(accepted, trial, best)
+        best = _choose_trials(accepted, trial, best)
     return best
 
 
@@ -274,7 +274,7 @@ def _regular(stiffness: Float, damping: Float | float) -> Float:
     return stiffness + added[..., None, None] * np.eye(stiffness.shape[-1])
 
 
-def _chosen(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
+def _choose_trials(mask: NDArray[np.bool_], one: _Trial, other: _Trial) -> _Trial:
     """Choose the rollers of `one` where `mask` holds and of `other` elsewhere."""
     return _Trial(
         position=np.where(mask[..., None], one.position, other.position),

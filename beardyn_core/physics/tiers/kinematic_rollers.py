@@ -55,7 +55,7 @@ def relative_cone(bodies):
 
 
 @inline
-def turned(direction, angle):
+def rotate(direction, angle):
     """Turn a direction (cosine, sine) by an angle of a few hundredths; the error is below 1e-15 there."""
     square = angle * angle
     cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))

@@ -11,7 +11,7 @@ from beardyn_core.physics.bodies.rigid_bodies import LOAD_BOGIE, LOAD_SPEED
 from beardyn_core.physics.journal import bend_axle
 from beardyn_core.physics.suspension import kick_box
 from beardyn_core.physics.tiers.kinematic_rings import add_response, journal_velocity
-from beardyn_core.physics.tiers.kinematic_rollers import turned
+from beardyn_core.physics.tiers.kinematic_rollers import rotate
 
 TRENDS_PER_BLOCK = 8  # instants at 400 Hz in 20 ms
 
@@ -52,7 +52,7 @@ def cage_direction(bodies):
 @inline
 def begin_step(bodies, direction, p):
     """Move all bodies, and the rollers with the cages; returns ``direction``, ``turns`` and ``speeds``."""
-    direction = turned(direction, p.step * bodies[layout.CAGE_BODY, layout.RATE])
+    direction = rotate(direction, p.step * bodies[layout.CAGE_BODY, layout.RATE])
     for body in range(layout.CAGE_BODY):
         for i in range(3):
             bodies[body, layout.POSITION + i] += p.step * bodies[body, layout.LINEAR + i]

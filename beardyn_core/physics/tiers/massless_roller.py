@@ -52,7 +52,7 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     show_roller,
     watch_loads,
 )
-from beardyn_core.physics.tiers.rolling_waves import fetch_waves, wave_places, waved
+from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
 
 # After the loads: angle of the cages [rad], speed of shaft and cages [rad/s]; then the largest loads [N].
 TREND_EXTRAS = 3
@@ -203,7 +203,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
         if any_positive(approach):
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
             rate = less_opening(lanes, block, SPEED, rate, p.bending, None)
-            closed = waved(lanes, block, approach, places, p.waves)
+            closed = subtract_waviness(lanes, block, approach, places, p.waves)
             pressed = faulted_load(lanes, block, closed, rate, angle, turns, p.faults, p)
             load = at_least(pressed + 0.5 * idle, idle)
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)

@@ -102,7 +102,7 @@ def cone_line(centre, axis, ring_axis, radius, raceway, roller):
 
 
 @inline
-def damped(springs, rate, damping):
+def add_damping(springs, rate, damping):
     """Add to the force sums what the damper adds at an affine approach rate."""
     if damping is None:
         return springs[0]
@@ -191,7 +191,7 @@ def solve_three(system):
 
 
 @inline
-def settled(force, stiffness, normal, by_tilt, factor, move, reach):
+def settle_forces(force, stiffness, normal, by_tilt, factor, move, reach):
     """Work out the force sums of a raceway with x^0 and x^1 after a move, pressing and within the roller."""
     deeper = normal[0] * move[0] + normal[1] * move[1] + by_tilt[0] * move[2]
     steeper = by_tilt[1] * move[2]
@@ -221,7 +221,7 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     cup_approach, cup_tilt, lever = cup_line(place, axis, radius, base.cup, roller)
     cup_wave = wave_gap(lanes, block, azimuths[0], faults.cup_waves)[0]
     cup_wave = cup_wave + wave_gap(lanes, block, -azimuths[2], faults.roller_waves)[0]
-    cup_approach = (_closed(cup_approach[0] - cup_wave, opening[0], p.bending), cup_approach[1])
+    cup_approach = (_close_gap(cup_approach[0] - cup_wave, opening[0], p.bending), cup_approach[1])
     crown = crown_bend(lanes, block, faults.crowns)
     azimuths_on_cup = (azimuths[0], -azimuths[2])
     cup = cup_springs(
@@ -244,7 +244,7 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     cup_normal = (base.cup.cosine, -base.cup.sine)
     flown = approach_rate(flight, cone_normal, cone_tilt)
     rate = cone_rate(line, centre, motion)
-    cone_force = damped(cone, (rate[0] + flown[0], rate[1] + flown[1]), effects.damping)
+    cone_force = add_damping(cone, (rate[0] + flown[0], rate[1] + flown[1]), effects.damping)
     rib_force, rib_stiffness, rib_way, rib_rate = rib_spring(centre, full_axis, views[1], motion, effects.rib)
     rib_rate = rib_rate + rib_way[0] * flight[0] + rib_way[1] * flight[1] + rib_way[2] * flight[2]
     rib_force = rib_force + damper_force(rib_stiffness, rib_rate, effects.damping)
@@ -255,7 +255,7 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
         (beside[0] + zero, beside[1] + zero, beside[2] + zero),
     )
     flown = approach_rate(flight, cup_normal, cup_tilt)
-    cup_force = damped(cup, (_closed(flown[0], opening[1], p.bending), flown[1]), effects.damping)
+    cup_force = add_damping(cup, (_close_gap(flown[0], opening[1], p.bending), flown[1]), effects.damping)
     system = add_raceway(system, cup_force, cup[1], cup_normal, cup_tilt, factor)
     system = add_raceway(system, cone_force, cone[1], cone_normal, cone_tilt, factor)
     rib_only = (rib_stiffness, zero, zero)
@@ -268,8 +268,8 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     shorter = _LONGEST_MOVE / at_least(longest, _LONGEST_MOVE)
     move = (shorter * step[0], shorter * step[1], shorter * step[2])
     reach = roller.half_length
-    cup_load = settled(cup_force, cup[1], cup_normal, cup_tilt, factor, move, reach)
-    cone_load = settled(cone_force, cone[1], cone_normal, cone_tilt, factor, move, reach)
+    cup_load = settle_forces(cup_force, cup[1], cup_normal, cup_tilt, factor, move, reach)
+    cone_load = settle_forces(cone_force, cone[1], cone_normal, cone_tilt, factor, move, reach)
     rib_deeper = rib_way[0] * move[0] + rib_way[1] * move[1] + rib_way[2] * move[2]
     rib_load = at_least(rib_force + factor * rib_stiffness * rib_deeper, 0.0)
     return move, cup_load, cone_load, rib_load, lever, cup_approach[0]
@@ -311,7 +311,7 @@ def free_flight(motion, cup, steady, p):
 
 
 @inline
-def less_turned(before, after):
+def damp_reversal(before, after):
     """Take half of a velocity that has turned round within a step; ``before``: that before the step.
 
     A roller that meets a contact in every other step alone, on a rib that it just leaves, would go to and fro
@@ -322,7 +322,7 @@ def less_turned(before, after):
 
 
 @inline
-def _closed(approach, closing, bending):
+def _close_gap(approach, closing, bending):
     if bending is None:
         return approach
     return approach + closing

@@ -65,8 +65,8 @@ from beardyn_core.physics.tiers.kinematic_step import (
 from beardyn_core.physics.tiers.planar_roller import (
     balance,
     cone_view,
+    damp_reversal,
     free_flight,
-    less_turned,
     turned_axis,
 )
 from beardyn_core.physics.tiers.pocket_play import (
@@ -176,9 +176,9 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             lanes, block, place, axis, flight, beside, view, azimuths, opening, p
         )
         moved = (
-            less_turned(before[0], flight[0] + move[0] * rate),
-            less_turned(before[1], flight[1] + move[1] * rate),
-            less_turned(before[2], flight[2] + move[2] * rate),
+            damp_reversal(before[0], flight[0] + move[0] * rate),
+            damp_reversal(before[1], flight[1] + move[1] * rate),
+            damp_reversal(before[2], flight[2] + move[2] * rate),
         )
         place = (place[0] + move[0], place[1] + move[1])
         axis = turned_axis(axis, move[2])

@@ -15,7 +15,7 @@ from beardyn_core.base.jit import inline
 from beardyn_core.physics import raceway
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import Here, account_gravity, load_vector, store_vector
-from beardyn_core.physics.bodies.orbit import Body, angular_velocity, drift, ring_view, weight
+from beardyn_core.physics.bodies.orbit import Body, angular_velocity, drift, ring_view, rotate_weight
 from beardyn_core.physics.bodies.stage_timer import mark
 from beardyn_core.physics.bodies.step_stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
 from beardyn_core.physics.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
@@ -99,7 +99,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
     matrix = stiffen_small_rib(matrix, small_rib, effects.small_rib, p)
 
     on_cup, on_cone = raceway.push_raceway(cup, effects.damping), raceway.push_raceway(cone, effects.damping)
-    gravity = weight(cosine, sine, roller.mass, effects.gravity)
+    gravity = rotate_weight(cosine, sine, roller.mass, effects.gravity)
     force, moment = add(add(on_cup.force, on_cone.force), gravity), add(on_cup.moment, on_cone.moment)
     total = Wrench(force, moment)
     total = push_rolling(push_rolling(total, cup_rolling, effects.rolling), cone_rolling, effects.rolling)

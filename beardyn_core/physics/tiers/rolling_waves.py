@@ -54,7 +54,7 @@ def _fetch(lanes, blocks, place, table):
 
 
 @inline
-def waved(lanes, block, approach, places, waves):
+def subtract_waviness(lanes, block, approach, places, waves):
     """Take the gaps of waviness off the approach of a block of rollers, [m]."""
     if waves is None:
         return approach

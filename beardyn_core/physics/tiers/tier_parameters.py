@@ -174,7 +174,7 @@ def without_surfaces(base: Parameters) -> Parameters:
     return base._replace(effects=base.effects._replace(faults=faults))
 
 
-def flattened(base: Parameters, scene: Scene) -> Parameters:
+def flatten_profiles(base: Parameters, scene: Scene) -> Parameters:
     """Take the errors of the rollers' profiles as their mean along the contact, for rollers without tilt."""
     faults = base.effects.faults
     if faults.crowns is None:

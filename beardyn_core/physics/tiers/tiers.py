@@ -50,7 +50,7 @@ class Tier:
 
 def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedParameters:
     """Build the kernel parameters of the lumped tier."""
-    base = tier_parameters.flattened(base, scene)
+    base = tier_parameters.flatten_profiles(base, scene)
     motion, spring = (
         tier_parameters.ring_motion_params(base),
         spring_params(scene.bearing, scene.numerics.laminae),
