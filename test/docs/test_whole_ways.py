@@ -7,10 +7,12 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
 
+from beardyn_core.api.simulating import simulate
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain import Band, MonitorSettings, Stretch, algorithm_named, answer_of
 
@@ -137,3 +139,30 @@ def test_a_step_of_ones_own_runs_by_name_without_an_edit(
     assert result.band == (3000.0, 5000.0)
     assert result.revolutions == pytest.approx(speed * seconds, rel=1e-3)
     assert Band(3000.0, 5000.0).low == result.band[0]
+
+
+def calls_of_a_run(folder: Path) -> list[tuple[str, str]]:
+    """Functions of the core in the order of their calls in a recorded run of 0.1 s, each with its file."""
+    core = ROOT / "beardyn_core"
+    found = []
+
+    def note(frame: FrameType, event: str, _argument: object) -> None:
+        if event == "call" and frame.f_code.co_filename.startswith(str(core)):
+            found.append((frame.f_code.co_qualname, frame.f_code.co_filename.removeprefix(f"{core}/")))
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        simulate("cup_spall", tier="lumped", duration=0.1, record=folder / "run.mcap")
+    finally:
+        sys.setprofile(before)
+    return found
+
+
+def test_a_load_sample_goes_the_way_that_the_page_tells(tmp_path: Path) -> None:
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").split("### The way of a load sample")[1]
+    way = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", text.split("\n## ")[0], re.MULTILINE)
+    assert len(way) > 10
+    calls = iter(calls_of_a_run(tmp_path))
+    for step in way:
+        assert step in calls, f"{step} is not called after those before it"
