@@ -143,9 +143,15 @@ def part_of(function: Callable[..., Any]) -> Any:
     return inline(FunctionType(function.__code__, names, function.__name__, function.__defaults__))
 
 
+@cache
 def plain(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a kernel function in plain Python, for a few numbers that need no compiler."""
-    return getattr(function, "py_func", function)
+    """Give a kernel function and those that it calls in plain Python: a few numbers need no compiler."""
+    python = getattr(function, "py_func", function)
+    names = dict(python.__globals__)
+    for name in python.__code__.co_names:
+        if isinstance(names.get(name), _Part):
+            names[name] = plain(names[name])
+    return FunctionType(python.__code__, names, python.__name__, python.__defaults__, python.__closure__)
 
 
 def entry(function: Callable[..., Any], *, flags: Iterable[str] = FASTMATH, allocates: bool = False) -> Any:

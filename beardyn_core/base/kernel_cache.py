@@ -16,13 +16,15 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import llvmlite
 import numba
+import numpy as np
 from numba.core import environment
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 from beardyn_core.base.cache_root import cache_root
-from beardyn_core.base.machine_code import code_digest, spelled_type
+from beardyn_core.base.machine_code import code_digest, how_parts_are_compiled, spelled_type
 
 _CHECK_BYTES = 32
 
@@ -78,7 +80,8 @@ class KernelCache:
     def _path(self, signature: Any, target_context: Any) -> Path:
         kinds = signature.args if hasattr(signature, "args") else signature
         parts = (
-            *(numba.__version__, sys.version, self._options, code_digest(self._function)),
+            *(numba.__version__, llvmlite.__version__, np.__version__, sys.version),
+            *(self._options, how_parts_are_compiled(), code_digest(self._function)),
             *(repr(target_context.codegen().magic_tuple()), *map(spelled_type, kinds)),
         )
         key = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]

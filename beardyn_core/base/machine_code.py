@@ -45,6 +45,12 @@ def code_digest(function: Callable[..., Any]) -> str:
     return _READER.function(function)
 
 
+@cache
+def how_parts_are_compiled() -> str:
+    """Hash the module that makes numba compile parts of kernels."""
+    return _READER.module(sys.modules["beardyn_core.base.jit"])
+
+
 def spelled_type(kind: Any) -> str:
     """Spell the type of an argument, with the fields of named tuples and the source of types of one's own."""
     if isinstance(kind, (types.NamedTuple, types.NamedUniTuple)):
@@ -110,7 +116,7 @@ class _Reader:
         if isinstance(value, (frozenset, set)):
             return f"{{{', '.join(sorted(map(self.value, value)))}}}"
         if isinstance(value, (tuple, list)):
-            name = type(value).__name__
+            name = f"{type(value).__name__}{getattr(value, '_fields', '')}"
             return f"{name}({', '.join(map(self.value, value))})"
         if isinstance(value, dict):
             return f"{{{', '.join(f'{self.value(k)}: {self.value(v)}' for k, v in value.items())}}}"
@@ -130,7 +136,7 @@ class _Reader:
         if isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields"):
             return f"{value.__name__}{value._fields} {self.value(vars(value)['_field_defaults'])}"
         if isinstance(value, type) and issubclass(value, Enum):
-            return ", ".join(map(self.value, value))
+            return self.value(dict(value.__members__))
         if isinstance(value, (FunctionType, type, ModuleType, BuiltinFunctionType)):
             return self.module(sys.modules[name])
         raise TypeError(f"{value!r} of {name} is read by a kernel: how it reaches machine code is not known")

@@ -81,9 +81,9 @@ def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, Gr
     from beardyn_core.follow.growth import GrowthLaw
 
     wrong = []
-    if args.mileage_km is not None and args.mileage_km < 0.0:
+    if args.mileage_km is not None and not args.mileage_km >= 0.0:
         wrong.append(f"--mileage-km: is {args.mileage_km:g}; it must be at least 0")
-    if args.growth_mm2 <= 0.0:
+    if not args.growth_mm2 > 0.0:
         wrong.append(f"--growth-mm2: is {args.growth_mm2:g}; it must be above 0")
     known = places(Service)[1:]
     given = {
@@ -92,9 +92,12 @@ def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, Gr
         if (value := getattr(args, place.key)) is not None
     }
     try:
-        service = Service(1e3 * mileage_km, **given)
+        service = Service(0.0 if wrong else 1e3 * mileage_km, **given)
     except InputError as error:
-        wrong += [in_options(each, [place.key for place in known]) for each in error.problems]
+        wrong += [
+            in_options(each, [place.key for place in known]).removeprefix("service: ")
+            for each in error.problems
+        ]
     if wrong:
         raise InputError(wrong)
     return service, GrowthLaw(rate=args.growth_mm2 * 1e-12)

@@ -143,7 +143,8 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
         problems.append(f"--jobs {args.jobs}: allowed is 1 to {_MOST_JOBS}")
     runs = None if args.output is None else args.output / RUNS_FILE
     goes_on = runs is not None and runs.is_file() and runs.stat().st_size > 0
-    problems += missing("distributed", "a trial", "sweep")
+    if args.jobs != 1:
+        problems += missing("distributed", "a trial on several cores (not --jobs 1)", "sweep")
     if args.output is not None:
         problems += missing("matplotlib", "--output", "plot")
     return problems + folder_problems(

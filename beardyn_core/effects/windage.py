@@ -8,6 +8,7 @@ from typing import Annotated as A
 from typing import ClassVar, NamedTuple
 
 from beardyn_core.base.edge import At
+from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects.about import About
 
@@ -20,6 +21,7 @@ ANNULUS = ((10.0, 1.0), (2.0, 0.6), (1.03, 0.5), (0.065, 0.2))
 DISC = ((3.87, 0.5), (0.146, 0.2))
 DISC_TRANSITION = 3.0e5  # Reynolds number
 _CAGE_THICKNESS = 0.2  # over the roller diameter, assumed
+_WIDEST_CAGE = 0.9  # over the roller diameter: what is wider leaves no gap to the rings
 _SLOWEST = 1.0e-9  # for the logarithm, [rad/s]
 
 
@@ -66,7 +68,7 @@ class Windage:
     thickness: A[
         float | None, At("mm", gt=0.0), "of the cage, along the radius; a fifth of a roller if not given"
     ] = None
-    factor: A[float, At(ge=0.0, le=100.0), "drag over that of a smooth ring: bars and pockets are rough"] = (
+    factor: A[float, At(gt=0.0, le=100.0), "drag over that of a smooth ring: bars and pockets are rough"] = (
         1.0
     )
 
@@ -75,8 +77,12 @@ class Windage:
         viscosity = air_viscosity(temperature)
         density = self.density or air_density(temperature)
         kinematic = viscosity / density
-        wanted = self.thickness or _CAGE_THICKNESS * bearing.roller_diameter
-        thickness = min(wanted, 0.9 * bearing.roller_diameter)
+        thickness = self.thickness or _CAGE_THICKNESS * bearing.roller_diameter
+        if thickness > _WIDEST_CAGE * bearing.roller_diameter:
+            raise InputError(
+                f"effects.windage: thickness_mm is {1e3 * thickness:g}; it must be at most "
+                f"{1e3 * _WIDEST_CAGE * bearing.roller_diameter:.3g}, {_WIDEST_CAGE:g} of a roller"
+            )
         pitch, length = 0.5 * bearing.pitch_diameter, bearing.roller_length * math.cos(bearing.contact_angle)
         gap = 0.5 * (bearing.roller_diameter - thickness)
         outer, inner = pitch + 0.5 * thickness, pitch - 0.5 * thickness

@@ -77,7 +77,7 @@ class Store(Generic[Kept]):
         """Read all results, those of other code and of other requests included."""
         found: list[Entry[Kept]] = []
         for row in self._rows():
-            with suppress(ValueError, TypeError, KeyError):
+            with suppress(ValueError, TypeError, KeyError, AttributeError):
                 rows = row[self._layout.group] if self._layout.group else [row]
                 found += [self._layout.of_json(each) for each in rows]
         return found
@@ -127,25 +127,36 @@ class Store(Generic[Kept]):
         """Drop outdated results of runs that have been done again, and put those of the plan in order."""
         if self.path is None or not plan.outdated:
             return
-        there = self.entries()
-        new = {each.key: each for each in there if plan.digests.get(each.key) == each.digest}
-        self._rewrite(
-            [*(new[key] for key in plan.items if key in new), *(e for e in there if e.key not in new)]
-        )
+        new = {e.key: e for e in self.entries() if plan.digests.get(e.key) == e.digest}
+        self._rewrite(set(new), [new[key] for key in plan.items if key in new])
 
     def forget(self, keys: Sequence[str]) -> None:
-        """Drop the results of some runs."""
-        there = self.entries()
-        if self.path is not None and any(each.key in keys for each in there):
-            self._rewrite([each for each in there if each.key not in keys])
+        """Drop the results of some runs.
 
-    def _rewrite(self, entries: Sequence[Entry[Any]]) -> None:
+        Raises
+        ------
+        InputError
+            Another process is writing the file.
+        """
+        if self.path is None or not self.path.is_file():
+            return
+        with self._sentences(), open_to_append(self.path):  # nobody else writes meanwhile
+            self._rewrite(set(keys), [])
+
+    def _rewrite(self, gone: set[str], first: Sequence[Entry[Any]]) -> None:
+        """Write the file anew without some runs; what cannot be read any more stays as it is."""
         assert self.path is not None
         assert not self._layout.group
         rows = [{_ABOUT: self._about}] if self._about is not None else []
-        rows += [self._layout.to_json(each) for each in entries]
+        rows += [self._layout.to_json(each) for each in first]
+        rows += [row for row in self._rows() if _ABOUT not in row and self._key_of(row) not in gone]
         with self._sentences():
             write_whole(self.path, "".join(map(self._line, rows)))
+
+    def _key_of(self, row: dict[str, Any]) -> Any:
+        with suppress(ValueError, TypeError, KeyError, AttributeError):
+            return self._layout.of_json(row).key
+        return str(row.get("key"))
 
     def _rows(self) -> Iterator[dict[str, Any]]:
         if self.path is None or not self.path.is_file():

@@ -8,7 +8,9 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.config import load_bearing
+from beardyn_core.experiments import EngineError
 from evidence.hard.battery import earlier_results, forget, kernels_of, run_battery
 from evidence.hard.case import TOPICS, HardCase
 from evidence.hard.catalogue import CASES
@@ -24,7 +26,8 @@ def main(words: list[str] | None = None) -> int:
     """Run the battery; gives the exit code: 0 when nothing fails that is not a listed known failure."""
     parser = argparse.ArgumentParser(
         prog="make hard ARGS=...",
-        description="Hard cases, each judged by its measures. Ctrl-C loses nothing: the next run goes on.",
+        description="Hard cases, each judged by its measures. Ctrl-C loses nothing: the next run goes on. "
+        "One process at a time writes a folder.",
     )
     parser.add_argument("names", nargs="*", metavar="CASE", help="cases or topics; all when left out")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="side by side (2)")
@@ -50,7 +53,11 @@ def main(words: list[str] | None = None) -> int:
             print(f"{case.topic:10} {case.name:28} {case.breaks}")
         return 0
     if arguments.again:
-        forget(cases, arguments.folder)
+        try:
+            forget(cases, arguments.folder)
+        except InputError as error:
+            print("\n".join(error.problems), file=sys.stderr)
+            return 2
     return _battery(cases, arguments.folder, arguments.jobs, arguments.starts, arguments.output)
 
 
@@ -83,6 +90,9 @@ def _battery(cases: list[HardCase], folder: Path, jobs: int, starts: int, output
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command goes on with what is in {folder}", file=sys.stderr)
         return 130
+    except (InputError, EngineError) as error:
+        print(error, file=sys.stderr)
+        return 2
     chatter = [asdict(row) for row in hidden_chatter(load_bearing(ROLLER_OF))]
     write_json(output, cases, outcomes, kernels=kernels, jobs=jobs, hidden_chatter=chatter)
     print(f"{summary(outcomes)}; {time.monotonic() - began:.0f} s; written to {output}")

@@ -79,7 +79,8 @@ def run_battery(
     plan = replace(plan, order=tuple(_long_ones_first({key: plan.items[key] for key in plan.missing})))
 
     def tell(now: Progress[Outcome]) -> None:
-        for outcome in now.latest.values():
+        for key, outcome in now.latest.items():  # they are in the store
+            _checkpoint_of(plan.items[key], folder, starts).unlink(missing_ok=True)
             report(outcome, now.done, total)
 
     with store.opened(plan), Engine(Cluster(workers=jobs)) as engine:
@@ -117,7 +118,7 @@ def run_cases(cases: Sequence[HardCase], request: tuple[Path, int]) -> list[Outc
 def _one(case: HardCase, folder: Path, starts: int) -> Outcome:
     """Run a case in this process; a crash of the model is a verdict too."""
     logging.getLogger("beardyn").setLevel(logging.WARNING)
-    checkpoint = folder / f"{key_of(case, starts)}-{_mark(case)}.checkpoint"
+    checkpoint = _checkpoint_of(case, folder, starts)
     try:
         kernel = kernel_of(case)
         if kernel not in (*_NO_KERNEL, "none"):
@@ -125,8 +126,11 @@ def _one(case: HardCase, folder: Path, starts: int) -> Outcome:
         outcome = run_case(case, checkpoint, starts)
     except Exception:
         outcome = Outcome(case.name, FAILED, (f"crashed: {traceback.format_exc(limit=-3)}",))
-    checkpoint.unlink(missing_ok=True)
     return outcome
+
+
+def _checkpoint_of(case: HardCase, folder: Path, starts: int) -> Path:
+    return folder / f"{key_of(case, starts)}-{_mark(case)}.checkpoint"
 
 
 def key_of(case: HardCase, starts: int) -> str:

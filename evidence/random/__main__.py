@@ -8,6 +8,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.experiments import EngineError
 from evidence.random.book import code, results, try_many
 from evidence.random.scenes import KERNELS, case
 from evidence.random.trial import FAILED, VERDICTS, Tried
@@ -45,6 +47,9 @@ def main(words: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command goes on with what is in {arguments.output}", file=sys.stderr)
         return 130
+    except (InputError, EngineError) as error:
+        print(error, file=sys.stderr)
+        return 2
     return 1 if failed else 0
 
 

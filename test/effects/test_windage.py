@@ -202,6 +202,17 @@ def test_without_a_cage_it_is_refused_with_a_sentence() -> None:
         scene_from_text(words, "x")
 
 
+def test_what_leaves_no_drag_or_no_gap_is_refused() -> None:
+    words = (
+        "scene: x\nbearing: HS130x230\nlubricant: L055\neffects: {preset: standard, windage: {factor: 0}}\n"
+    )
+    words += "operation: {kind: constant, force_kN: [0, 0, 80], speed_rpm: 1165}\n"
+    with pytest.raises(InputError, match="factor is 0; it must be greater than 0"):
+        scene_from_text(words, "x")
+    with pytest.raises(InputError, match="thickness_mm is 100; it must be at most 24"):
+        Windage(thickness=0.1).parameters(scene().bearing, 343.0)
+
+
 def test_automatic_choice_leaves_it_out_for_its_share_of_the_torque() -> None:
     given = replace(scene(), accuracy=0.05, quantities=("torque",))
     choice = choose(given)

@@ -148,6 +148,31 @@ def test_a_store_is_written_by_one_process_at_a_time(tmp_path: Path) -> None:
         pass
 
 
+def test_results_are_not_forgotten_while_another_process_writes(tmp_path: Path) -> None:
+    one, other = (Store(tmp_path / "runs.jsonl", LINES) for _ in range(2))
+    plan = planned([], count=2)
+    with one.opened(plan):
+        run_plan(plan, ThisProcess(), one)
+        with pytest.raises(InputError, match="another process"):
+            other.forget(["run 0"])
+    other.forget(["run 0"])
+    assert [each.key for each in one.entries()] == ["run 1"]
+
+
+def test_results_that_cannot_be_read_any_more_stay(tmp_path: Path) -> None:
+    store = Store(tmp_path / "runs.jsonl", LINES)
+    theirs = [{"key": f"run {n}", "digest": "theirs", "more": None} for n in (0, 7)]
+    old = {"key": "run 0", "digest": "old", "value": 0}
+    (tmp_path / "runs.jsonl").write_text("".join(json.dumps(row) + "\n" for row in (*theirs, old)))
+    plan = store.resume(planned([], count=1))
+    assert plan.outdated == 1
+    with store.opened(plan):
+        run_plan(plan, ThisProcess(), store)
+        store.tidy(plan)
+    rows = [json.loads(line) for line in (tmp_path / "runs.jsonl").read_text().splitlines()]
+    assert [(row["key"], row["digest"]) for row in rows] == [("run 0", "new"), ("run 7", "theirs")]
+
+
 def test_a_line_may_hold_the_results_of_a_task(tmp_path: Path) -> None:
     store = Store(tmp_path / "runs.jsonl", replace(LINES, group="made"))
     plan = planned([], together=2)

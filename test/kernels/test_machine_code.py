@@ -5,11 +5,16 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable, Iterator
+from enum import IntFlag
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 
+from beardyn_core.base.jit import _whole, plain
+from beardyn_core.base.machine_code import _Reader
+from beardyn_core.physics.film import asperity_share
 from test.forks import Forks
 
 CORE = Path(__file__).resolve().parents[2] / "beardyn_core"
@@ -201,6 +206,34 @@ def test_a_folder_that_cannot_be_written_keeps_nothing(small: Small, tmp_path: P
     shutil.rmtree(tmp_path / "copy" / "cache")
     (tmp_path / "copy" / "cache").write_text("a file is in the way")
     assert small.run()[0]
+
+
+def test_fields_of_a_constant_tuple_and_combined_flags_count() -> None:
+    class Here(NamedTuple):
+        a: int
+        b: int
+
+    class There(NamedTuple):
+        b: int
+        a: int
+
+    spelled = _Reader().value
+    assert spelled(Here(0, 1)).replace("Here", "There") != spelled(There(0, 1))
+
+    class One(IntFlag):
+        A, B, BOTH = 1, 2, 3
+
+    class Other(IntFlag):
+        A, B, BOTH = 1, 2, 7
+
+    assert spelled(One).replace("One", "Other") != spelled(Other)
+
+
+def test_a_choice_asks_the_kernels_formulas_without_compiling() -> None:
+    before = _whole.cache_info().currsize
+    share = plain(asperity_share)(0.5)
+    assert share == pytest.approx(np.exp(-1.8 * 2.0 ** (1.2 * 0.5)), rel=1e-9)
+    assert _whole.cache_info().currsize == before
 
 
 # --- the step of the full tier ---------------------------------------------------------------------
