@@ -75,8 +75,8 @@ class Command:
         """Everything on both streams so far."""
         return self._said.decode(errors="replace")
 
-    def wait_for(self, condition: Callable[[], bool], timeout: float = 150.0) -> None:
-        """Wait for something that the command says or does."""
+    def wait_for(self, condition: Callable[[], bool], timeout: float = 300.0) -> None:
+        """Wait for something that the command says or does; compiling comes before it, beside other tests."""
         deadline = time.monotonic() + timeout
         while not condition():
             assert self.process.poll() is None, self.said
