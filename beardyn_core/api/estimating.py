@@ -138,7 +138,7 @@ def train(
     test : LabelledSet or Path, optional
         Another set, all of it to judge the estimator by; default the test part of the set.
     axes : sequence of str
-        Of the accelerometer that are heard, such as z.
+        Of the accelerometer that are used, such as z.
     force : bool
         Replace the file when it exists; default refuse.
 

@@ -30,7 +30,7 @@ class Following:
     """What following a bearing has come to."""
 
     steps: A[tuple[Followed, ...], "after every stretch"]
-    residual: A[Residual | None, "what is heard beside the twin at the end; none without a twin"]
+    residual: A[Residual | None, "measured minus twin at the end; none without a twin"]
 
     @property
     def sentences(self) -> list[str]:
@@ -82,7 +82,7 @@ def follow(
         Of the rating life.
     twin : Scene or Path, optional
         Sound scene of this axlebox on its track: runs at the state that is known at the end, and its third
-        octaves are compared with those heard; default no twin.
+        octaves are compared with the measured ones; default no twin.
     tier : str
         Of the twin. ``lumped`` or ``quasistatic``.
 

@@ -1,4 +1,4 @@
-"""What is heard of a bearing beside a twin at the state that is known of it."""
+"""Measured minus twin: third octaves of a bearing and of a twin in its known state."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _USUAL_LENGTH_MM, _DEPTH_UM = 20.0, 100.0  # of a spall whose length is not told
 def residual_beside(
     estimator: Estimator, rows: Float, known: Estimates, base: Scene, tier: str = "quasistatic"
 ) -> Residual:
-    """Run a twin at a state that is known, and compare its third octaves with those of stretches heard.
+    """Run a twin in the known state, and compare its third octaves with those of measured stretches.
 
     Raises
     ------
