@@ -153,9 +153,12 @@ class _Reader:
         return _hash_parts(sorted(reached.values()))
 
     def _of_module(self, module: ModuleType) -> Iterator[str]:
-        yield _without_words(inspect.getsource(module))
+        tree = ast.parse(inspect.getsource(module))
+        # state, which changes while the program runs: no constant of a kernel
+        state = {name for node in ast.walk(tree) if isinstance(node, ast.Global) for name in node.names}
+        yield _without_words(tree)
         for name, value in sorted(vars(module).items()):
-            if isinstance(value, _PLAIN) and not name.startswith("__"):
+            if isinstance(value, _PLAIN) and not name.startswith("__") and name not in state:
                 yield f"{name} = {self.value(value)}"
 
     def _taken_from(self, module: ModuleType) -> Iterator[ModuleType]:
@@ -182,9 +185,8 @@ def _hash_parts(parts: Iterable[str]) -> str:
     return digest.hexdigest()[:32]
 
 
-def _without_words(source: str) -> str:
+def _without_words(tree: ast.Module) -> str:
     """Dump the syntax of a module without docstrings, imports and places."""
-    tree = ast.parse(source)
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
         if isinstance(body, list):

@@ -148,6 +148,14 @@ def _split(small: Small) -> None:
         pytest.param(_moved_tuples, id="tuples moved"),
         pytest.param(_moved_entry, id="entry moved"),
         pytest.param(_split, id="layout moved"),
+        pytest.param(
+            lambda small: small.edit(
+                "run.py",
+                "with when",
+                "from beardyn_core.base.interrupts import may_be_left, whole\nwith whole(), may_be_left(), when",
+            ),
+            id="state of the program",
+        ),
     ],
 )
 def test_what_cannot_reach_machine_code_keeps_it(small: Small, change: Callable[[Small], None]) -> None:
