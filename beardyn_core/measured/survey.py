@@ -196,7 +196,13 @@ def _survey_file(chosen: Chosen, reading: Reading, found: _Found) -> Surveyed:
     }
     own = {sensor.table for sensor in chosen.sensors}
     begun = [
-        Begun(chosen.tables[name][0].name, table.start, table.seconds, name in own)
+        Begun(
+            chosen.tables[name][0].name,
+            table.start,
+            table.seconds,
+            name in own,
+            1.0 / table.rate if table.rate > 0.0 else 0.0,
+        )
         for name, table in tables.items()
     ]
     delays = used_delays(list(tables), chosen.source.log_delays)

@@ -138,9 +138,8 @@ def text_at(cdr: bytes, at: int) -> tuple[int, str]:
     """Read a string of a message; return where it ends and its text."""
     (length,) = _COUNT.unpack_from(cdr, at)
     end = at + 4 + length
-    if length == 0:
-        return end, ""
-    if end > len(cdr) or cdr[end - 1] != 0:
+    # an empty text has a length of 1: its end counts
+    if length == 0 or end > len(cdr) or cdr[end - 1] != 0:
         raise MalformedError("a text in it has no end")
     return end, cdr[at + 4 : end - 1].decode()
 

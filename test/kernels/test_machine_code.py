@@ -152,7 +152,7 @@ def _split(small: Small) -> None:
             lambda small: small.edit(
                 "run.py",
                 "with when",
-                "from beardyn_core.base.interrupts import may_be_left, whole\nwith whole(), may_be_left(), when",
+                "from beardyn_core.base.interrupts import whole\n\nwith whole(), when",
             ),
             id="state of the program",
         ),
