@@ -43,7 +43,7 @@ CUT = {
     # options of the rib
     "with_spin": ("sliding, reach, spin, drilling", "sliding"),
     "_resist_spin": ("matrix, contact, step, drilling", "matrix"),
-    "_drilled": ("moment, contact, spin, drilling", "moment"),
+    "_add_drilling_moment": ("moment, contact, spin, drilling", "moment"),
     "_drilling_loss": ("contact, d_spin, drilling", "(0.0, 0.0)"),
     "rib_log2_film": ("load, speed, film", "0.0"),
     # structure
@@ -68,7 +68,7 @@ CUT = {
     "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "False"),
     "springs_of": ("laminae, damage, coupling", "(laminae, laminae.shape[1])"),
     "spring_damage": ("lanes, spring, damage", "(1.0, 0.0)"),
-    "soften": ("lanes, tangent, spring, damage", "tangent"),
+    "soften_by_edges": ("lanes, tangent, spring, damage", "tangent"),
     "_slopes_of": ("lanes, k, depth, count, damage, coupling", "(0.0, 0.0)"),
     "_add_lean": ("lean, load, slopes, damage", "lean"),
     "_gap_rate": ("slopes, turning, damage", "0.0"),
