@@ -21,7 +21,7 @@ class Begun:
     start: Start | None
     seconds: A[float, "how long it lasts"]
     is_vibration: bool = True
-    interval: A[float, "of the last sample, after which it ends, [s]"] = 0.0
+    interval: A[float, "from its last sample to its end, [s]"] = 0.0
 
 
 @dataclass
@@ -83,8 +83,8 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
         at + each.seconds * 1e9 for at, each in zip(out.begin_ns, tables, strict=True) if each.is_vibration
     )
     for at, each in zip(out.begin_ns, tables, strict=True):
-        last = at + each.seconds * 1e9
-        if not each.is_vibration and each.seconds and end and (at >= end or last <= each.interval * 1e9):
+        last = at + (each.seconds - each.interval) * 1e9
+        if not each.is_vibration and each.seconds and end and (at >= end or last <= 0):
             out.problems.append(
                 f"{each.what} is from {at * 1e-9:.6g} s to {last * 1e-9:.6g} s after the beginning of the "
                 f"vibration, which lasts {end * 1e-9:.6g} s: they have no time together; give a channel of "
