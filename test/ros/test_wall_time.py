@@ -45,8 +45,14 @@ def test_clock_and_diagnostics_go_on_while_the_twin_is_paused(graph: Graph) -> N
     graph.until_state("running")
     assert graph.call("pause", SetBool, data=True).success
     graph.until_state("paused")
-    at = header_stamp(graph.messages["/clock"][-1])
-    graph.messages["/clock"].clear()
+    clock = graph.messages["/clock"]
+
+    def stands() -> bool:  # the last block before the pause may still have been under way
+        return len(clock) > 1 and header_stamp(clock[-1]) == header_stamp(clock[-2])
+
+    graph.until(stands, "the clock to stand still")
+    at = header_stamp(clock[-1])
+    clock.clear()
     statuses = len(graph.statuses("twin"))
     graph.until(lambda: len(graph.messages["/clock"]) >= 5, "the clock of the paused twin", timeout=10.0)
     assert {header_stamp(cdr) for cdr in graph.messages["/clock"]} == {at}
