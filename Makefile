@@ -11,12 +11,14 @@ JOBS ?= $(shell expr $$(nproc) + 1)
 PARALLEL = $(if $(filter-out 1,$(JOBS)),-n $(JOBS))
 
 BIN := $(VENV)/bin
+PIP_INSTALL = $(BIN)/python -m pip install --disable-pip-version-check
 METADATA := setup.py setup.cfg pyproject.toml package.xml
 # Inside a sourced ROS 2 its own rclpy is used; the wheels would bring a second one.
 ROS := $(if $(ROS_DISTRO),,ros)
 VENV_OPTIONS := $(if $(ROS_DISTRO),--system-site-packages)
-# what the demo draws with
+# what the demo draws with, and its scene
 DRAWING := view plot
+DEMO_SCENE := cup_spall
 COMMA := ,
 EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
@@ -131,16 +133,23 @@ clean: ## remove the environment and everything that was built
 # finds the package (share/ and lib/beardyn): links do for them.
 define install
 	@echo "Installing beardyn$(if $(1),[$(1)]) into $(VENV)"
-	@$(BIN)/python -m pip install --disable-pip-version-check -e '.$(if $(1),[$(1)])'
+	@$(PIP_INSTALL) -e '.$(if $(1),[$(1)])'
 	@mkdir -p $(VENV)/share/ament_index/resource_index/packages $(VENV)/lib/beardyn
 	@ln -sfn "$(CURDIR)" $(VENV)/share/beardyn
 	@ln -sf "$(CURDIR)/resource/beardyn" $(VENV)/share/ament_index/resource_index/packages/beardyn
 	@ln -sf "$(CURDIR)"/scripts/* $(VENV)/lib/beardyn/
-	@touch $@
+	@touch $@ $(VENV)/.ready-core
 endef
 
-$(VENV)/.ready: $(METADATA) | $(BIN)/python
-	$(call install,$(call extras,$(DRAWING)))
+$(VENV)/.ready-core: $(METADATA) | $(BIN)/python
+	$(call install,)
+
+# The kernels of the demo are compiled while pip brings the rest; if that fails, the demo compiles them.
+$(VENV)/.ready: $(METADATA) | $(VENV)/.ready-core
+	@echo "Installing beardyn[$(call extras,$(DRAWING))] into $(VENV)"
+	@$(BIN)/python -m beardyn_core warmup $(DEMO_SCENE) >/dev/null 2>&1 & \
+	$(PIP_INSTALL) -e '.[$(call extras,$(DRAWING))]'; failed=$$?; wait; exit $$failed
+	@touch $@
 
 $(VENV)/.ready-test: $(METADATA) | $(BIN)/python
 	$(call install,$(call extras,test))

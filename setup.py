@@ -17,6 +17,17 @@ ROS_WHEELS = [
     "ros-kilted-std-msgs==5.5.1",
     "ros-kilted-std-srvs==5.5.1",
 ]
+INSTALL = [
+    "mcap>=1.6,<1.7",  # internals of its writer are used: record/chunk_writing.py
+    "numba>=0.68,<0.69",
+    "numpy>=1.26",
+    "pydantic>=2.7",
+    "pyyaml>=6.0",
+    "rosbags>=0.11,<0.12",
+    "scipy>=1.13",
+    "tqdm>=4.66",
+    "zstandard>=0.22",
+]
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
 VIEW = ["rerun-sdk>=0.41,<0.42"]
 PLOT = ["matplotlib>=3.8"]
@@ -78,54 +89,45 @@ def tree(folder: str, *patterns: str) -> list[tuple[str, list[str]]]:
     return [(target, files) for target, files in found if files]
 
 
-setup(
-    name=NAME,
-    version="0.1.0",
-    description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
-    long_description=Path(__file__).resolve().with_name("README.md").read_text(encoding="utf-8"),
-    long_description_content_type="text/markdown",
-    author="beardyn developers",
-    maintainer="beardyn developers",
-    maintainer_email="beardyn@example.org",
-    license="Apache-2.0",
-    keywords=["railway", "rolling bearing", "digital twin", "multibody dynamics", "ROS 2", "MCAP"],
-    python_requires=">=3.11",
-    packages=find_packages(include=["beardyn_core", "beardyn_core.*", "beardyn_ros", "beardyn_ros.*"]),
-    package_data={"": ["*.xml", "*.json", "py.typed"]},
-    data_files=[
-        ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
-        (SHARE, ["package.xml"]),
-        *tree("layouts", "*.json", "*.xml"),
-        *tree("launch", "*.py", "*.yaml"),
-        *tree("config", "*.yaml", "*.csv", "*.npz"),
-        (f"lib/{NAME}", sorted(glob("scripts/*"))),
-    ],
-    install_requires=[
-        "mcap>=1.6,<1.7",  # internals of its writer are used: record/chunk_writing.py
-        "numba>=0.68,<0.69",
-        "numpy>=1.26",
-        "pydantic>=2.7",
-        "pyyaml>=6.0",
-        "rosbags>=0.11,<0.12",
-        "scipy>=1.13",
-        "tqdm>=4.66",
-        "zstandard>=0.22",
-    ],
-    extras_require={
-        "ros": ROS_WHEELS,
-        "view": VIEW,
-        "plot": PLOT,
-        "data": DATA,
-        "structure": STRUCTURE,
-        "sweep": SWEEP,
-        "torch": [*SWEEP, *TORCH],
-        "measured": MEASURED,
-        "calibrate": CALIBRATE,
-        "docs": DOCS,
-        "test": TEST,
-        "dev": DEV,
-        "release": RELEASE,
-    },
-    entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
-    zip_safe=False,
-)
+if __name__ == "__main__":
+    setup(
+        name=NAME,
+        version="0.1.0",
+        description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
+        long_description=Path(__file__).resolve().with_name("README.md").read_text(encoding="utf-8"),
+        long_description_content_type="text/markdown",
+        author="beardyn developers",
+        maintainer="beardyn developers",
+        maintainer_email="beardyn@example.org",
+        license="Apache-2.0",
+        keywords=["railway", "rolling bearing", "digital twin", "multibody dynamics", "ROS 2", "MCAP"],
+        python_requires=">=3.11",
+        packages=find_packages(include=["beardyn_core", "beardyn_core.*", "beardyn_ros", "beardyn_ros.*"]),
+        package_data={"": ["*.xml", "*.json", "py.typed"], "beardyn_core": ["shipped/*/*", "shipped/*/*/*"]},
+        data_files=[
+            ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
+            (SHARE, ["package.xml"]),
+            *tree("layouts", "*.json", "*.xml"),
+            *tree("launch", "*.py", "*.yaml"),
+            *tree("config", "*.yaml", "*.csv", "*.npz"),
+            (f"lib/{NAME}", sorted(glob("scripts/*"))),
+        ],
+        install_requires=INSTALL,
+        extras_require={
+            "ros": ROS_WHEELS,
+            "view": VIEW,
+            "plot": PLOT,
+            "data": DATA,
+            "structure": STRUCTURE,
+            "sweep": SWEEP,
+            "torch": [*SWEEP, *TORCH],
+            "measured": MEASURED,
+            "calibrate": CALIBRATE,
+            "docs": DOCS,
+            "test": TEST,
+            "dev": DEV,
+            "release": RELEASE,
+        },
+        entry_points={"console_scripts": ["beardyn = beardyn_core.cli.main:main"]},
+        zip_safe=False,
+    )

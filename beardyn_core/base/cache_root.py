@@ -1,4 +1,4 @@
-"""Where everything lies that is kept from run to run: kernels, choices, meshes."""
+"""Where what is kept from run to run lies: kernels, choices, meshes; and what came with the package."""
 
 from __future__ import annotations
 
@@ -12,3 +12,8 @@ def cache_root() -> Path:
     if root is None:
         root = os.path.join(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache")), "beardyn")
     return Path(root)
+
+
+def shipped_root() -> Path:
+    """Name the folder that the build of a wheel fills like `cache_root`; nothing is written there later."""
+    return Path(__file__).parents[1] / "shipped"

@@ -10,7 +10,7 @@ import hashlib
 import os
 import pickle
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
@@ -23,8 +23,9 @@ from numba.core import environment
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from beardyn_core.base.cache_root import cache_root
+from beardyn_core.base.cache_root import cache_root, shipped_root
 from beardyn_core.base.machine_code import code_digest, how_parts_are_compiled, spelled_type
+from beardyn_core.base.shipped_kernels import shipped_processor
 
 _CHECK_BYTES = 32
 
@@ -42,7 +43,8 @@ class KernelCache:
     Notes
     -----
     Files appear as a whole, so that several processes may compile the same. One that is damaged or cannot be
-    read counts as none, and one that cannot be written is left out.
+    read counts as none, and one that cannot be written is left out. What is not in the user's folder may be
+    in `shipped_root`.
     """
 
     def __init__(self, function: Callable[..., Any], options: str) -> None:
@@ -56,18 +58,19 @@ class KernelCache:
     def load_overload(self, signature: Any, target_context: Any) -> Any:
         """Find the code for argument types; `None` where it has to be compiled."""
         target_context.refresh()
-        with suppress(OSError):
-            data = self._path(signature, target_context).read_bytes()
-            check, code = data[:_CHECK_BYTES], data[_CHECK_BYTES:]
-            if hashlib.sha256(code).digest() == check:
-                payload = _Unpickler(BytesIO(code)).load()
-                return CompileResult._rebuild(target_context, *payload)
+        for path in self._places(signature, target_context):
+            with suppress(OSError):
+                data = path.read_bytes()
+                check, code = data[:_CHECK_BYTES], data[_CHECK_BYTES:]
+                if hashlib.sha256(code).digest() == check:
+                    payload = _Unpickler(BytesIO(code)).load()
+                    return CompileResult._rebuild(target_context, *payload)
         return None
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Keep the code for argument types."""
         code = dumps(result._reduce())
-        path = self._path(signature, result.target_context)
+        path = self._own_place(signature, result.target_context)
         part = path.with_name(f"{path.name}.{os.getpid()}")
         with suppress(OSError):
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -77,15 +80,26 @@ class KernelCache:
             finally:
                 part.unlink(missing_ok=True)
 
-    def _path(self, signature: Any, target_context: Any) -> Path:
+    def _places(self, signature: Any, target_context: Any) -> Iterator[Path]:
+        yield self._own_place(signature, target_context)
+        shipped = shipped_processor()
+        if shipped is not None:
+            triple = target_context.codegen().magic_tuple()[0]
+            yield shipped_root() / "kernels" / self._name(signature, (triple, *shipped))
+
+    def _own_place(self, signature: Any, target_context: Any) -> Path:
+        return Path(self.cache_path) / self._name(signature, target_context.codegen().magic_tuple())
+
+    def _name(self, signature: Any, processor: tuple[str, str, str]) -> str:
+        """Name the file; ``processor``: triple, name and features for which LLVM compiles."""
         kinds = signature.args if hasattr(signature, "args") else signature
         parts = (
             *(numba.__version__, llvmlite.__version__, np.__version__, sys.version),
             *(self._options, how_parts_are_compiled(), code_digest(self._function)),
-            *(repr(target_context.codegen().magic_tuple()), *map(spelled_type, kinds)),
+            *(repr(processor), *map(spelled_type, kinds)),
         )
         key = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
-        return Path(self.cache_path) / f"{self._function.__name__}-{key}"
+        return f"{self._function.__name__}-{key}"
 
 
 class _Unpickler(pickle.Unpickler):

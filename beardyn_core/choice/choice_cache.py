@@ -18,7 +18,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from beardyn_core.base.cache_root import cache_root
+from beardyn_core.base.cache_root import cache_root, shipped_root
 from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.choice.rule import Choice
@@ -75,7 +75,7 @@ def kept(scene: Scene, free: Free, given: EffectSet | None, work_out: Callable[[
         return work_out()
     path = folder() / f"{key}.choice"
     if key not in _known:
-        found = _read(path)
+        found = _read(path) or _read(folder(shipped_root()) / path.name)
         if found is None:
             found = work_out()
             if found.judged:
@@ -84,9 +84,9 @@ def kept(scene: Scene, free: Free, given: EffectSet | None, work_out: Callable[[
     return _known[key]
 
 
-def folder() -> Path:
-    """Name the folder of the choices by these rules: in ``$BEARDYN_CACHE_DIR`` or the user's cache."""
-    return cache_root() / "choices" / _rules()
+def folder(root: Path | None = None) -> Path:
+    """Name the folder of the choices by these rules: by default in the user's cache."""
+    return (cache_root() if root is None else root) / "choices" / _rules()
 
 
 @cache

@@ -6,6 +6,7 @@ import ast
 import json
 import re
 import tomllib
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -16,17 +17,19 @@ ROOT = Path(__file__).parents[2]
 
 
 def setup_words() -> dict[str, Any]:
-    """What setup.py gives to setuptools, as far as it is written out there."""
+    """What setup.py gives to setuptools, as far as it is written out there, and its lists."""
     tree = ast.parse((ROOT / "setup.py").read_text(encoding="utf-8"))
+    words: dict[str, Any] = {}
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.List):
+            with suppress(ValueError):
+                words[ast.unparse(node.targets[0])] = ast.literal_eval(node.value)
     (call,) = (
         node for node in ast.walk(tree) if isinstance(node, ast.Call) and ast.unparse(node.func) == "setup"
     )
-    words = {}
     for keyword in call.keywords:
-        try:
+        with suppress(ValueError):
             words[str(keyword.arg)] = ast.literal_eval(keyword.value)
-        except ValueError:
-            continue
     return words
 
 
@@ -53,7 +56,7 @@ def test_versions_are_one() -> None:
 
 
 def test_the_conda_recipe_asks_for_what_setup_asks_for() -> None:
-    wanted = requirements(SETUP["install_requires"])
+    wanted = requirements(SETUP["INSTALL"])
     given = requirements(recipe()["requirements"]["run"])
     assert given.pop("python") == SETUP["python_requires"]
     assert given == wanted
@@ -61,7 +64,7 @@ def test_the_conda_recipe_asks_for_what_setup_asks_for() -> None:
 
 def test_the_pixi_environment_allows_what_setup_asks_for() -> None:
     whole = tomllib.loads((ROOT / "release/pixi.toml").read_text(encoding="utf-8"))
-    wanted = requirements(SETUP["install_requires"])
+    wanted = requirements(SETUP["INSTALL"])
     for package, versions in whole["dependencies"].items():
         if package not in ("python", "pip"):
             assert versions == wanted[package], package
