@@ -68,7 +68,7 @@ def _wanted(settings: Settings) -> bool:
 
 
 def _compile(folder: Path) -> None:
-    """Choose effects, then compile for all levels side by side; a failure is told, and leaves out its part."""
+    """Choose effects, then compile for all levels side by side; a failure is told and leaves out its part."""
     failure = _run("choose", folder, {})
     if not failure:
         shutil.copytree(folder / "choices", SHIPPED / "choices")

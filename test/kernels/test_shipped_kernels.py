@@ -1,4 +1,4 @@
-"""Kernels compiled for a level of x86-64 while a wheel is built are used where nothing else is, and only there."""
+"""Kernels compiled for a level of x86-64 while a wheel is built are used where nothing else is."""
 
 from __future__ import annotations
 
