@@ -6,6 +6,7 @@ module                responsibility
 environment           what must be there before a node starts: ROS 2, its variables, packages
 runtime               one process, one node: arguments, signals, executor, exit code, a quiet end
 parameters            parameters declared once from a table, refused with a sentence; which are a node's own
+real_time             the best tier that keeps the asked pace on this machine, and what is given up
 rig                   the twin of one axlebox and its run: of a scene, of one box of several, of a car
 node_parameters       the parameters of every node
 wire                  topics of the table as publishers, at once or spread; raw subscriptions in one sweep

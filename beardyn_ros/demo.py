@@ -103,7 +103,7 @@ def _demo(args: argparse.Namespace) -> int:
 
 def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> Diagnostic:
     """Start everybody, follow the run, wait for everybody's end; the twin's last words."""
-    nodes.start("twin", scene=nodes.scene, effects=nodes.effects)
+    nodes.start("twin", scene=nodes.scene, effects=nodes.effects, speed_factor=1.0)
     nodes.start("recorder", output=str(recording))
     nodes.start("monitor", bearing=scene.bearing.name)
     begin = time.monotonic()
@@ -123,6 +123,9 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
 
     graph.spin_until(ready, nodes, "the twin, the recorder and the monitor to be ready")
     say(f"ready after {time.monotonic() - begin:.1f} s, the train starts")
+    first = graph.latest_status("twin")
+    if first is not None and first.value("tier_note"):
+        say(f"to keep real time: {first.value('tier_note')}")
     nodes.start("load", scene=nodes.scene, duration=float(scene.duration))
     progress = Progress(scene.duration)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
@@ -15,6 +16,7 @@ from beardyn_core.record.description import RunDescription
 from beardyn_core.scene.axleboxes import AXLES_OF_A_CAR, Axleboxes, Box
 
 if TYPE_CHECKING:
+    from beardyn_core.config.load import OpenScene
     from beardyn_core.scene.scene import Scene
 
 SCENE_OWN = "scene"
@@ -102,12 +104,15 @@ class Rig:
         Name of a background with forces on the journal, which come with the load; empty without one.
     pictures : bool
         Whether bodies and contacts are published.
+    tier_note : str
+        Why the tier is not the best one, see `real_time.Kept`.
     """
 
     twin: Any
     description: RunDescription
     background: str = ""
     pictures: bool = True
+    tier_note: str = ""
 
 
 def scene_rig(
@@ -115,10 +120,11 @@ def scene_rig(
     tier: str = SCENE_OWN,
     effects: str = SCENE_OWN,
     of_box: Callable[[Scene], Scene] | None = None,
+    pace: float = 0.0,
 ) -> Callable[[], Rig]:
     """Make the builder of rigs for a scene by name or path; the scene is read and checked at once.
 
-    What it leaves open is chosen when the first rig is built.
+    What it leaves open is chosen when the first rig is built, also the tier where a pace is asked for.
 
     Parameters
     ----------
@@ -129,6 +135,8 @@ def scene_rig(
         Preset, file or ``auto``; `SCENE_OWN` for the scene's own.
     of_box : callable, optional
         Makes the scene of one axlebox of several.
+    pace : float
+        Simulated seconds per wall second that are asked for; 0 for none.
 
     Raises
     ------
@@ -138,20 +146,32 @@ def scene_rig(
     from beardyn_core.choice.load import complete_scene
     from beardyn_core.config import read_scene
     from beardyn_core.twin import Twin
+    from beardyn_ros.real_time import Kept, keep_pace
 
-    given = {("tier",): tier, ("effects",): effects}
-    found = read_scene(scene_name, {place: value for place, value in given.items() if value != SCENE_OWN})
+    def read(tier: str) -> OpenScene:
+        given = {("tier",): tier, ("effects",): effects}
+        return read_scene(scene_name, {place: each for place, each in given.items() if each != SCENE_OWN})
+
+    found = read(tier)
     if of_box is None:
         instead = "the parameter box of the twin names one of them, node car_twin has the twins of all"
         check_one_box(found.scene, scene_name, "twin", instead)
     background = found.scene.background
     forces = background.name if background is not None and background.forces else ""
 
-    def build() -> Rig:
+    @cache
+    def chosen() -> Kept:
+        tier_is_open = found.free.tier or (found.free.effects and "tier" not in found.keys)
+        if pace > 0.0 and tier_is_open:
+            return keep_pace(read, pace)
         whole = complete_scene(found, outside_load=True)
-        scene = whole if of_box is None else of_box(whole)
-        twin = Twin(scene)
-        return Rig(twin, RunDescription.of(scene, twin.truth(), twin.body_names), forces)
+        return Kept(whole if of_box is None else of_box(whole), whole.tier, "")
+
+    def build() -> Rig:
+        kept = chosen()
+        twin = Twin(kept.scene)
+        description = RunDescription.of(kept.scene, twin.truth(), twin.body_names)
+        return Rig(twin, description, forces, tier_note=kept.note)
 
     return build
 

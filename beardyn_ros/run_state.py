@@ -125,6 +125,8 @@ class SessionReport:
         Waveform samples delivered since the start of the run.
     load_lacks : str
         What the load of this run has not, though the scene speaks of it; a sentence, or empty.
+    tier_note : str
+        Why the tier is not the best one, and what is given up, see `real_time`; or empty.
     """
 
     state: str = IDLE
@@ -148,4 +150,5 @@ class SessionReport:
     worst_lag_s: float = 0.0
     waveform_samples: int = 0
     load_lacks: str = ""
+    tier_note: str = ""
     recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

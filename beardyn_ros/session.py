@@ -231,6 +231,9 @@ class TwinSession:
     def _thread_main(self) -> None:
         try:
             rig = self._make_rig()
+            if rig.tier_note:
+                self._report.tier_note = rig.tier_note
+                self._set_state(COMPILING, rig.tier_note)
             rig.twin.warm()
             gc.collect()
             gc.freeze()  # compiler and kernels stay, see `run_node`
@@ -264,7 +267,8 @@ class TwinSession:
         with self._condition:
             self._reset = False
             self.exit_code = EXIT_DONE
-            self._report = SessionReport(state=READY, sentence="reset")
+            note = self._report.tier_note
+            self._report = SessionReport(state=READY, sentence="reset", tier_note=note)
         self.feed.restart()
         self.pacer.begin()
 

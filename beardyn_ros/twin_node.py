@@ -72,7 +72,7 @@ class TwinNode(LifecycleNode):
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS["twin"])
         box = self._values.box
-        self._load_rig = load_rig or (lone_box_rig(box) if box else scene_rig)
+        self._load_rig = load_rig or (lone_box_rig(box) if box else self._scene_rig)
         self._frame = frame_of(self.get_namespace(), self._values.frame_id)
         self._description = DescriptionPublisher(self, self._frame, self._values)
         self._name = diagnostic_name(self.get_namespace(), TWIN)
@@ -262,6 +262,9 @@ class TwinNode(LifecycleNode):
         """End the process as SIGINT does."""
         self._end_session("the twin was told to quit")
         self.finished = True
+
+    def _scene_rig(self, scene: str, tier: str, effects: str) -> Callable[[], Rig]:
+        return scene_rig(scene, tier, effects, pace=self._speed_factor)
 
     @property
     def _speed_factor(self) -> float:

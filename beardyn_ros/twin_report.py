@@ -94,6 +94,8 @@ def twin_diagnostic(
         ("lost_messages", str(standing.lost_messages)),
         ("status", str(report.status)),
     ]
+    if report.tier_note:
+        values.append(("tier_note", report.tier_note))
     if report.blocks:
         total = report.simulated_s / max(report.wall_s, 1e-9)
         simulated = max(report.simulated_s, 1e-9)

@@ -23,7 +23,7 @@ def generate_launch_description() -> LaunchDescription:
                     "mode": LaunchConfiguration("mode"),
                     "csv": LaunchConfiguration("csv"),
                     "output": LaunchConfiguration("output"),
-                    "speed_factor": "0.0",
+                    "speed_factor": "1.0",
                     "recorder": "true",
                     "monitor": "true",
                 }.items(),

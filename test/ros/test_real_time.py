@@ -1,0 +1,107 @@
+"""The twin takes the best tier that keeps the pace that it is asked for, and says what that costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from beardyn_core.config import read_scene
+from beardyn_core.config.load import OpenScene
+from beardyn_core.scene.scene import Scene
+
+pytest.importorskip("rclpy")
+
+from beardyn_ros import real_time, rig
+from beardyn_ros.real_time import MARGIN, Kept, keep_pace, measured_speed
+
+SCENE = "static_80kN"
+
+
+def read(tier: str) -> OpenScene:
+    given: dict[Any, Any] = {("effects",): "auto", ("tier",): tier}
+    return read_scene(SCENE, given)
+
+
+def kept(speeds: dict[str, float], pace: float = 1.0) -> tuple[Kept, list[str]]:
+    """What is taken where the tiers run at these speeds, and which were measured."""
+    measured = []
+
+    def measure(scene: Scene) -> float:
+        measured.append(scene.tier)
+        return speeds[scene.tier]
+
+    return keep_pace(read, pace, measure), measured
+
+
+@pytest.mark.parametrize(
+    ("speeds", "taken", "measured"),
+    [
+        ({"full": 1.4, "quasistatic": 15.0}, "full", ["quasistatic", "full"]),
+        ({"full": 1.2, "quasistatic": 15.0}, "quasistatic", ["quasistatic", "full"]),
+        ({"quasistatic": 1.4}, "quasistatic", ["quasistatic"]),
+        ({"quasistatic": 1.2, "lumped": 9.0}, "lumped", ["quasistatic", "lumped"]),
+        ({"quasistatic": 0.1, "lumped": 0.7}, "lumped", ["quasistatic", "lumped"]),
+    ],
+)
+def test_the_best_tier_with_a_margin_is_taken_and_no_other_is_compiled(
+    speeds: dict[str, float], taken: str, measured: list[str]
+) -> None:
+    found, asked = kept(speeds)
+    assert (found.tier, found.scene.tier, asked) == (taken, taken, measured)
+    assert bool(found.note) == (taken != "full")
+    if taken != "full":
+        assert f"tier {taken} runs {speeds[taken]:.1f} times" in found.note
+        assert ("too slow" in found.note) == (speeds[taken] < MARGIN)
+        assert "% in place of" in found.note
+
+
+def test_a_slow_pace_has_the_full_tier_without_compiling_another() -> None:
+    found, measured = kept({"full": 0.5}, pace=0.05)
+    assert (found.tier, measured, found.note) == ("full", ["full"], "")
+
+
+def test_a_speed_is_simulated_over_wall_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a clock that goes on by 10 ms whenever it is read: twice a block of 20 ms."""
+    from beardyn_core.choice import load_scene
+
+    now = 0.0
+
+    def clock() -> float:
+        nonlocal now
+        now += 0.01
+        return now
+
+    scene = load_scene(SCENE, tier="lumped", effects="standard")
+    monkeypatch.setattr(real_time, "time", SimpleNamespace(perf_counter=clock))
+    assert measured_speed(scene) == pytest.approx(2.0, rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("tier", "effects", "pace", "asked"),
+    [
+        ("scene", "auto", 1.0, True),
+        ("scene", "auto", 0.0, False),
+        ("lumped", "auto", 1.0, False),
+        ("scene", "standard", 1.0, False),
+    ],
+)
+def test_only_what_is_left_open_is_chosen_for_a_pace(
+    tier: str, effects: str, pace: float, asked: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    called = []
+
+    def keep(reader: Callable[[str], OpenScene], pace: float) -> Kept:
+        called.append(pace)
+        return Kept(rig_scene, "lumped", "slower")
+
+    from beardyn_core.choice import load_scene
+
+    rig_scene = load_scene(SCENE, tier="lumped", effects="standard")
+    monkeypatch.setattr(real_time, "keep_pace", keep)
+    build = rig.scene_rig(SCENE, tier, effects, pace=pace)
+    notes = [build().tier_note for _ in range(2)]
+    assert called == [pace] * asked  # once, also when the run is reset
+    assert notes == ["slower" if asked else ""] * 2
