@@ -10,6 +10,7 @@ kinematics         speeds of cage and roller, fault frequencies
 name_plate         `NamePlate`: what the fault frequencies of any rolling bearing need
 contact_law        line contact (Palmgren), point contact (Hertz), rib of a bearing with its ellipse
 lamina_coupling    laminae coupled through the half-space, also those partly over a patch
+holed_line         load that a line contact loses over holes, from a half-space
 ring_bending       stiffness and mass of the bending modes of a thin ring
 force_triangle     one roller between cup, cone and rib
 lubricant          viscosity and pressure-viscosity with temperature

@@ -51,7 +51,9 @@ class LaminaRoot:
     ]
 
 
-def rectangle_influence(distance: Float, length: float, half_width: float, contact_modulus: float) -> Float:
+def rectangle_influence(
+    distance: Float, length: Float | float, half_width: Float | float, contact_modulus: float
+) -> Float:
     """Compute the approach of both bodies at `distance` [m] along the line from a pressed rectangle, [m/N].
 
     The pressure on it is uniform; `length` is along the line, `half_width` half of it across, [m], and

@@ -18,8 +18,9 @@ from beardyn_core.choice.rule import Influence, Verdict, percent
 from beardyn_core.choice.usual_step import refine_for_sensors, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
-from beardyn_core.physics.defect import lamina_cover, surface_radius
 from beardyn_core.physics.journal import bending_give
+from beardyn_core.physics.lamina_table import surface_radius
+from beardyn_core.physics.spall_cover import counted_cover, lamina_cover
 from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.physics.tiers.step_choice import choose_steps
 from beardyn_core.scene.defect import Patch
@@ -123,9 +124,9 @@ def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count
     """
 
     def taken(laminae: int) -> float:
-        cover = lamina_cover(bearing, patch, laminae)
+        cover = counted_cover(bearing, [patch], laminae, coupling)[0]
         depth = np.full(laminae, _DEPTH)
-        gap = np.full(laminae, patch.depth)
+        gap = patch.depth * lamina_cover(bearing, patch, laminae) / np.maximum(cover, _NOTHING)
         joint, share = joint_depth(depth, gap, cover, part_exponent(coupling.strength))
         loads, _, _ = coupled_law(
             np.array([joint, depth]), 1.0, bearing_lamina_root(bearing, coupling, laminae)

@@ -4,20 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lamina_coupling import coupled_law
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
-from beardyn_core.effects import LaminaCoupling
-from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 
-_LAMINAE = 20
 _NOTABLE = 0.01  # of the torque
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile
-_DEPTH = 1.0e-5  # of a working load [m]
 
 
 def gravity(evidence: Evidence) -> Rule:
@@ -98,7 +89,10 @@ def audit(evidence: Evidence) -> Rule:
 
 
 def lamina_coupling(evidence: Evidence) -> Rule:
-    """Decide on coupled laminae: on when they distribute the load otherwise than independent ones."""
+    """Decide on coupled laminae: on when they distribute the load otherwise than independent ones.
+
+    Over patches both lose the load that a half-space loses (`physics.spall_cover`).
+    """
     effect = evidence.scene.effects.lamina_coupling
     if effect is None:
         return absent("lamina_coupling")
@@ -108,26 +102,4 @@ def lamina_coupling(evidence: Evidence) -> Rule:
         f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load "
         f"by {percent(change.roller_load)}"
     )
-    partial = [share for share in evidence.patch_shares if share < 1.0]
-    if partial:
-        share = max(partial)
-        gain = beside_a_patch(evidence.scene.bearing, effect, share)
-        loaded = max(int(np.count_nonzero(evidence.typical.cone_load > 0.0)) // 2, 1)
-        # what the rest of the line carries more is not given to the neighbours
-        influence["roller_load"] += (gain - 1.0) * (1.0 - share) * 2.0 / loaded
-        influence["vibration"] += decibels((1.0 - (1.0 - share) * gain) / share)
-        reason += f"; a line that a patch leaves {percent(1.0 - share)} of carries {percent(gain - 1.0)} more"
     return on_or_off("lamina_coupling", effect, reason, influence, evidence.costs.extra("lamina_coupling"))
-
-
-def beside_a_patch(bearing: Bearing, coupling: LaminaCoupling, share: float) -> float:
-    """Compute the load of a line with one end over a patch, coupled over independent laminae, [-]."""
-    root = bearing_lamina_root(bearing, coupling, _LAMINAE)
-    factor = line_contact_factor(bearing.material, bearing.effective_length) / _LAMINAE
-    touching = round((1.0 - share) * _LAMINAE)
-    if not 0 < touching < _LAMINAE:
-        return 1.0
-    depth = np.full(_LAMINAE, -_DEPTH)
-    depth[:touching] = _DEPTH
-    load = coupled_law(depth, factor, root)[0]
-    return float(np.sum(load)) / (factor * _DEPTH ** (10.0 / 9.0) * touching)

@@ -8,21 +8,20 @@ what it leans with that over the arc.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.lamina_table import equivalent_radius, for_springs, lamina_places
+from beardyn_core.physics.lamina_table import contact_radii, for_springs, surface_radius
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
 from beardyn_core.physics.scatter import added_clearance, crown_errors, scattered_oversize
+from beardyn_core.physics.spall_cover import counted_cover, lamina_cover, shared_cover
 from beardyn_core.scene.defect import Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
@@ -34,6 +33,8 @@ class SurfaceParams(NamedTuple):
     places: Any  # [patch, PATCH_FIELDS]: centre [rad], repeats a turn, radius [m], radius by repeats, reach
     present: Any  # [block, patch, lane], 1 where the lane's roller meets the patch
     cover: Any  # [patch, lamina], share of the lamina's length
+    counted: Any  # there, share that counts as lost over a deep hole
+    shared: Any  # [patch, patch, lamina], share that two patches have in common; empty where none have
     paths: Any  # [patch x lamina x PATCH_POINTS], gap over even arcs from the centre to the reach [m]
     softness: Any  # there, what sharp edges add to the compliance of the contact [-]
 
@@ -70,8 +71,6 @@ class FaultParams(NamedTuple):
 
 SURFACES = ("cup", "cone", "roller")
 
-_SMALLEST_PART = 1.0e-9  # of a lamina
-
 
 def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> FaultParams:
     """Collect all faults at t = 0; what the scene does not have is ``None``."""
@@ -106,8 +105,15 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
         if on == "roller":
             there = there & (arrangement.roller == patch.roller)
         present[:, index] = there
-    cover = np.array([lamina_cover(scene.bearing, patch, count) for patch in patches])
-    surface = SurfaceParams(places, present, cover, paths.reshape(-1), np.zeros(paths.size))
+    surface = SurfaceParams(
+        places,
+        present,
+        np.array([lamina_cover(scene.bearing, patch, count) for patch in patches]),
+        counted_cover(scene.bearing, patches, count, scene.effects.lamina_coupling),
+        shared_cover(scene.bearing, patches, count),
+        paths.reshape(-1),
+        np.zeros(paths.size),
+    )
     for index, patch in enumerate(patches):
         _write_patch(surface, index, patch, scene, 0.0)
     return surface
@@ -143,39 +149,6 @@ def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene,
         softness[index, lamina, : PATH_CELLS + 1] = edge_softness(
             patch, size, contact_radius, reach, path, bearing
         )
-
-
-def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
-    """Take radii of cylinders on a plane in place of the laminae's contacts with a surface, [lamina], [m].
-
-    A patch of a roller meets both rings: there a radius is the roller's own.
-    """
-    places = lamina_places(bearing, count)
-    if on == "roller":
-        return np.asarray((bearing.apex_distance + places) * math.tan(bearing.half_angle))
-    return equivalent_radius(bearing, places, on)
-
-
-def surface_radius(bearing: Bearing, on: str) -> float:
-    """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
-    distance = bearing.apex_distance / math.cos(bearing.half_angle)
-    angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}
-    return 0.5 * bearing.roller_diameter if on == "roller" else distance * math.sin(angle[on])
-
-
-def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
-    """Compute the share of the length of each lamina that a patch covers, shape [lamina], [-].
-
-    A part that is rounding is none: the surface under it does not exist.
-    """
-    place = lamina_places(bearing, count)
-    half = 0.5 * bearing.effective_length / count
-    low = np.maximum(place - half, patch.offset - 0.5 * patch.length)
-    high = np.minimum(place + half, patch.offset + 0.5 * patch.length)
-    cover = np.clip((high - low) / (2.0 * half), 0.0, 1.0)
-    cover[cover < _SMALLEST_PART] = 0.0
-    cover[cover > 1.0 - _SMALLEST_PART] = 1.0
-    return np.asarray(cover)
 
 
 def damage_params(laminae: Float, width: int) -> DamageParams:
@@ -251,6 +224,12 @@ _LAST = layout.PATCH_POINTS - 2.0
 _SPRINGS = 0  # the work space has one page
 # of a contact, by which softness counts beside a gap where several patches meet [m]
 _USUAL_DEPTH = 5e-6
+# of a patch that counts as a whole where several meet [m]
+_FULL_SINK = 1e-6
+# Fields of the sound spring of a lamina in which the sums of a surface stand until its share is known: sinks,
+# their squares, and what counts of them
+_OF_RING = (layout.SPRING_GAP, layout.SPRING_SHARE, layout.SPRING_FIRMNESS)
+_OF_ROLLER = (layout.SPRING_RING_SLOPE, layout.SPRING_RING_SOFTENING, layout.SPRING_ROLLER_SLOPE)
 # an energy goes with the 19/9th power of the depth, its force with the 10/9th
 _ENERGY = 9.0 / 19.0
 
@@ -289,9 +268,11 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
     ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
 
     A patch that covers a part of a lamina leaves the rest as a spring of its own, so that forces are
-    continuous in the place and length of a patch. Where several patches meet on one lamina their gaps add;
-    when they cover different shares of it, one damaged spring stands for all of them, with the mean share
-    (by sink) and the mean gap and softness of the lamina kept.
+    continuous in the place and length of a patch. Where several patches meet on one lamina a damaged spring
+    stands for all of them. Its share is that of even sink: (sum of w)^2 over the sum of w^2 along the lamina,
+    w the sink, so that strips side by side have the sum of their shares and patches over each other their
+    mean, weighted by sink, as those of ring and roller have. It keeps the mean gap and softness of the
+    lamina. Of a share counts what `spall_cover` finds.
     """
     if damage is None:
         return False
@@ -303,15 +284,19 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
     zero = lanes.constant(0.0)
     for field in range(layout.SPRING_FIELDS * 2 * count):
         lanes.store(springs, _SPRINGS, field, zero)
-    add_patches(lanes, block, azimuths[0], count, layout.SPRING_RING_SLOPE, surfaces[0], springs)
-    add_patches(lanes, block, azimuths[1], count, layout.SPRING_ROLLER_SLOPE, surfaces[1], springs)
+    add_patches(lanes, block, azimuths[0], count, layout.SPRING_RING_SLOPE, _OF_RING, surfaces[0], springs)
+    add_patches(
+        lanes, block, azimuths[1], count, layout.SPRING_ROLLER_SLOPE, _OF_ROLLER, surfaces[1], springs
+    )
     one = lanes.constant(1.0)
     for k in range(count):
         sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
-        first = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
-        second = lanes.load(springs, _SPRINGS, sound + layout.SPRING_SHARE)
-        share = first / at_least(second, 1e-30)
+        on_ring, of_ring = _share_of_surface(lanes, springs, sound, _OF_RING)
+        on_roller, of_roller = _share_of_surface(lanes, springs, sound, _OF_ROLLER)
+        share = (on_ring * of_ring + on_roller * of_roller) / at_least(on_ring + on_roller, 1e-30)
         weight = 1.0 / at_least(share, 1e-12)
+        for field in range(sound, sound + layout.SPRING_FIELDS):
+            lanes.store(springs, _SPRINGS, field, zero)
         lanes.store(springs, _SPRINGS, sound + layout.SPRING_SHARE, 1.0 - share)
         lanes.store(springs, _SPRINGS, damaged + layout.SPRING_SHARE, share)
         for field in (layout.SPRING_GAP, layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
@@ -325,12 +310,22 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
 
 
 @inline
-def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
+def _share_of_surface(lanes, springs, sound, fields):
+    """Take the sum of the sinks of a surface [m], and the share of the lamina that its patches take [-]."""
+    first = lanes.load(springs, _SPRINGS, sound + fields[0])
+    second = lanes.load(springs, _SPRINGS, sound + fields[1])
+    counted = lanes.load(springs, _SPRINGS, sound + fields[2])
+    return first, at_most(counted * (first / at_least(second, 1e-30)), 1.0)
+
+
+@inline
+def add_patches(lanes, block, azimuth, count, slope_field, fields, surface, springs):
     """Add the moments of the gaps of one surface's patches to the springs of a contact.
 
-    Into the fields of the damaged spring go the sums of ``c w`` (share), ``c g`` (gap), ``c s`` (firmness),
-    ``c dg/dtheta`` (slope) and ``c ds/dtheta`` (softening), c the cover, s the softness and w the sink
-    ``|g|`` and s times a usual depth; into the share of the sound one that of w.
+    With the cover c, the part of it that counts k, the gap g, the softness s and the sink w of
+    `saturated_sink`, the fields of the damaged spring take in the sums of ``c g`` (gap), ``k s`` (firmness),
+    ``c dg/dtheta`` (slope) and ``k ds/dtheta`` (softening); the ``fields`` of the sound one those of
+    ``c w``, ``c w^2`` and ``k w``.
     """
     if surface is None:
         return
@@ -353,14 +348,43 @@ def add_patches(lanes, block, azimuth, count, slope_field, surface, springs):
                 firm = lanes.gather(surface.softness, cell + begin)
                 soft = lanes.gather(surface.softness, cell + (begin + 1))
                 softness = present * (firm + part * (soft - firm))
-                cover = surface.cover[patch, k]
-                sink = magnitude(gap) + _USUAL_DEPTH * softness
-                _increase(lanes, springs, damaged + layout.SPRING_SHARE, cover * sink)
-                _increase(lanes, springs, sound + layout.SPRING_SHARE, sink)
+                cover, counted = surface.cover[patch, k], surface.counted[patch, k]
+                sink = saturated_sink(gap, softness)
+                square = sink * sink * cover
+                square = square + _shared_squares(lanes, block, azimuth, patch, k, count, sink, surface)
+                _increase(lanes, springs, sound + fields[0], cover * sink)
+                _increase(lanes, springs, sound + fields[1], square)
+                _increase(lanes, springs, sound + fields[2], counted * sink)
                 _increase(lanes, springs, damaged + layout.SPRING_GAP, cover * gap)
-                _increase(lanes, springs, damaged + layout.SPRING_FIRMNESS, cover * softness)
+                _increase(lanes, springs, damaged + layout.SPRING_FIRMNESS, counted * softness)
                 _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))
-                _increase(lanes, springs, damaged + slope_field + 1, cover * climb * (soft - firm))
+                _increase(lanes, springs, damaged + slope_field + 1, counted * climb * (soft - firm))
+
+
+@inline
+def saturated_sink(gap, softness):
+    """Work out by how much a gap and soft edges count where several patches meet, [m].
+
+    Deep gaps count alike: nothing presses over them, however deep they are.
+    """
+    depth = magnitude(gap) + _USUAL_DEPTH * softness
+    return depth * _FULL_SINK / (_FULL_SINK + depth)
+
+
+@inline
+def _shared_squares(lanes, block, azimuth, patch, k, count, sink, surface):
+    """Sum twice the product of sinks over what a patch has in common with those before it, [m^2]."""
+    total = lanes.constant(0.0)
+    for other in range(min(patch, surface.shared.shape[0])):
+        shared = surface.shared[patch, other, k]
+        if shared > 0.0:
+            arc = patch_arc(azimuth, other, surface)
+            position = at_most(magnitude(arc) * surface.places[other, layout.PLACE_SCALE], _LAST)
+            cell = floor(position)
+            cell = cell + layout.PATCH_POINTS * (other * count + k)
+            beside = saturated_sink(lanes.gather(surface.paths, cell), lanes.gather(surface.softness, cell))
+            total = total + 2.0 * shared * lanes.load(surface.present, block, other) * beside * sink
+    return total
 
 
 @inline

@@ -5,18 +5,23 @@ from __future__ import annotations
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
 from beardyn_core.physics.defect import find_damage, springs_of
-from beardyn_core.physics.laminae import SMALLEST_APPROACH, add_moments, contact_spring
+from beardyn_core.physics.laminae import (
+    SMALLEST_APPROACH,
+    add_moments,
+    contact_spring,
+    prepare_coupling,
+)
 from beardyn_core.physics.lanes.lane_math import at_least, magnitude, quick_ninth_root, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import scale
 
 
 @inline
-def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches):
+def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches, coupling):
     """Sum elastic force with x^0, x^1 and tangent stiffness with x^0, x^1, x^2 over the laminae.
 
     ``approach`` (2 numbers): factors of x^0 and x^1 in the approach [m]; ``bend`` (2 numbers): factors of x^2
-    and x^3; ``reach``: half length of the roller [m].
+    and x^3; ``reach``: half length of the roller [m]; ``coupling``: `CouplingParams` or ``None``.
 
     References
     ----------
@@ -24,43 +29,52 @@ def lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patch
     """
     surface, roller_surface, damage = patches
     near = find_damage(lanes, block, azimuths, laminae.shape[1], (surface, roller_surface), damage)
-    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage)
+    return _near_or_far(lanes, near, approach, bend, laminae, reach, damage, coupling)
 
 
 @inline
-def cup_springs(lanes, block, approach, crown, azimuths, laminae, reach, faults):
+def cup_springs(lanes, block, approach, crown, azimuths, laminae, reach, faults, coupling):
     """Sum the springs on the cup, where only the error of a roller's profile bends the line; see above."""
     patches = (faults.cup, faults.roller, faults.cup_damage)
     if faults.crowns is None:
-        return lamina_springs(lanes, block, approach, None, azimuths, laminae, reach, patches)
+        return lamina_springs(lanes, block, approach, None, azimuths, laminae, reach, patches, coupling)
     bend = (crown, 0.0 * crown)
-    return lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches)
+    return lamina_springs(lanes, block, approach, bend, azimuths, laminae, reach, patches, coupling)
 
 
 @inline
-def _near_or_far(lanes, near, approach, bend, laminae, reach, damage):
+def _near_or_far(lanes, near, approach, bend, laminae, reach, damage, coupling):
     if damage is None:
-        return _sound_moments(lanes, approach, bend, laminae, reach)
+        return _sound_moments(lanes, approach, bend, laminae, reach, coupling)
     if near:
-        return _damaged_moments(lanes, approach, bend, laminae, damage)
-    return _sound_moments(lanes, approach, bend, laminae, reach)
+        return _spring_moments(lanes, approach, bend, laminae, damage, coupling)
+    return _sound_moments(lanes, approach, bend, laminae, reach, coupling)
 
 
 @inline
-def _sound_moments(lanes, approach, bend, laminae, reach):
-    zero = lanes.constant(0.0)
-    forces, stiffness = (zero, zero), (zero, zero, zero)
+def _sound_moments(lanes, approach, bend, laminae, reach, coupling):
     # where no roller of the block is in contact this look is all
     if any_positive(approach[0] + reach * magnitude(approach[1]) + most_bend(bend, reach)):
-        for k in range(laminae.shape[1]):
-            x = laminae[LAMINA_PLACE, k]
-            depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
-            touching = at_least(depth, SMALLEST_APPROACH)
-            tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
-            tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
-            force = tangent * touching
-            forces = (forces[0] + force, forces[1] + x * force)
-            stiffness = add_moments(stiffness, tangent, x)
+        return _pressed_moments(lanes, approach, bend, laminae, coupling)
+    zero = lanes.constant(0.0)
+    return (zero, zero), (zero, zero, zero)
+
+
+@inline
+def _pressed_moments(lanes, approach, bend, laminae, coupling):
+    if coupling is not None:
+        return _spring_moments(lanes, approach, bend, laminae, None, coupling)
+    zero = lanes.constant(0.0)
+    forces, stiffness = (zero, zero), (zero, zero, zero)
+    for k in range(laminae.shape[1]):
+        x = laminae[LAMINA_PLACE, k]
+        depth = approach[0] + x * approach[1] + _bend(bend, x) - laminae[LAMINA_DROP, k]
+        touching = at_least(depth, SMALLEST_APPROACH)
+        tangent = laminae[LAMINA_STIFFNESS, k] * quick_ninth_root(touching)
+        tangent = where_greater(depth, 0.0, tangent, 0.0 * depth)
+        force = tangent * touching
+        forces = (forces[0] + force, forces[1] + x * force)
+        stiffness = add_moments(stiffness, tangent, x)
     return forces, scale(10.0 / 9.0, stiffness)
 
 
@@ -89,14 +103,15 @@ def _all_factors(approach, bend):
 
 
 @inline
-def _damaged_moments(lanes, approach, bend, laminae, damage):
+def _spring_moments(lanes, approach, bend, laminae, damage, coupling):
     zero = lanes.constant(0.0)
     forces, stiffness = (zero, zero), (zero, zero, zero)
     factors = _all_factors(approach, bend)
-    laminae, springs = springs_of(laminae, damage, None)
+    prepare_coupling(lanes, factors, laminae, damage, coupling)
+    laminae, springs = springs_of(laminae, damage, coupling)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, None)
+        share, depth, tangent, _energy = contact_spring(lanes, factors, k, laminae, damage, coupling)
         tangent = share * tangent
         force = 0.9 * tangent * at_least(depth, 0.0)
         forces = (forces[0] + force, forces[1] + force * x)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
@@ -47,6 +48,24 @@ def equivalent_radius(bearing: Bearing, place: NDArray[np.float64], ring: str) -
     raceway = cone_distance / math.cos(bearing.half_angle) * math.tan(angle)
     side = -1.0 if ring == "cup" else 1.0
     return 1.0 / (1.0 / roller + side / raceway)
+
+
+def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
+    """Take radii of cylinders on a plane in place of the laminae's contacts with a surface, [lamina], [m].
+
+    A patch of a roller meets both rings: there a radius is the roller's own.
+    """
+    places = lamina_places(bearing, count)
+    if on == "roller":
+        return np.asarray((bearing.apex_distance + places) * math.tan(bearing.half_angle))
+    return equivalent_radius(bearing, places, on)
+
+
+def surface_radius(bearing: Bearing, on: str) -> float:
+    """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
+    distance = bearing.apex_distance / math.cos(bearing.half_angle)
+    angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}
+    return 0.5 * bearing.roller_diameter if on == "roller" else distance * math.sin(angle[on])
 
 
 def lamina_pressure(bearing: Bearing, lamina_load: NDArray[np.float64], ring: str) -> NDArray[np.float64]:

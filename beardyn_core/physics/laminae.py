@@ -124,7 +124,7 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
     gap = GapSums(lean, lean, lean, zero)
     deepest = approach[0] if damage is None else zero
     count = laminae.shape[1]
-    _prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
+    prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
     laminae, springs = springs_of(laminae, damage, effects.coupling)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
@@ -275,7 +275,7 @@ def _geometric_depth(approach, gap, k, laminae):
 
 
 @inline
-def _prepare_coupling(lanes, approach, laminae, damage, coupling):
+def prepare_coupling(lanes, approach, laminae, damage, coupling):
     """Load the springs of coupled laminae all at once; one over the edge of a patch joins as one."""
     if coupling is None:
         return

@@ -57,7 +57,7 @@ TIERS = {
         TierLimits(
             "quasistatic",
             "axlebox with cup, journal with cones, every roller but its skew and spin, cages in their plane",
-            _FAST,
+            _FAST | {"lamina_coupling"},
             1,  # third-octave bands to 8 kHz within 0.9 dB of 8 steps, fault lines and loads within 2 %
             needs_rib=True,
             smallest_laminae=2,

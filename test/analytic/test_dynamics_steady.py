@@ -11,7 +11,7 @@ import pytest
 from beardyn_core.bearing.kinematics import fault_frequencies, roller_cone_spin, roller_spin
 from beardyn_core.config import load_bearing
 from beardyn_core.physics.bodies.layout import ANGLE, CONTACT_OUTPUT, RADIUS, VELOCITY
-from beardyn_core.physics.defect import surface_radius
+from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.scene.defect import Spall
 from test.arrays import first_axis
 from test.kernels.rig import Rig

@@ -154,7 +154,7 @@ def run(scene: Scene) -> tuple[Block, ...]:
 def friction_in_every_step() -> Iterator[None]:
     """Rollers in a mirror have other neighbours, with which they decide what of their friction is held."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(build, "HELD_STEPS", 1.0)
+        patch.setattr(build, "HELD_SAMPLES", 0.0)
         yield
 
 

@@ -64,7 +64,7 @@ CUT = {
     "place_cages": ("bodies, cage", "None"),
     "pass_on": ("bodies, wrenches, energy, step, cage, gravity", "None"),
     # coupled laminae, faults and waviness
-    "_prepare_coupling": ("lanes, approach, laminae, damage, coupling", "None"),
+    "prepare_coupling": ("lanes, approach, laminae, damage, coupling", "None"),
     "find_damage": ("lanes, block, azimuths, count, surfaces, damage", "False"),
     "springs_of": ("laminae, damage, coupling", "(laminae, laminae.shape[1])"),
     "spring_damage": ("lanes, spring, damage", "(1.0, 0.0)"),

@@ -28,7 +28,7 @@ from beardyn_core.physics.bodies.layout import (
     TURN,
 )
 from beardyn_core.physics.bodies.losses import LOSSES
-from beardyn_core.physics.defect import surface_radius
+from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket
 from beardyn_core.scene.scene import Scene

@@ -15,12 +15,13 @@ from beardyn_core.physics.defect import (
     spring_damage,
     spring_slopes,
 )
+from beardyn_core.physics.lamina_springs import cup_springs
 from beardyn_core.physics.laminae import released_power
 from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
 from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
-from beardyn_core.physics.tiers.massless_roller import over_patches
+from beardyn_core.physics.tiers.massless_roller import faulted_load, over_patches
 from beardyn_core.physics.tiers.planar_roller import cone_waves
 from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.waviness import wave_gap
@@ -174,3 +175,26 @@ def powers(lanes: Any, cases: Any, out: Any, p: Any) -> None:
         lanes.store(out, case, 1, work)
         lanes.store(out, case, 2, settled.damped)
         lanes.store(out, case, 3, settled.slid)
+
+
+@entry
+def spring_contacts(lanes: Any, cases: Any, out: Any, reach: Any, p: Any) -> None:
+    """Cup contact of tier quasistatic: azimuth in the cup and approach of a level roller; output: force."""
+    for case in range(cases.shape[0]):
+        zero = lanes.constant(0.0)
+        both, faults = (lanes.load(cases, case, 0), zero), p.effects.faults
+        approach = (lanes.load(cases, case, 1), zero)
+        forces, _stiffness = cup_springs(
+            lanes, 0, approach, zero, both, p.laminae, reach, faults, p.effects.coupling
+        )
+        lanes.store(out, case, 0, forces[0])
+
+
+@entry
+def massless_rollers(lanes: Any, cases: Any, out: Any, p: Any) -> None:
+    """Rollers of tier lumped: azimuth in the cup and approach of cup and cone; output: load on the cup."""
+    for case in range(cases.shape[0]):
+        zero = lanes.constant(0.0)
+        angle, approach = lanes.load(cases, case, 0), lanes.load(cases, case, 1)
+        load = faulted_load(lanes, 0, approach, zero, angle, (zero, zero, 0.0), p.faults, p)
+        lanes.store(out, case, 0, load)

@@ -22,7 +22,7 @@ def pressed(
     lanes: Any,
     azimuths: list[float],
     depth: float,
-    patch: Patch,
+    patch: Patch | tuple[Patch, ...],
     *,
     rate: float = 0.0,
     effects: EffectSet | None = None,
@@ -32,7 +32,7 @@ def pressed(
 
     Shape [azimuth, output of `moving_contacts` and the slope of the energy over the depth].
     """
-    scene = scene_with(effects, defects=(patch,), laminae=laminae)
+    scene = scene_with(effects, defects=patch if isinstance(patch, tuple) else (patch,), laminae=laminae)
     p = parameters_of(scene, lanes.width)
     bearing = scene.bearing
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)

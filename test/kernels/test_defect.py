@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from beardyn_core.bearing.holed_line import lost_share
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.defect import FaultParams, surface_radius
+from beardyn_core.physics.defect import FaultParams
+from beardyn_core.physics.lamina_table import contact_radii, surface_radius
 from beardyn_core.physics.patch_path import edge_softness, reach_of, roller_path
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
@@ -223,12 +225,25 @@ def test_a_roller_of_one_spring_over_a_patch_carries_what_two_raceways_let_it(la
     assert np.all((slope >= 0.0) & (slope <= 1.0))
 
 
-def test_patch_covers_the_share_of_each_lamina_that_lies_in_it(lanes: Any) -> None:
+def test_patch_takes_of_each_lamina_a_share_of_what_lies_in_it_and_keeps_the_mean_gap(lanes: Any) -> None:
+    """One factor for all of a patch, 0.72 for a hole along half of the line (`test_spall_loss`)."""
     found = springs(lanes, [0.3], SPALL)[0]
     edges = (np.arange(7) / 6 - 0.5) * 0.05
-    overlap = [max(0.0, min(b, 0.0125) - max(a, -0.0125)) / (b - a) for a, b in itertools.pairwise(edges)]
-    np.testing.assert_allclose(found[:, 0], overlap, atol=1e-9)
-    np.testing.assert_allclose(found[np.array(overlap) > 1e-6, 1], 1e-4, rtol=1e-9)
+    overlap = np.array(
+        [max(0.0, min(b, 0.0125) - max(a, -0.0125)) / (b - a) for a, b in itertools.pairwise(edges)]
+    )
+    share = lost_by_a_hole(25e-3) / 0.5
+    assert 0.7 < share < 0.75
+    np.testing.assert_allclose(found[:, 0], share * overlap, rtol=1e-5, atol=1e-9)
+    np.testing.assert_allclose(found[:, 0] * found[:, 1], 1e-4 * overlap, rtol=1e-9, atol=1e-15)
+
+
+def lost_by_a_hole(length: float) -> float:
+    """Share of the load that a hole in the middle takes, [-]."""
+    bearing = scene_with().bearing
+    radius = float(contact_radii(bearing, "cup", 1)[0])
+    hole = (-0.5 * length, 0.5 * length)
+    return lost_share([hole], bearing.effective_length, radius, bearing.material.contact_modulus)
 
 
 def test_patches_of_cup_and_roller_add_and_overlap_keeps_the_mean_gap(lanes: Any) -> None:

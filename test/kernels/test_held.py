@@ -18,7 +18,7 @@ from beardyn_core.physics.laminae import Raceway, lamina_sums
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.lanes.vectors import Wrench
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
-from beardyn_core.physics.tiers.build import HELD_STEPS
+from beardyn_core.physics.tiers.build import HELD_SAMPLES
 from beardyn_core.physics.tiers.parameters import HeldParams, Parameters
 from test.kernels import naive, naive_traction
 from test.kernels.casting import through
@@ -115,7 +115,7 @@ def test_recalled_friction_is_the_coefficient_of_the_first_state_with_load_and_s
 def test_only_the_dear_law_is_held_and_no_explicit_step() -> None:
     held = parameters(TRACTION).held
     assert held is not None
-    assert held.steps == HELD_STEPS
+    assert held.steps == HELD_SAMPLES * standard_scene().numerics.steps_per_sample
     assert parameters(CoulombTraction()).held is None
     assert parameters(TRACTION, integrator="explicit").held is None
 

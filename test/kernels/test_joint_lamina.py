@@ -12,7 +12,8 @@ import pytest
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law, joint_depth, part_exponent
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
-from beardyn_core.physics.defect import surface_radius
+from beardyn_core.physics.lamina_table import surface_radius
+from beardyn_core.physics.spall_cover import counted_cover, lamina_cover
 from beardyn_core.scene.defect import Patch
 from test.kernels.pressed_roller import (
     ENERGY,
@@ -54,13 +55,18 @@ def coupled_root(laminae: int) -> LaminaRoot:
 
 
 @cache
-def line_share(offset: float, length: float, gap: float, laminae: int) -> tuple[float, float]:
-    """Force and moment of a line over a patch, of the sound line's force and of that by its length [-]."""
+def line_share(
+    offset: float, length: float, gap: float, laminae: int, counted: float = 1.0
+) -> tuple[float, float]:
+    """Force and moment of a line over a patch, of the sound line's force and of that by its length [-].
+
+    Of the patch's length a share counts, with a larger gap.
+    """
     edges = (np.arange(laminae + 1) / laminae - 0.5) * LENGTH
     low, high = np.maximum(edges[:-1], offset - 0.5 * length), np.minimum(edges[1:], offset + 0.5 * length)
     cover = np.maximum(high - low, 0.0) * laminae / LENGTH
     depth = np.full(laminae, DEPTH)
-    joint, share = joint_depth(depth, np.full(laminae, gap), cover, part_exponent(1.0))
+    joint, share = joint_depth(depth, np.full(laminae, gap / counted), counted * cover, part_exponent(1.0))
     loads, _, _ = coupled_law(np.array([joint, depth]), 1.0, coupled_root(laminae))
     pressing = loads[0] * share / loads[1].sum()
     return float(pressing.sum()), float(pressing @ (edges[:-1] + edges[1:])) / (2.0 * LENGTH)
@@ -107,7 +113,10 @@ def test_few_laminae_press_as_many(offset: float, length: float, laminae: int, g
 def test_kernel_presses_as_the_law(lanes: Any, offset: float, length: float, depth: float) -> None:
     """5e-3 of the sound line: what the passes of `couple_laminae` leave where laminae are free."""
     found = pressed(lanes, [NEAR, FAR], DEPTH, over(offset, length, depth), effects=COUPLED)
-    force, lever = line_share(offset, length, depth, 6)
+    scene = standard_scene()
+    cover = lamina_cover(scene.bearing, over(offset, length), 6)
+    counted = counted_cover(scene.bearing, [over(offset, length)], 6, LaminaCoupling())[0]
+    force, lever = line_share(offset, length, depth, 6, float(counted.sum() / cover.sum()))
     whole, middle = found[1, FORCE], found[1, MOMENT] / found[1, FORCE]
     assert found[0, FORCE] / whole == pytest.approx(force, abs=5e-3)
     assert (found[0, MOMENT] - middle * found[0, FORCE]) / whole == pytest.approx(

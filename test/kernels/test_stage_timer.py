@@ -28,7 +28,7 @@ from beardyn_core.physics.bodies.step_stages import (
     new_timers,
     stage_cycles,
 )
-from beardyn_core.physics.tiers.build import HELD_STEPS
+from beardyn_core.physics.tiers.build import HELD_SAMPLES
 
 X86 = platform.machine().lower() in ("x86_64", "amd64")
 pytestmark = pytest.mark.skipif(not X86, reason="only x86 lets a program read its cycle counter")
@@ -97,19 +97,20 @@ def test_a_step_that_was_interrupted_is_left_out_and_marks_are_free() -> None:
 
 @pytest.mark.parametrize("steps_per_sample", [1, 2, 3, 4, 5, 6, 9, 10, 16])
 @pytest.mark.parametrize("interrupted", [None, 0, 1])
-def test_what_is_worked_out_in_every_third_step_counts_by_a_third(
+def test_what_is_worked_out_in_a_step_of_two_samples_counts_by_their_steps(
     steps_per_sample: int, interrupted: int | None
 ) -> None:
     timers = new_timers()
     timers[MARKS, EMPTY] = 2.0
+    held = int(HELD_SAMPLES * steps_per_sample)
     timed = [step for step in range(512 * steps_per_sample) if step % PERIOD == 4]
     for k, step in enumerate(timed):
         row = CYCLES + (step // PERIOD) % TIMED_STEPS
         timers[row, CONTACT], timers[row, EMPTY] = 1000.0, 1.0
-        timers[row, FILM] = 900.0 if step % HELD_STEPS == 0 else 0.0
-        if k == interrupted and len(timed) >= 6:
+        timers[row, FILM] = 100.0 * held if step % held == 0 else 0.0
+        if k == interrupted:
             timers[row, CONTACT] += 1e5
-    assert stage_cycles(timers)[FILM] == pytest.approx(300.0)
+    assert stage_cycles(timers)[FILM] == pytest.approx(100.0)
     assert stage_cycles(timers)[CONTACT] == pytest.approx(1000.0)
 
 

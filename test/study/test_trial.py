@@ -121,10 +121,13 @@ def test_shapes_and_sensors_are_runs_of_their_own() -> None:
     assert patches["whole"][0].length == pytest.approx(effective)  # type: ignore[union-attr]
     assert patches["slot"][0].length == pytest.approx(0.008)  # type: ignore[union-attr]
     widths = [patch.width for patch in patches["round"]]  # type: ignore[union-attr]
-    assert widths == pytest.approx([0.004 * (1.0 - (2.0 / 3.0) ** 2) ** 0.5, 0.004, widths[0]])
+    assert len(widths) == 13
+    assert widths == pytest.approx([0.004 * (1.0 - (i / 6.5) ** 2) ** 0.5 for i in range(-6, 7)])
     lengths = [patch.length for patch in patches["round"]]  # type: ignore[union-attr]
     assert sum(lengths) == pytest.approx(0.004)
-    assert len({patch.width for patch in patches["irregular"]}) == 3  # type: ignore[union-attr]
+    irregular = [patch.width for patch in patches["irregular"]]  # type: ignore[union-attr]
+    assert len(set(irregular)) > 5
+    assert 0.0016 <= min(irregular) < max(irregular) <= 0.004
     names = [name for name, _ in slices(TrialResult.of(trial, "", []))]
     assert {"whole spalls", "mems_50g"} <= set(names)
 

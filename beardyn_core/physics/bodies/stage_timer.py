@@ -37,8 +37,9 @@ from beardyn_core.physics.bodies.step_stages import (
 )
 from beardyn_core.physics.lanes.lanes import VectorType
 
-# No multiple of the steps that hold friction, so that steps timed one after the other take turns.
-PERIOD = 128
+# A prime, so that steps timed one after the other take turns however many hold friction: all of their places
+# twice in a block, which has 512 steps and friction worked out in every second one for each step a sample.
+PERIOD = 127
 _TIMED = 4  # not the first step of a block, which takes the energy audit
 _HAS_COUNTER = platform.machine().lower() in ("x86_64", "amd64", "i386", "i686")
 _DOUBLE, _INT = ir.DoubleType(), ir.IntType(64)

@@ -24,8 +24,7 @@ from beardyn_core.bearing.rolling_resistance import (
     thermal_reduction,
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
-from beardyn_core.physics.defect import surface_radius
-from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
 from beardyn_core.physics.statics.static import StaticSolution
 
 

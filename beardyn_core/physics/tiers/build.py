@@ -48,8 +48,9 @@ from beardyn_core.physics.tiers.parameters import (
 from beardyn_core.physics.traction import traction_params
 from beardyn_core.scene.scene import Scene
 
-# steps from one time that friction of the raceways is worked out to the next, see `bodies.friction_substeps`
-HELD_STEPS = 3.0
+# waveform samples from one time that friction of the raceways is worked out to the next: 78 us, whatever the
+# step, see `bodies.friction_substeps`
+HELD_SAMPLES = 2.0
 LEAST_SHARE, MOST_SHARE = 1.0 / 12.0, 0.25
 _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]
 _MARGIN = 1.1  # on the frequency, for ribs and moving rings
@@ -123,7 +124,8 @@ def held_params(scene: Scene, arrangement: Arrangement) -> HeldParams | None:
     if not dear or scene.numerics.integrator == "explicit":
         return None
     fields = HELD_COEFFICIENT + scene.numerics.laminae
-    return HeldParams(HELD_STEPS, aligned_zeros(2 * arrangement.block_count, fields, arrangement.width))
+    steps = max(1.0, HELD_SAMPLES * scene.numerics.steps_per_sample)
+    return HeldParams(steps, aligned_zeros(2 * arrangement.block_count, fields, arrangement.width))
 
 
 def build_parameters(

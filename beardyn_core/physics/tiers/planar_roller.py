@@ -225,7 +225,15 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     crown = crown_bend(lanes, block, faults.crowns)
     azimuths_on_cup = (azimuths[0], -azimuths[2])
     cup = cup_springs(
-        lanes, block, cup_approach, crown, azimuths_on_cup, base.laminae, roller.half_length, faults
+        lanes,
+        block,
+        cup_approach,
+        crown,
+        azimuths_on_cup,
+        base.laminae,
+        roller.half_length,
+        faults,
+        effects.coupling,
     )
     motion = (views[2], views[3])
     centre = subtract((place[0], zero, place[1]), views[0])
@@ -237,7 +245,7 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     cone = lamina_springs(
         lanes, block, (line[3][0] - cone_wave, line[3][1]), (line[3][2] + crown, line[3][3]),
         (azimuths[1], _PI - azimuths[2]), base.laminae, roller.half_length,
-        (faults.cone, faults.roller, faults.cone_damage),
+        (faults.cone, faults.roller, faults.cone_damage), effects.coupling,
     )  # fmt: skip
     cone_normal = (line[2][0], line[2][2])
     cone_tilt = (tilt_arm(line[0], line[2]), tilt_arm(line[1], line[2]))

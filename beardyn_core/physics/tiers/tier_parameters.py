@@ -159,19 +159,19 @@ class QuasistaticParameters(NamedTuple):
 def without_roller_dynamics(base: Parameters) -> Parameters:
     """Leave out what only the dynamics of the rollers read: each number costs time in every call."""
     effects = base.effects._replace(
-        coupling=None, coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
+        coulomb=None, mixed=None, load_sharing=None, small_rib=None, cage=None,
         structure=None,
     )  # fmt: skip
     return base._replace(effects=effects, explicit=None, held=None)
 
 
 def without_surfaces(base: Parameters) -> Parameters:
-    """Leave out the faults of raceways and rollers, which the lumped tier has in a form of its own."""
+    """Leave out laminae and faults of raceways and rollers, which the lumped tier has in forms of its own."""
     faults = base.effects.faults._replace(
         cup=None, cone=None, roller=None, cup_damage=None, cone_damage=None,
         cup_waves=None, cone_waves=None, roller_waves=None,
     )  # fmt: skip
-    return base._replace(effects=base.effects._replace(faults=faults))
+    return base._replace(effects=base.effects._replace(faults=faults, coupling=None))
 
 
 def flatten_profiles(base: Parameters, scene: Scene) -> Parameters:
