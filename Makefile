@@ -125,7 +125,7 @@ format: $(VENV)/.ready-dev ## write the style instead of checking it
 	$(BIN)/ruff format .
 
 clean: ## remove the environment and everything that was built
-	rm -rf $(VENV) build install log dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis \
+	rm -rf $(VENV) build install log dist *.egg-info beardyn_core/shipped .mypy_cache .ruff_cache .pytest_cache .hypothesis \
 		.import_linter_cache .coverage htmlcov docs/site
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -144,11 +144,14 @@ endef
 $(VENV)/.ready-core: $(METADATA) | $(BIN)/python
 	$(call install,)
 
-# The kernels of the demo are compiled while pip brings the rest; if that fails, the demo compiles them.
+# The kernels that the demo measures this machine with are compiled while pip brings the rest; where that fails, the
+# demo compiles them.
 $(VENV)/.ready: $(METADATA) | $(VENV)/.ready-core
 	@echo "Installing beardyn[$(call extras,$(DRAWING))] into $(VENV)"
-	@$(BIN)/python -m beardyn_core warmup $(DEMO_SCENE) >/dev/null 2>&1 & \
-	$(PIP_INSTALL) -e '.[$(call extras,$(DRAWING))]'; failed=$$?; wait; exit $$failed
+	@$(BIN)/python -m beardyn_core warmup $(DEMO_SCENE) --tier quasistatic >/dev/null 2>&1 & \
+	compiling=$$!; trap 'kill $$compiling 2>/dev/null' INT TERM; \
+	if $(PIP_INSTALL) -e '.[$(call extras,$(DRAWING))]'; then wait $$compiling || true; \
+	else kill $$compiling 2>/dev/null; exit 1; fi
 	@touch $@
 
 $(VENV)/.ready-test: $(METADATA) | $(BIN)/python

@@ -61,7 +61,7 @@ TWIN = (
         0.0,
         "simulated seconds per wall second, 1 is real time, 0 is as fast as it goes (in live mode: 1); "
         "in lockstep the results do not depend on it, unless the scene leaves effects and tier open: above 0 "
-        "the best tier that keeps the pace on this machine is taken then",
+        "(live: always) a faster tier is taken where this machine does not keep the pace otherwise",
         minimum=0.0,
         maximum=1000.0,
         live=True,

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.scene.tier import TIERS
 
 if TYPE_CHECKING:
@@ -26,25 +28,34 @@ class Kept:
 
     scene: Scene
     tier: str
-    note: str  # what was measured and given up; empty where nothing was
+    note: str  # what was measured and given up; empty where the tier is that of the scene
 
 
 def keep_pace(
-    read: Callable[[str], OpenScene], pace: float, measure: Callable[[Scene], float] | None = None
+    usual: OpenScene,
+    read: Callable[[str], OpenScene],
+    pace: float,
+    measure: Callable[[Scene], float] | None = None,
+    of_box: Callable[[Scene], Scene] | None = None,
 ) -> Kept:
-    """Take the best tier that runs at a pace with a margin.
+    """Take the best tier that runs at a pace with a margin: that of the scene, or a faster one.
 
-    Where the full tier is not sure to keep it, the quasistatic one is measured first: how fast it is next to
-    what it costs elsewhere says whether the full one is worth compiling.
+    Where that of the scene is not sure to keep it, the next one is measured first: how fast it is next to
+    what it costs elsewhere says whether the other is worth compiling. A tier that the scene cannot be
+    computed in is left out. Where nothing can be measured the tier stays that of the scene.
 
     Parameters
     ----------
+    usual : OpenScene
+        As it would be without a pace.
     read : callable
         Reads the scene in a tier that it is given, everything else as written.
     pace : float
         Simulated seconds per wall second that are asked for.
     measure : callable, optional
         Gives the simulated seconds per wall second of a scene; `measured_speed` by default.
+    of_box : callable, optional
+        Makes the scene of one axlebox of several.
 
     Raises
     ------
@@ -53,45 +64,56 @@ def keep_pace(
     """
     from beardyn_core.choice.load import choice_for, complete_scene
 
-    found = {tier: read(tier) for tier in TIERS}
+    def whole(found: OpenScene) -> Scene:
+        scene = complete_scene(found, outside_load=True)
+        return scene if of_box is None else of_box(scene)
+
+    scene = whole(usual)
+    found = {scene.tier: usual}
+    best_first = tuple(reversed(TIERS))
+    for tier in best_first[best_first.index(scene.tier) + 1 :]:
+        with suppress(InputError):
+            found[tier] = read(tier)
+    best, *faster = found
+    if not faster:
+        return Kept(scene, best, "")
     choices = {tier: choice_for(each) for tier, each in found.items()}
     speeds: dict[str, float] = {}
     needed = MARGIN * pace
 
     def holds(tier: str) -> bool:
         if tier not in speeds:
-            speeds[tier] = (measure or measured_speed)(complete_scene(found[tier], outside_load=True))
+            speeds[tier] = (measure or measured_speed)(whole(found[tier]))
         return speeds[tier] >= needed
 
-    lumped, middle, best = TIERS  # from the fastest to the best
-    taken = middle
-    if _SURELY * needed * choices[best].seconds <= 1.0 and holds(best):
-        taken = best
-    elif holds(middle):
-        machine = speeds[middle] * choices[middle].seconds  # next to the one that costs were measured on
-        if machine >= needed * choices[best].seconds and holds(best):
-            taken = best
-    else:
-        holds(lumped)
-        taken = lumped
-    note = "" if taken == best else _note(taken, best, choices, speeds, pace)
-    return Kept(complete_scene(found[taken], outside_load=True), taken, note)
+    try:
+        if _SURELY * needed * choices[best].seconds <= 1.0:
+            stays = holds(best)
+        else:
+            # next to the machine that costs were measured on
+            machine = speeds[faster[0]] * choices[faster[0]].seconds if holds(faster[0]) else 0.0
+            stays = machine >= needed * choices[best].seconds and holds(best)
+        taken = best if stays else next((tier for tier in faster if holds(tier)), faster[-1])
+    except (InputError, ValidityError) as error:
+        return Kept(scene, best, f"tier {best} stays, for the speed of this machine is not known: {error}")
+    if taken == best:
+        return Kept(scene, best, "")
+    return Kept(whole(found[taken]), taken, _note(taken, best, choices, speeds, pace))
 
 
 def measured_speed(scene: Scene) -> float:
-    """Run the beginning of a scene and give the simulated seconds per wall second."""
+    """Run the beginning of a scene, less than a second, and give the simulated seconds per wall second."""
     from beardyn_core.run import start
 
-    simulation = start(scene, _SETTLING_S + _MEASURED_S)
-    began, simulated = 0.0, 0.0
+    simulation = start(scene, min(_SETTLING_S + _MEASURED_S, scene.duration))
+    began, begin, simulated = time.perf_counter(), 0.0, 0.0
     for block in simulation.blocks():
-        if block.end_ns <= _SETTLING_S * 1e9:
-            began = time.perf_counter()
-            continue
-        simulated = block.end_ns * 1e-9 - _SETTLING_S
-        if time.perf_counter() - began > _LOOK_S:
+        simulated = block.end_ns * 1e-9
+        if simulated <= _SETTLING_S:
+            began, begin = time.perf_counter(), simulated
+        elif time.perf_counter() - began > _LOOK_S:
             break
-    return simulated / max(time.perf_counter() - began, 1e-9)
+    return (simulated - begin) / max(time.perf_counter() - began, 1e-9)
 
 
 def _note(taken: str, best: str, choices: dict[str, Choice], speeds: dict[str, float], pace: float) -> str:

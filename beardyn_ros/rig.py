@@ -163,7 +163,7 @@ def scene_rig(
     def chosen() -> Kept:
         tier_is_open = found.free.tier or (found.free.effects and "tier" not in found.keys)
         if pace > 0.0 and tier_is_open:
-            return keep_pace(read, pace)
+            return keep_pace(found, read, pace, of_box=of_box)
         whole = complete_scene(found, outside_load=True)
         return Kept(whole if of_box is None else of_box(whole), whole.tier, "")
 
@@ -171,13 +171,15 @@ def scene_rig(
         kept = chosen()
         twin = Twin(kept.scene)
         description = RunDescription.of(kept.scene, twin.truth(), twin.body_names)
+        if kept.note:
+            description = replace(description, truth={**description.truth, "tier_note": kept.note})
         return Rig(twin, description, forces, tier_note=kept.note)
 
     return build
 
 
-def box_rig(train: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of one box, see `TwinNode`."""
+def box_rig(train: Axleboxes, box: Box, pace: float = 0.0) -> Callable[[str, str, str], Callable[[], Rig]]:
+    """Make the loader of the rig of one box, see `TwinNode` and, for ``pace``, `scene_rig`."""
     from beardyn_core.config.boxes import scene_of_box
 
     place = {
@@ -189,7 +191,7 @@ def box_rig(train: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[]
 
     def load(scene: str, tier: str, effects: str) -> Callable[[], Rig]:
         build = scene_rig(
-            scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=train), box)
+            scene, tier, effects, lambda whole: scene_of_box(replace(whole, axleboxes=train), box), pace
         )
 
         def build_box() -> Rig:
@@ -203,8 +205,8 @@ def box_rig(train: Axleboxes, box: Box) -> Callable[[str, str, str], Callable[[]
     return load
 
 
-def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
-    """Make the loader of the rig of a box whose twin has a process of its own.
+def lone_box_rig(name: str, pace: float = 0.0) -> Callable[[str, str, str], Callable[[], Rig]]:
+    """Make the loader of the rig of a box whose twin has a process of its own; ``pace`` as of `scene_rig`.
 
     It is as the scene's axleboxes say; where the scene has none, a box of a car with the scene's defects.
     """
@@ -217,6 +219,6 @@ def lone_box_rig(name: str) -> Callable[[str, str, str], Callable[[], Rig]]:
                 f"parameter 'box': '{name}' is not one box; node car_twin has the twins of several"
             )
         train = train or replace(CAR, faulty=(boxes[0].name,))
-        return box_rig(train, boxes[0])(scene, tier, effects)
+        return box_rig(train, boxes[0], pace)(scene, tier, effects)
 
     return load

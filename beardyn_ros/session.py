@@ -231,9 +231,8 @@ class TwinSession:
     def _thread_main(self) -> None:
         try:
             rig = self._make_rig()
-            if rig.tier_note:
+            with self._condition:
                 self._report.tier_note = rig.tier_note
-                self._set_state(COMPILING, rig.tier_note)
             rig.twin.warm()
             gc.collect()
             gc.freeze()  # compiler and kernels stay, see `run_node`

@@ -71,8 +71,7 @@ class TwinNode(LifecycleNode):
         self.finished = False
         self.exit_code = 0
         self._values = ParameterValues(self, PARAMETERS["twin"])
-        box = self._values.box
-        self._load_rig = load_rig or (lone_box_rig(box) if box else self._scene_rig)
+        self._load_rig = load_rig or self._rig_of_scene
         self._frame = frame_of(self.get_namespace(), self._values.frame_id)
         self._description = DescriptionPublisher(self, self._frame, self._values)
         self._name = diagnostic_name(self.get_namespace(), TWIN)
@@ -83,7 +82,7 @@ class TwinNode(LifecycleNode):
         self._session: TwinSession | None = None
         self._consumed_ns: int | None = None
         self._clock_ns = 0
-        self._announced = self._load_lacks = ""
+        self._announced = self._load_lacks = self._tier_note = ""
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
         self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
@@ -263,8 +262,11 @@ class TwinNode(LifecycleNode):
         self._end_session("the twin was told to quit")
         self.finished = True
 
-    def _scene_rig(self, scene: str, tier: str, effects: str) -> Callable[[], Rig]:
-        return scene_rig(scene, tier, effects, pace=self._speed_factor)
+    def _rig_of_scene(self, scene: str, tier: str, effects: str) -> Callable[[], Rig]:
+        box, pace = self._values.box, self._speed_factor
+        if box:
+            return lone_box_rig(box, pace)(scene, tier, effects)
+        return scene_rig(scene, tier, effects, pace=pace)
 
     @property
     def _speed_factor(self) -> float:
@@ -289,6 +291,9 @@ class TwinNode(LifecycleNode):
             self._load_lacks = report.load_lacks
             if report.load_lacks:
                 self.get_logger().warning(report.load_lacks)
+        if report.tier_note != self._tier_note:
+            self._tier_note = report.tier_note
+            self.get_logger().info(report.tier_note)
         sentence = f"{report.state}: {report.sentence}"
         if needs_attention(report) and sentence != self._announced:
             if self._session.exit_code:

@@ -127,6 +127,10 @@ def _in_tier(name: str, laminae: int = 6) -> Callable[[Scene], Scene]:
     return changed
 
 
+def _coupled(scene: Scene) -> Scene:
+    return replace(scene, effects=replace(scene.effects, lamina_coupling=LaminaCoupling()))
+
+
 CHANGES: dict[str, Callable[[Scene], Scene]] = {
     "+ structure modes": _in_box,
     "+ faults": _with_faults,
@@ -136,6 +140,7 @@ CHANGES: dict[str, Callable[[Scene], Scene]] = {
     "tier lumped": _in_tier("lumped"),
     "tier quasistatic": _in_tier("quasistatic"),
     "tier quasistatic, laminae 20": _in_tier("quasistatic", 20),
+    "tier quasistatic, coupled": lambda scene: _in_tier("quasistatic")(_coupled(scene)),
 }
 
 

@@ -30,6 +30,12 @@ executor, activate solves the equilibrium under the first load and runs; with `a
 itself. All nodes tick by the wall clock, with `use_sim_time` on or off; while the twin is paused `/clock`
 repeats the time at which it stands.
 
+At a `speed_factor` above 0, and in live mode, a scene that leaves effects and tier open runs in its own tier
+if that keeps the pace here, else in the best faster one: the twin simulates its beginning and asks for 1.3
+times the pace, because messages, recorder and monitor take their part. What that costs is in the log, in the
+status and in `truth`: the measured speeds, and the bounds of the errors beside those of the scene's tier. Name
+a `tier` to have the same one on every machine; `car_twin` does not choose.
+
 At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
 one after the other over the next 20 ms of simulated time, so that readers with sensor data QoS (depth 5) get
 them all. At 0 they come block by block: such a reader needs a depth of a few hundred, or `reliable` with keep
@@ -54,6 +60,7 @@ to its end.
 * `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
   handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
   of the simulation alone, `processor_time_per_simulated_time` counts all threads of the process.
+* `tier_note` is there when the tier is a faster one than the scene's for the sake of the pace.
 * `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
   wall time.
 * WARN goes again 5 s after the last refused or lost message; the counts stay.

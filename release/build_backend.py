@@ -56,41 +56,50 @@ def build_wheel(
     wheel_directory: str, config_settings: Settings = None, metadata_directory: str | None = None
 ) -> str:
     """Build a wheel with the kernels of the present sources and no others."""
-    shutil.rmtree(SHIPPED, ignore_errors=True)
-    if _wanted(config_settings) and find_spec("numba"):
-        with tempfile.TemporaryDirectory() as folder:
-            _compile(Path(folder))
-    return build_meta.build_wheel(wheel_directory, config_settings, metadata_directory)
+    # what an earlier build has left would go into the wheel, too
+    for left in (SHIPPED, *ROOT.glob("build/lib*/beardyn_core/shipped")):
+        shutil.rmtree(left, ignore_errors=True)
+    try:
+        if _wanted(config_settings) and find_spec("numba"):
+            with tempfile.TemporaryDirectory() as folder:
+                ship(Path(folder))
+        return build_meta.build_wheel(wheel_directory, config_settings, metadata_directory)
+    finally:
+        shutil.rmtree(SHIPPED, ignore_errors=True)
 
 
 def _wanted(settings: Settings) -> bool:
     return (settings or {}).get("kernels") != "no" and platform.machine() in ("x86_64", "AMD64")
 
 
-def _compile(folder: Path) -> None:
+def ship(folder: Path) -> None:
     """Choose effects, then compile for all levels side by side; a failure is told and leaves out its part."""
     failure = _run("choose", folder, {})
-    if not failure:
-        shutil.copytree(folder / "choices", SHIPPED / "choices")
+    _copy(folder / "choices", SHIPPED / "choices")
     print(f"effects of the default scene: {failure or 'chosen'}", flush=True)
     named = runpy.run_path(str(ROOT / "beardyn_core" / "base" / "shipped_kernels.py"))
     levels, told = list(named["LEVELS"]), named["told_to_numba"]
     for level in levels:
-        shutil.copytree(folder / "choices", folder / level / "choices")
+        _copy(folder / "choices", folder / level / "choices")
     with ThreadPoolExecutor() as pool:
         failures = pool.map(lambda level: _run("compile", folder / level, told(level)), levels)
         for level, failure in zip(levels, failures, strict=True):
-            if not failure:
-                shutil.copytree(folder / level / "kernels", SHIPPED / "kernels", dirs_exist_ok=True)
+            _copy(folder / level / "kernels", SHIPPED / "kernels")
             print(f"kernels for {level}: {failure or 'compiled'}", flush=True)
+
+
+def _copy(source: Path, target: Path) -> None:
+    if source.is_dir():
+        shutil.copytree(source, target, dirs_exist_ok=True)
 
 
 def _run(task: str, cache: Path, environment: dict[str, str]) -> str:
     """Run a task of `compile_kernels` with a cache of its own; says how it failed."""
     path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH"))))
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     done = subprocess.run(
         [sys.executable, str(ROOT / "release" / "compile_kernels.py"), task],
-        env={**os.environ, **environment, "BEARDYN_CACHE_DIR": str(cache), "PYTHONPATH": path},
+        env={**inherited, **environment, "BEARDYN_CACHE_DIR": str(cache), "PYTHONPATH": path},
         text=True,
         capture_output=True,
         check=False,

@@ -23,6 +23,7 @@ Interval = tuple[float, float]  # along the line, from its middle [m]
 
 PRESSURE = 0.8e9  # of the sound contact [Pa]: 9 kN on a roller of HS130x230
 _GROWTH = 1.4  # of a strip over the one nearer to an end of the line or of a hole
+_NARROWEST = 1.0  # strip or hole, over the half width of the contact
 _WIDTHS = 4  # times that the widths of the strips are found from their loads
 # Half width over which a uniform pressure has the mean sink of Hertz's, weighted by Hertz's: exp(3/4) / 2
 _UNIFORM = 0.5 * math.exp(0.75)
@@ -62,36 +63,43 @@ def lost_share(
     Love (1929) for the sink beside a pressed rectangle; Johnson (1985), Contact Mechanics, section 4.2, for
     the width and the approach of a line contact.
     """
-    clipped = ((max(low, -0.5 * length), min(high, 0.5 * length)) for low, high in holes)
-    merged = merge_intervals([each for each in clipped if each[0] < each[1]])
-    if not merged:
+    least = _NARROWEST * _half_width(radius, contact_modulus, pressure)
+    found = merge_holes(holes, length, least)
+    if not found:
         return 0.0
-    if length - covered_length(merged) <= 1e-9 * length:
+    if found == ((-0.5 * length, 0.5 * length),):
         return 1.0
-    return _lost_share(merged, length, radius, contact_modulus, pressure)
+    return _lost_share(found, length, radius, contact_modulus, pressure)
 
 
-def merge_intervals(intervals: Sequence[Interval]) -> tuple[Interval, ...]:
-    """Merge intervals that overlap or touch, in ascending order."""
+def merge_holes(holes: Sequence[Interval], length: float, least: float) -> tuple[Interval, ...]:
+    """Merge holes of a line in ascending order; what is shorter than a least length [m] does not count.
+
+    Neither a hole nor what is left between two of them, or between one and an end of the line: so narrow a
+    ridge gives way under its load, and strips of a half-space tell nothing of it.
+    """
+    half = 0.5 * length
     merged: list[Interval] = []
-    for low, high in sorted(intervals):
-        if merged and low <= merged[-1][1] + 1e-9:
+    for low, high in sorted((max(low, -half), min(high, half)) for low, high in holes):
+        low, high = (-half if low < least - half else low), (half if high > half - least else high)
+        if high - low <= 0.0:
+            continue
+        if merged and low < merged[-1][1] + least:
             merged[-1] = (merged[-1][0], max(merged[-1][1], high))
         else:
             merged.append((low, high))
-    return tuple(merged)
+    return tuple(each for each in merged if each[1] - each[0] >= least)
 
 
-def covered_length(intervals: Sequence[Interval]) -> float:
-    """Sum the lengths of intervals, parts that overlap once, [m]."""
-    return sum(high - low for low, high in merge_intervals(intervals))
+def _half_width(radius: float, contact_modulus: float, pressure: float) -> float:
+    return 4.0 * radius * pressure / contact_modulus
 
 
 @lru_cache(maxsize=4096)
 def _lost_share(
     holes: tuple[Interval, ...], length: float, radius: float, contact_modulus: float, pressure: float
 ) -> float:
-    half_width = 4.0 * radius * pressure / contact_modulus
+    half_width = _half_width(radius, contact_modulus, pressure)
     ends = [-0.5 * length, *(end for hole in holes for end in hole), 0.5 * length]
     edges = _graded(np.unique(ends), half_width)
     low, high = edges[:-1], edges[1:]

@@ -30,6 +30,8 @@ _MODES, _MODES_SHARE = (0.0, 16.0, 50.0, 99.0), (0.0, 0.39, 0.76, 1.0)
 _FAST_BENDING, _FAST_REST = 0.25, 0.001
 # what rollers that move in their pockets add to a step of tier quasistatic: docs/model.md
 _LOOSE_SHARE = 0.15
+# what coupled laminae add to one: `python benchmarks/effect_costs.py --only quasistatic`
+_COUPLED_SHARE = 0.44
 # effects computed for every lamina: their cost grows with the count
 _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
@@ -99,6 +101,8 @@ class Costs:
 
     def scaled(self, effect: str, share: float, tier: str, laminae: int) -> float:
         """Scale the cost of an effect, measured in the full tier at 6 laminae, to another tier and count."""
+        if tier == "quasistatic" and effect == "lamina_coupling" and share > 0.0:
+            return _COUPLED_SHARE * self.ratios["tier quasistatic"] * laminae / _REFERENCE_LAMINAE
         if tier != "full":
             return _FAST_BENDING * share if effect == "structure" else min(share, _FAST_REST)
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share

@@ -22,7 +22,7 @@ from beardyn_core.physics.journal import bending_give
 from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover
 from beardyn_core.physics.tiers.friction_steps import StepChoice
-from beardyn_core.physics.tiers.step_choice import choose_steps
+from beardyn_core.physics.tiers.step_choice import USUAL_NOISE, choose_steps
 from beardyn_core.scene.defect import Patch
 
 _FINE = 400
@@ -162,6 +162,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         mounting=scene.mounting,
         band=band,
         bending=partial(bending_give, scene),
+        noise=min((sensor.noise_density for sensor in scene.sensors), default=USUAL_NOISE),
     )
     return refine_for_sensors(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
 

@@ -97,6 +97,7 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
     if not patches:
         return None
     count = scene.numerics.laminae
+    coupling = None if "lamina_coupling" in scene.missing_effects else scene.effects.lamina_coupling
     places = np.zeros((len(patches), layout.PATCH_FIELDS))
     present = np.zeros((arrangement.block_count, len(patches), arrangement.width))
     paths = np.zeros((len(patches), count, layout.PATCH_POINTS))
@@ -109,7 +110,7 @@ def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfacePa
         places,
         present,
         np.array([lamina_cover(scene.bearing, patch, count) for patch in patches]),
-        counted_cover(scene.bearing, patches, count, scene.effects.lamina_coupling),
+        counted_cover(scene.bearing, patches, count, coupling),
         shared_cover(scene.bearing, patches, count),
         paths.reshape(-1),
         np.zeros(paths.size),
@@ -348,7 +349,10 @@ def add_patches(lanes, block, azimuth, count, slope_field, fields, surface, spri
                 firm = lanes.gather(surface.softness, cell + begin)
                 soft = lanes.gather(surface.softness, cell + (begin + 1))
                 softness = present * (firm + part * (soft - firm))
-                cover, counted = surface.cover[patch, k], surface.counted[patch, k]
+                cover = surface.cover[patch, k]
+                # what stands higher presses with all that is of it
+                zero = 0.0 * gap
+                counted = where_greater(zero, gap, cover + zero, surface.counted[patch, k] + zero)
                 sink = saturated_sink(gap, softness)
                 square = sink * sink * cover
                 square = square + _shared_squares(lanes, block, azimuth, patch, k, count, sink, surface)
@@ -381,8 +385,14 @@ def _shared_squares(lanes, block, azimuth, patch, k, count, sink, surface):
             arc = patch_arc(azimuth, other, surface)
             position = at_most(magnitude(arc) * surface.places[other, layout.PLACE_SCALE], _LAST)
             cell = floor(position)
+            part = position - cell
             cell = cell + layout.PATCH_POINTS * (other * count + k)
-            beside = saturated_sink(lanes.gather(surface.paths, cell), lanes.gather(surface.softness, cell))
+            gap, gap_after = lanes.gather(surface.paths, cell), lanes.gather(surface.paths, cell + 1.0)
+            soft, soft_after = (
+                lanes.gather(surface.softness, cell),
+                lanes.gather(surface.softness, cell + 1.0),
+            )
+            beside = saturated_sink(gap + part * (gap_after - gap), soft + part * (soft_after - soft))
             total = total + 2.0 * shared * lanes.load(surface.present, block, other) * beside * sink
     return total
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
+from beardyn_core.physics.tiers.step_choice import USUAL_NOISE
 from beardyn_core.run import blocks
-from beardyn_core.scene.sensor import Accelerometer
 from test.convergence.test_fast_step import bands
 from test.tiers.runs import Float
 
@@ -17,7 +17,7 @@ SETTLED, DURATION = 0.2, 1.24
 BEGINNINGS = (1, 2, 3)
 FIRST = 4
 CENTRE = 1000.0 * 10.0 ** (np.arange(-10, 11) / 10.0)[FIRST:]
-NOISE = Accelerometer().noise_density
+NOISE = USUAL_NOISE
 
 
 def powers(name: str, steps: int, seed: int) -> Float:

@@ -239,9 +239,9 @@ def test_patch_takes_of_each_lamina_a_share_of_what_lies_in_it_and_keeps_the_mea
 
 
 def lost_by_a_hole(length: float) -> float:
-    """Share of the load that a hole in the middle takes, [-]."""
+    """Share of the load that a hole in the middle takes, between the radii of cup and cone, [-]."""
     bearing = scene_with().bearing
-    radius = float(contact_radii(bearing, "cup", 1)[0])
+    radius = 0.5 * sum(float(contact_radii(bearing, ring, 1)[0]) for ring in ("cup", "cone"))
     hole = (-0.5 * length, 0.5 * length)
     return lost_share([hole], bearing.effective_length, radius, bearing.material.contact_modulus)
 

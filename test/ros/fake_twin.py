@@ -146,7 +146,7 @@ def main(words: Sequence[str]) -> int:
     if words[0] == "car_twin":
         from beardyn_ros import car
 
-        car.box_rig = lambda train, box: lambda *_: fake_rig("fake", "")
+        car.box_rig = lambda train, box, pace=0.0: lambda *_: fake_rig("fake", "")
         return car.run_twins(words[1:])
     from beardyn_ros.twin_node import main as twin_main
 

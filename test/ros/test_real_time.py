@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from beardyn_core.base.errors import ValidityError
 from beardyn_core.config import read_scene
 from beardyn_core.config.load import OpenScene
 from beardyn_core.scene.scene import Scene
@@ -33,7 +33,7 @@ def kept(speeds: dict[str, float], pace: float = 1.0) -> tuple[Kept, list[str]]:
         measured.append(scene.tier)
         return speeds[scene.tier]
 
-    return keep_pace(read, pace, measure), measured
+    return keep_pace(read("full"), read, pace, measure), measured
 
 
 @pytest.mark.parametrize(
@@ -61,6 +61,33 @@ def test_the_best_tier_with_a_margin_is_taken_and_no_other_is_compiled(
 def test_a_slow_pace_has_the_full_tier_without_compiling_another() -> None:
     found, measured = kept({"full": 0.5}, pace=0.05)
     assert (found.tier, measured, found.note) == ("full", ["full"], "")
+
+
+def test_a_tier_that_the_automatic_choice_takes_is_not_made_slower() -> None:
+    """`effects: auto` takes the cheapest tier within the accuracy: here a faster one than full."""
+    given: dict[Any, Any] = {("effects",): "auto"}
+    found = keep_pace(read_scene(SCENE, given), read, 1.0, lambda scene: 2.0)
+    assert (found.tier, found.note) == ("quasistatic", "")
+
+
+def test_a_scene_that_only_the_full_tier_runs_stays_in_it() -> None:
+    """Without ribs the fast tiers have no balance of the rollers."""
+
+    def without_rib(tier: str) -> OpenScene:
+        given: dict[Any, Any] = {("effects",): {"preset": "auto", "rib": False}, ("tier",): tier}
+        return read_scene(SCENE, given)
+
+    found = keep_pace(without_rib("full"), without_rib, 1.0, lambda scene: 0.5)
+    assert (found.tier, found.note) == ("full", "")
+
+
+def test_where_nothing_can_be_measured_the_tier_stays_and_the_reason_is_told() -> None:
+    def fails(_scene: Scene) -> float:
+        raise ValidityError("rollers fly apart")
+
+    found = keep_pace(read("full"), read, 1.0, fails)
+    assert found.tier == "full"
+    assert found.note.endswith("is not known: rollers fly apart")
 
 
 def test_a_speed_is_simulated_over_wall_time(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -93,7 +120,8 @@ def test_only_what_is_left_open_is_chosen_for_a_pace(
 ) -> None:
     called = []
 
-    def keep(reader: Callable[[str], OpenScene], pace: float) -> Kept:
+    def keep(_usual: OpenScene, _read: Any, pace: float, of_box: Any) -> Kept:
+        assert of_box is None
         called.append(pace)
         return Kept(rig_scene, "lumped", "slower")
 

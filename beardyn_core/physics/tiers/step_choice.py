@@ -45,13 +45,15 @@ from beardyn_core.physics.tiers.friction_steps import (
     shared_slope,
 )
 from beardyn_core.scene.mounting import Mounting
+from beardyn_core.scene.sensor import Accelerometer
 
 AUDIBLE_BAND = 10_000.0
+USUAL_NOISE = Accelerometer().noise_density  # [m/s^2/sqrt(Hz)]
 # Upper end of the third octaves that stayed within 1.5 dB at 2 steps per sample, [Hz]. Between rigid rings
 # they are up to 1.4 dB off at 8 and 10 kHz. Rings that bend pass less on there: what excites a band, be it
-# waves to 10 kHz or a spall, is within 0.8 dB, and a band that nothing excites is below the noise of a sensor
-# (`test/convergence/test_two_steps.py`). 3 steps hold to 11.3 kHz in any case, beyond in proportion. One step
-# is no waveform: nothing filters what folds back.
+# waves to 10 kHz or a spall, is within 0.8 dB; what nothing excites is up to 6 dB off and below the noise of
+# usual sensors (`test/convergence/test_two_steps.py`), so quieter ones take 3. Those hold to 11.3 kHz in any
+# case, beyond in proportion. One step is no waveform: nothing filters what folds back.
 _TWO_STEPS, _TWO_STEPS_OF_RINGS = 7_100.0, 11_300.0
 _FULL_BAND_STEPS = 3
 _BAND_PER_STEP = 3_770.0
@@ -77,6 +79,7 @@ def choose_steps(
     mounting: Mounting | None = None,
     band: float = AUDIBLE_BAND,
     bending: Callable[[float], Float] = rigid,
+    noise: float = USUAL_NOISE,
 ) -> StepChoice:
     """Choose the coarsest step of the full tier that is converged over a range of loads and speeds.
 
@@ -97,6 +100,8 @@ def choose_steps(
         and motion matter.
     bending : callable, optional
         From a step [s] to what an axle that bends adds to the inverse mass of the journal, shape [6, 6].
+    noise : float
+        Density of the noise of the quietest sensor, [m/s^2/sqrt(Hz)].
 
     Raises
     ------
@@ -113,7 +118,7 @@ def choose_steps(
     )
     slowest = min(abs(speed) for speed in speeds)
     found = [
-        _vibration(band, effects),
+        _vibration(band, effects, noise),
         _bounce(bearing, static, laminae, effects.contact_damping is not None),
         *_friction(bearing, effects, slowest, laminae),
         *_explicit(bearing, static, effects, mounting or Mounting(), bending),
@@ -122,10 +127,11 @@ def choose_steps(
     return StepChoice(min(decisive.steps_per_sample, LARGEST_STEPS), decisive.reason)
 
 
-def _vibration(band: float, effects: EffectSet) -> StepChoice:
+def _vibration(band: float, effects: EffectSet, noise: float) -> StepChoice:
     if band <= 0.0:
         return StepChoice(1, "no vibration is asked for")
-    two = _TWO_STEPS_OF_RINGS if isinstance(effects.structure, RingStructure) else _TWO_STEPS
+    bends = isinstance(effects.structure, RingStructure) and noise >= USUAL_NOISE
+    two = _TWO_STEPS_OF_RINGS if bends else _TWO_STEPS
     steps = 2 if band <= two else max(_FULL_BAND_STEPS, math.ceil(band / _BAND_PER_STEP))
     return StepChoice(
         steps, f"third-octave levels within 1.5 dB up to {band / 1e3:.3g} kHz need {steps} steps per sample"
