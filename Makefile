@@ -148,7 +148,7 @@ $(VENV)/.ready-core: $(METADATA) | $(BIN)/python
 # demo compiles them.
 $(VENV)/.ready: $(METADATA) | $(VENV)/.ready-core
 	@echo "Installing beardyn[$(call extras,$(DRAWING))] into $(VENV)"
-	@$(BIN)/python -m beardyn_core warmup $(DEMO_SCENE) --tier quasistatic >/dev/null 2>&1 & \
+	@$(BIN)/beardyn warmup $(DEMO_SCENE) --tier quasistatic >/dev/null 2>&1 & \
 	compiling=$$!; trap 'kill $$compiling 2>/dev/null' INT TERM; \
 	if $(PIP_INSTALL) -e '.[$(call extras,$(DRAWING))]'; then wait $$compiling || true; \
 	else kill $$compiling 2>/dev/null; exit 1; fi
