@@ -36,7 +36,7 @@ def steps(effects: EffectSet = STANDARD, band: float = 0.0, **given: object) -> 
 def test_vibration_that_is_asked_for_takes_smaller_steps() -> None:
     assert [steps(band=band) for band in (0.0, 5e3, 7e3, 1e4, 12.8e3)] == [2, 2, 2, 3, 4]
     assert [steps(FULL, band) for band in (7e3, 1e4, 12.8e3)] == [2, 2, 4]
-    assert [steps(FULL, band, noise=4e-5) for band in (7e3, 1e4)] == [2, 3]  # hears what nothing excites
+    assert [steps(FULL, band, noise=4e-5) for band in (7e3, 1e4)] == [2, 3]  # a quieter sensor
 
 
 def test_bounce_is_sampled_twice_a_period() -> None:

@@ -143,6 +143,14 @@ def test_force_on_a_raised_rim_is_the_slope_of_its_energy(lanes: Any, offset: fl
     np.testing.assert_allclose(found[:, FORCE], found[:, ENERGY_SLOPE], rtol=3e-3)
 
 
+@pytest.mark.parametrize("effects", [None, COUPLED], ids=["independent", "coupled"])
+def test_a_rim_beside_a_short_hole_is_no_higher_than_it_is(lanes: Any, effects: EffectSet | None) -> None:
+    """A roller 4.1 um away does not touch a rim of 4 um, one that is 1 um away does."""
+    rim = replace(over(0.0, 4e-3), rim_height=4e-6, rim_width=3e-3)
+    assert pressed(lanes, [ON_RIM, FAR], -4.1e-6, rim, effects=effects)[0, FORCE] == 0.0
+    assert pressed(lanes, [ON_RIM, FAR], -1e-6, rim, effects=effects)[0, FORCE] > 0.0
+
+
 def test_force_is_continuous_as_the_patch_grows_over_a_lamina(lanes: Any) -> None:
     """From the edge of one lamina to that of the next: no jump of more than twice the usual step."""
     lengths = np.linspace(16.0e-3, 34.0e-3, 73)
