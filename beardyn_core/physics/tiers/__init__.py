@@ -19,6 +19,7 @@ cage_bodies       cages as bodies: free, following the rings, or prescribed
 planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
+sliding           rollers that slide along the cup, by the traction law (fast tiers)
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
 kinematic_bending bending of the axlebox in the fast tiers
 joint_bending     few modes and rigid rings together on the springs of rollers

@@ -14,10 +14,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 STIFF_SUM, STIFF_COSINE, STIFF_SINE, STIFF_CC, STIFF_SS, STIFF_CS = range(
     layout.REACTION + 8, layout.REACTION + 14
 )
-# The same sums of the loads on the cup.
-LOAD_SUM, LOAD_FIRST, LOAD_SECOND, LOAD_CC, LOAD_SS, LOAD_CS = range(
-    layout.REACTION + 24, layout.REACTION + 30
-)
 STIFFNESS, RESPONSE, WORK, SLIDING = 0, 1, 2, 3  # matrices in the work space
 
 
@@ -47,15 +43,6 @@ def store_stiffness(lanes, sums, stiff):
 
 
 @inline
-def store_loads(lanes, sums, loads, slide):
-    """Keep the sums of `add_stiffness` with the loads on the cup in place of the stiffness."""
-    if slide is None:
-        return
-    store_vector(lanes, sums, 0, LOAD_SUM, loads)
-    store_vector(lanes, sums, 0, LOAD_CC, loads[3:])
-
-
-@inline
 def spring_matrix(sums, direction, work, p):
     """Work out the tangent stiffness of all rollers against displacement and tilt of the cone, world axes.
 
@@ -66,11 +53,11 @@ def spring_matrix(sums, direction, work, p):
     with_s = row_totals(sums, STIFF_SINE)
     cc, ss, cs = row_totals(sums, STIFF_CC), row_totals(sums, STIFF_SS), row_totals(sums, STIFF_CS)
     along = (p.base.cup.cosine, p.base.cup.sine, p.response.lever)
-    _sum_matrix(work, STIFFNESS, (plain, with_c, with_s, cc, ss, cs), along, direction, p.sides)
+    sum_matrix(work, STIFFNESS, (plain, with_c, with_s, cc, ss, cs), along, direction, p.sides)
 
 
 @inline
-def _sum_matrix(work, page, totals, along, direction, sides):
+def sum_matrix(work, page, totals, along, direction, sides):
     """Put the products of a direction of every roller together, weighted by what has been summed by rows.
 
     ``along`` (3 numbers): cosine and sine of the direction's angle from the radius, towards the inside, and
@@ -94,56 +81,6 @@ def _sum_matrix(work, page, totals, along, direction, sides):
             on_third = with_c[row] * first[i] + with_s[row] * second[i] + plain[row] * third[i]
             for j in range(5):
                 work[page, i, j] += on_first * first[j] + on_second * second[j] + on_third * third[j]
-
-
-@inline
-def hold_sliding(sums, direction, speeds, work, p, slide):
-    """Work out what rollers that slide along the cup damp motion of the rings with, and keep it until due.
-
-    The rib keeps a roller with the cone, so that the cup slides along it where the rings move against each
-    other along the cup's line of contact: mostly axially. Rolling contacts give a force in proportion to the
-    slip over the rolling speed, their creep. Written: the damping against velocity and tilt rate of the
-    cone, world axes, at ``SLIDING`` of the ``work``. Where a step could not bear it, it is less.
-
-    Neglected: the limit of traction, which 1 % of slip along the axle would reach, slip on the cone, and that
-    a roller which is about to slide circumferentially resists less.
-
-    References
-    ----------
-    Johnson and Tevaarwerk (1977): traction in proportion to small slip.
-    """
-    if slide is None:
-        return
-    plain, with_c = row_totals(sums, LOAD_SUM), row_totals(sums, LOAD_FIRST)
-    with_s = row_totals(sums, LOAD_SECOND)
-    cc, ss, cs = row_totals(sums, LOAD_CC), row_totals(sums, LOAD_SS), row_totals(sums, LOAD_CS)
-    along = (p.base.cup.sine, -p.base.cup.cosine, slide.lever)
-    _sum_matrix(work, SLIDING, (plain, with_c, with_s, cc, ss, cs), along, direction, p.sides)
-    creep = slide.grip / max(abs(speeds[1]) * p.kinematic.cup_radius, slide.slowest)
-    quickest = 0.0
-    for i in range(5):
-        for j in range(5):
-            quickest += creep * work[SLIDING, i, j] * p.response.give[j, i]
-    creep = creep / (1.0 + 0.5 * p.step * quickest)
-    for i in range(5):
-        for j in range(5):
-            work[SLIDING, i, j] *= creep
-
-
-@inline
-def add_sliding(wrench, motion, work, slide):
-    """Add to the wrench on the cup what `hold_sliding` gives at the motion of the cone against it."""
-    if slide is None:
-        return wrench
-    rates = (motion[0][1], motion[1][1], motion[2][1], motion[3][1], motion[4][1])
-    return (
-        wrench[0] + _row(work, SLIDING, 0, rates),
-        wrench[1] + _row(work, SLIDING, 1, rates),
-        wrench[2] + _row(work, SLIDING, 2, rates),
-        wrench[3] + _row(work, SLIDING, 3, rates),
-        wrench[4],
-        wrench[5] + _row(work, SLIDING, 4, rates),
-    )
 
 
 @inline
@@ -251,11 +188,11 @@ def add_response(lanes, bodies, flex, axle, before, signal, box, work, p):
 def _held_wrench(lanes, flex, more, signal, box, work, p, bending):
     if bending is None:
         return (
-            _row(work, RESPONSE, 0, more),
-            _row(work, RESPONSE, 1, more),
-            _row(work, RESPONSE, 2, more),
-            _row(work, RESPONSE, 3, more),
-            _row(work, RESPONSE, 4, more),
+            row_times(work, RESPONSE, 0, more),
+            row_times(work, RESPONSE, 1, more),
+            row_times(work, RESPONSE, 2, more),
+            row_times(work, RESPONSE, 3, more),
+            row_times(work, RESPONSE, 4, more),
         )
     return kick_modes(lanes, flex, more, box, signal, p.step, bending, bending.joint)
 
@@ -268,7 +205,8 @@ def _damper_share(response, bending):
 
 
 @inline
-def _row(work, page, i, more):
+def row_times(work, page, i, more):
+    """Multiply a row of a matrix of the work space with 5 numbers."""
     x, y, z, about_x, about_z = more
     linear = work[page, i, 0] * x + work[page, i, 1] * y + work[page, i, 2] * z
     return linear + (work[page, i, 3] * about_x + work[page, i, 4] * about_z)

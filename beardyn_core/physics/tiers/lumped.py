@@ -14,7 +14,7 @@ from beardyn_core.base.jit import entry
 from beardyn_core.physics.bodies.contact_output import clear_largest
 from beardyn_core.physics.bodies.layout import ANGLE, POCKET_ANGLE, RADIUS, ROLLER_FIELDS, VELOCITY
 from beardyn_core.physics.tiers.kinematic_bending import show_openings, turn_reaction
-from beardyn_core.physics.tiers.kinematic_rings import add_sliding, hold_sliding, hold_stiffness
+from beardyn_core.physics.tiers.kinematic_rings import hold_stiffness
 from beardyn_core.physics.tiers.kinematic_rollers import cup_wrench, held_losses, keep_losses, relative_cone
 from beardyn_core.physics.tiers.kinematic_step import (
     TRENDS_PER_BLOCK,
@@ -35,6 +35,7 @@ from beardyn_core.physics.tiers.massless_roller import (
     tilt_stiffness,
     torque_and_stiffness,
 )
+from beardyn_core.physics.tiers.sliding import add_sliding, hold_sliding
 from beardyn_core.physics.tiers.tier_parameters import LumpedParameters
 
 _ORBIT_FIELDS = VELOCITY + 2
@@ -76,7 +77,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
             losses = held_losses(sums, speeds, rib, p)
             keep_losses(energy, sums, speeds, 0.0, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
-            hold_sliding(sums, direction, speeds, response, p, p.slide)
+            hold_sliding(sums, direction, response, p, p.slide)
             tilting = tilt_stiffness(sums, direction)
         wrench = add_tilt(wrench, tilting, motion, p.base.effects.damping)
         wrench = add_sliding(wrench, motion, response, p.slide)

@@ -38,7 +38,7 @@ from beardyn_core.physics.tiers.kinematic_bending import (
     keep_tangent,
     less_opening,
 )
-from beardyn_core.physics.tiers.kinematic_rings import add_stiffness, store_loads, store_stiffness
+from beardyn_core.physics.tiers.kinematic_rings import add_stiffness, store_stiffness
 from beardyn_core.physics.tiers.kinematic_rollers import (
     LOAD_COSINE,
     LOAD_SINE,
@@ -53,6 +53,7 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     watch_loads,
 )
 from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
+from beardyn_core.physics.tiers.sliding import creep_of, rolling_level, store_creep
 
 # After the loads: angle of the cages [rad], speed of shaft and cages [rad/s]; then the largest loads [N].
 TREND_EXTRAS = 3
@@ -250,7 +251,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     idle, zero = idle_load(speeds[1], p), lanes.constant(0.0)
     rolling, pocket, sliding = zero, zero, zero
     stiff, lengths = (zero, zero, zero, zero, zero, zero), (zero, zero, zero)
-    pressing = stiff
+    creep, level = stiff, rolling_level(speeds[1] * k.cup_radius, p.slide)
     tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
     for block in range(blocks):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
@@ -268,7 +269,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
         tangent = counted * where_greater(load, idle, tangent, zero)
         stiff = add_stiffness(stiff, tangent, cosine, sine)
-        pressing = add_stiffness(pressing, counted * load, cosine, sine)
+        creep = add_stiffness(creep, counted * creep_of(load, level, p.slide), cosine, sine)
         keep_tangent(lanes, block, tangent, p.bending)
         pressed, tilted = at_least(load - idle, 0.0), tilt[0] * cosine + tilt[1] * sine
         lengths = add_length(lengths, counted * pressed, approach, tilted, cosine, sine, p.spring.reach)
@@ -276,7 +277,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     lanes.store(sums, 0, TORQUE_POCKET, pocket)
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     store_stiffness(lanes, sums, stiff)
-    store_loads(lanes, sums, pressing, p.slide)
+    store_creep(lanes, sums, creep, p.slide)
     store_vector(lanes, sums, 0, _LENGTH_CC, lengths)
 
 

@@ -23,11 +23,8 @@ from beardyn_core.physics.tiers.kinematic_bending import (
     turn_reaction,
 )
 from beardyn_core.physics.tiers.kinematic_rings import (
-    add_sliding,
     add_stiffness,
-    hold_sliding,
     hold_stiffness,
-    store_loads,
     store_stiffness,
 )
 from beardyn_core.physics.tiers.kinematic_rollers import (
@@ -84,6 +81,7 @@ from beardyn_core.physics.tiers.pocket_play import (
     see_cages,
     with_cages,
 )
+from beardyn_core.physics.tiers.sliding import add_sliding, creep_of, hold_sliding, rolling_level, store_creep
 
 
 @inline
@@ -139,7 +137,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     kept, bent = (zero, zero, zero), (zero, zero)
     rib_sum, rolling, pocket, sliding = zero, zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
-    pressing = stiff
+    creep, level = stiff, rolling_level(speeds[1] * k.cup_radius, p.slide)
     clear_reaction(lanes, sums, p.bending)
     clear_cages(lanes, sums, p.loose)
     for block in range(rollers.shape[0]):
@@ -221,7 +219,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
-            pressing = add_stiffness(pressing, counted * cup[0], pocket_cosine, pocket_sine)
+            slowed = counted * creep_of(cup[0], level, p.slide)
+            creep = add_stiffness(creep, slowed, pocket_cosine, pocket_sine)
             keep_tangent(lanes, block, tangent, p.bending)
         if shown:
             orbit = lanes.load(rollers, block, layout.ANGLE)
@@ -240,7 +239,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     lanes.store(sums, 0, TORQUE_RIB, sliding)
     if due:
         store_stiffness(lanes, sums, stiff)
-        store_loads(lanes, sums, pressing, p.slide)
+        store_creep(lanes, sums, creep, p.slide)
 
 
 @inline
@@ -319,7 +318,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             losses = (losses[0] + rubbing, losses[1])
             keep_losses(energy, sums, speeds, rubbing, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
-            hold_sliding(sums, direction, speeds, response, p, p.slide)
+            hold_sliding(sums, direction, response, p, p.slide)
         wrench = add_sliding(wrench, motion, response, p.slide)
         before, rates = cup_velocity(bodies), cage_rates(bodies, loose)
         finish_step(

@@ -16,6 +16,7 @@ from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.scatter import mean_crown
 from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.sliding import SlideParams, place_on_cup
 from beardyn_core.physics.tiers.tier_bending import BendingParams
 from beardyn_core.physics.tiers.tier_waves import RollingWaveParams
 from beardyn_core.scene.scene import Scene
@@ -23,9 +24,6 @@ from beardyn_core.scene.scene import Scene
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
-# Below this rolling speed creep along the cup gives no more [m/s]: it has about the slope of the boundary
-# friction of the effect `traction` there, 0.1 that is rounded over 0.02 m/s.
-_SLOWEST_ALONG = 1.0
 _LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 
 
@@ -112,14 +110,6 @@ class LooseParams(NamedTuple):
     fall: float  # [m/s^2]
     rubbing: float  # torque on the shaft over the normal force in the pockets [m]
     rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
-
-
-class SlideParams(NamedTuple):
-    """Creep of the rollers along the cup, see `physics.tiers.kinematic_rings.hold_sliding`."""
-
-    grip: float  # force over load, and over slip per rolling speed
-    slowest: float  # rolling speed below which it stays the same [m/s]
-    lever: float  # arm of the cup's line of contact about the bearing centre [m]
 
 
 class LumpedParameters(NamedTuple):
@@ -254,17 +244,6 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
     )
 
 
-def slide_params(scene: Scene) -> SlideParams | None:
-    """Work out the creep along the cup of films that shear; none in a bearing without them."""
-    if scene.effects.film is None:
-        return None
-    angle = scene.bearing.cup_angle
-    radial, axial = _place_on_cup(scene.bearing)
-    return SlideParams(
-        _LIMITING_SHEAR / _SLIDE, _SLOWEST_ALONG, axial * math.sin(angle) - radial * math.cos(angle)
-    )
-
-
 def _pocket_params(scene: Scene) -> PocketParams | None:
     """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
     cage, bearing = scene.effects.cage, scene.bearing
@@ -351,12 +330,5 @@ def roller_tangent(bearing: Bearing) -> float:
 
 def lever_of_cup(bearing: Bearing) -> float:
     """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
-    radial, axial = _place_on_cup(bearing)
+    radial, axial = place_on_cup(bearing)
     return axial * math.cos(bearing.cup_angle) + radial * math.sin(bearing.cup_angle)
-
-
-def _place_on_cup(bearing: Bearing) -> tuple[float, float]:
-    """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
-    apex = bearing.apex_place
-    return distance * math.sin(angle), apex + distance * math.cos(angle)

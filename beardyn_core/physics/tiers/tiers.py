@@ -20,6 +20,7 @@ from beardyn_core.physics.tiers.imex import advance
 from beardyn_core.physics.tiers.lumped import SpringTrend, advance_lumped, trend_shape
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.quasistatic import advance_quasistatic
+from beardyn_core.physics.tiers.sliding import slide_params
 from beardyn_core.physics.tiers.start import initial_state, settle_lumped
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.tier_bending import bending_params, step_body
@@ -69,7 +70,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         faults=tier_parameters.patches_or_none(base.effects.faults),
         waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
         bending=bending_params(scene, base, response.give, response.lever, sides),
-        slide=tier_parameters.slide_params(scene),
+        slide=slide_params(scene),
     )
 
 
@@ -93,7 +94,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         loose=tier_parameters.loose_params(scene, base.step),
-        slide=tier_parameters.slide_params(scene),
+        slide=slide_params(scene),
     )
 
 
