@@ -34,8 +34,9 @@ from beardyn_core.physics.tiers.status import assess, describe, is_fatal
 from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
-from beardyn_core.scene.defect import Patch, truth_of
+from beardyn_core.scene.defect import truth_of
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.sensors.block import Block, EnergyAudit, body_names

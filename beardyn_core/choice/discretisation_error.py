@@ -23,7 +23,7 @@ from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover
 from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.physics.tiers.step_choice import USUAL_NOISE, choose_steps
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 
 _FINE = 400
 _DEPTH = 1.0e-5  # of a working load [m]

@@ -18,8 +18,9 @@ from beardyn_core.choice.ringing import Bounce, bounce
 from beardyn_core.choice.statics import Statics
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND
-from beardyn_core.scene.defect import Patch, WornPocket
+from beardyn_core.scene.defect import WornPocket, every_patch
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES
 
@@ -78,7 +79,7 @@ class Evidence:
     @property
     def patches(self) -> tuple[Patch, ...]:
         """Patches on raceways and rollers."""
-        return tuple(defect for defect in self.scene.defects if isinstance(defect, Patch))
+        return every_patch(self.scene.defects, self.scene.bearing)
 
     @property
     def patch_shares(self) -> tuple[float, ...]:

@@ -212,6 +212,10 @@ def _defects(spall: Spall, cell: Cell, seed: int) -> list[dict[str, Any]]:
         "length_mm": UNITS["mm"].to_edge(spall.length_per_width * cell.size),
         **({"roller": roller} if cell.fault == "roller" else {}),
     }
+    if cell.shape == "field":
+        grown = {key: patch[key] for key in ("on", "row", "azimuth_deg", "width_mm")}
+        grown |= {"kind": "field_spall", "roller": patch.get("roller", 0)}
+        return [{**grown, "seed": int(random.integers(1 << 31))}]
     if cell.shape == "whole":
         del patch["length_mm"]
     elif cell.shape in ("round", "irregular"):

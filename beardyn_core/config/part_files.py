@@ -14,8 +14,9 @@ from beardyn_core.bearing.lubricant import Lubricant, gold_pressure_viscosity, w
 from beardyn_core.config.file_model import FileModel, SourcedModel
 from beardyn_core.config.keys import Text, keys_of, reads
 from beardyn_core.rail.measured import speed_points
-from beardyn_core.scene.defect import Growth, Patch
+from beardyn_core.scene.field_spall import FieldSpall, width_of_stage
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
+from beardyn_core.scene.patch import Growth, Patch
 from beardyn_core.scene.running import Timetable
 from beardyn_core.scene.sensor import ALL_RATES, RATE_WORDS, RATES, Accelerometer, SensorType
 from beardyn_core.scene.waviness import Band, Waviness
@@ -63,6 +64,28 @@ class PatchFile(FileModel):
         found = super().values()
         rim = 0.25 * found["width"] if found["rim_width"] is None else found["rim_width"]
         return {**found, "rim_width": rim}
+
+
+@reads(FieldSpall)
+class FieldSpallFile(FileModel):
+    """A field spall, whose width may follow from its stage."""
+
+    stage: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1.0, le=5.0)] | None = Field(
+        None,
+        description="of growth, in place of its width: 1 a pit, 2 small, 3 medium, 4 large, 5 raceway-wide",
+    )
+
+    def values(self) -> dict[str, Any]:
+        """Draw the width of a stage."""
+        found = super().values()
+        if self.stage is not None:
+            found["width"] = width_of_stage(self.stage, found["seed"])
+        return found
+
+    def rules(self) -> Iterator[str]:
+        """Find neither or both of width and stage."""
+        if (getattr(self, "width_mm", None) is None) == (self.stage is None):
+            yield "give either `width_mm` or `stage`"
 
 
 _Amplitude = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0, le=50.0)]

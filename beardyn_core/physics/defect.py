@@ -22,7 +22,8 @@ from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
 from beardyn_core.physics.scatter import added_clearance, crown_errors, scattered_oversize
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover, shared_cover
-from beardyn_core.scene.defect import Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import RollerError, WornPocket, every_patch
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
 
@@ -88,7 +89,7 @@ def fault_params(scene: Scene, arrangement: Arrangement, laminae: Float) -> Faul
 
 def patches_of(scene: Scene, on: str) -> list[Patch]:
     """List the patches of one surface, in the order of the scene."""
-    return [defect for defect in scene.defects if isinstance(defect, Patch) and defect.on == on]
+    return [patch for patch in every_patch(scene.defects, scene.bearing) if patch.on == on]
 
 
 def surface_params(scene: Scene, on: str, arrangement: Arrangement) -> SurfaceParams | None:

@@ -9,7 +9,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 
 PATH_CELLS = 256
 # kinds whose floor falls away from their edge as a wall

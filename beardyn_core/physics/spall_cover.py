@@ -22,7 +22,7 @@ from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.lamina_table import contact_radii, lamina_places, surface_radius
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 
 _SMALLEST_PART = 1.0e-9  # of a lamina
 _LEAST_FACTOR = 0.02  # of a cover, so that gaps stay finite

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.record.description import BearingShape
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.field_spall import FieldSpall
+from beardyn_core.scene.patch import Patch
 
 CUT_OPEN = (np.deg2rad(20.0), np.deg2rad(140.0))
 ROW_SIDE = (-1.0, 1.0)
@@ -207,9 +208,12 @@ def cage(shape: BearingShape, row: int) -> Mesh:
     return _on_side(replace(mesh, shades=np.ones_like(mesh.vertices)), row)
 
 
-def spall(shape: BearingShape, defect: Patch) -> Mesh:
-    """Build a patch on a raceway of the cup or the cone, slightly raised so that it is visible."""
+def spall(shape: BearingShape, defect: Patch | FieldSpall) -> Mesh:
+    """Build a spall on a raceway of the cup or the cone, slightly raised so that it is visible."""
     angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
+    if isinstance(defect, FieldSpall):
+        radius = raceway_radius(shape, angle, 0.0)[1]
+        return join_meshes(*(spall(shape, patch) for patch in defect.patches_at(radius)))
     lift = -4e-4 if defect.on == "cup" else 4e-4
     ends = [raceway_radius(shape, angle, defect.offset + sign * defect.length / 2.0) for sign in (-1.0, 1.0)]
     profile = np.array([(shape.row_spacing / 2.0 + y, r + lift) for y, r in ends])

@@ -13,7 +13,8 @@ from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.meshes import Mesh
 from beardyn_core.record.run import Run
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.field_spall import FieldSpall
+from beardyn_core.scene.patch import Patch
 
 TIMELINE = "time"
 SNAPSHOT_NS = 5_000_000  # at 200 Hz, after which the first one is taken
@@ -62,21 +63,23 @@ def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:
             if f"roller_{row}_{k}" not in run.absent_bodies:
                 _log_mesh(stream, f"{ROOT}/rollers/roller_{row}_{k}", roller, (255, 255, 255))
     for number, defect in enumerate(run.defects):
-        if isinstance(defect, Patch) and defect.on in ("cup", "cone"):
-            patch = meshes.spall(shape, defect)
-            _log_mesh(stream, f"{ROOT}/{defect.on}/spall_{number}", patch, SPALL_COLOUR)
-            _log_pin(stream, f"{ROOT}/{defect.on}/spall_{number}/pin", run, defect)
+        if isinstance(defect, Patch | FieldSpall) and defect.on in ("cup", "cone"):
+            entity = f"{ROOT}/{defect.on}/spall_{number}"
+            _log_mesh(stream, entity, meshes.spall(shape, defect), SPALL_COLOUR)
+            _log_pin(stream, f"{entity}/pin", run, defect)
 
 
-def _log_pin(stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch) -> None:
+def _log_pin(
+    stream: rr.RecordingStream, entity: str, run: RunDescription, defect: Patch | FieldSpall
+) -> None:
     """Draw a line with a name from the spall to outside the bearing, as raceways are hidden."""
     shape = run.shape
-    axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + defect.offset)
+    axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + (defect.offset or 0.0))
     inner = shape.pitch_diameter / 2.0
     outer = (1.66 if defect.on == "cup" else 1.25) * shape.outer_diameter / 2.0
     ends = _polar(np.full(2, defect.azimuth), np.array([inner, outer]), axial).astype(np.float32)
     stream.log(entity, rr.LineStrips3D([ends], radii=[0.0008], colors=[SPALL_COLOUR]), static=True)
-    label = f"{defect.on} {defect.kind}, {defect.width * 1e3:.0f} mm"
+    label = f"{defect.on} {defect.kind.replace('_', ' ')}, {defect.width * 1e3:.0f} mm"
     named = rr.Points3D(ends[1:], radii=[0.0022], colors=[SPALL_COLOUR], labels=[label], show_labels=True)
     stream.log(f"{entity}/name", named, static=True)
 

@@ -20,7 +20,7 @@ HEALTHY = "none"
 FAULTS = ("cup", "cone", "roller")
 CAGE = "cage"
 SLOT = "slot"
-SHAPES = (SLOT, "whole", "round", "irregular")
+SHAPES = (SLOT, "whole", "round", "irregular", "field")
 TIERS = ("lumped", "quasistatic", "full")
 REPEATS = At(ge=1, le=1000)
 
@@ -134,8 +134,8 @@ class Trial:
     shapes: A[
         tuple[str, ...],
         At(one_of=SHAPES),
-        "of the spalls: slot as long as spall says, whole contact, round, or irregular, both of thirteen "
-        "strips side by side; a worn pocket has none",
+        "of the spalls: slot as long as spall says, whole contact, round or irregular (both of thirteen "
+        "strips side by side), or field, a field spall; a worn pocket has none",
     ] = (SLOT,)
     sensors: A[
         tuple[str, ...], At(longest=80), "kinds of the accelerometers; that of the scene when left out"

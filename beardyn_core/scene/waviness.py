@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.edge import ROW, SEED, At, WorkedOut, write_noun
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.scene.defect import no_such, not_on_a_roller
+from beardyn_core.scene.patch import no_such, not_on_a_roller
 
 _SURFACES = ("cup", "cone", "roller")
 

@@ -103,7 +103,7 @@ def flat_labels(truth: Mapping[str, Any]) -> dict[str, Any]:
     faults = truth.get("faults") or ()
     if faults:
         sizes = ("width", "depth", "length", "diameter", "clearance")
-        first = faults[0]
+        first = {**faults[0], **faults[0].get("drawn", {})}
         row |= {f"fault_{key}": first[key] for key in ("on", "kind", "row", "roller") if key in first}
         row |= {f"fault_{key}_m": first[key] for key in sizes if key in first}
     return row

@@ -17,8 +17,8 @@ from beardyn_core.choice import load_scene
 from beardyn_core.effects import ContactDamping
 from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history
-from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import ConstantOperation
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.twin import Twin

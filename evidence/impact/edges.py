@@ -22,7 +22,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.config import load_bearing
 from beardyn_core.physics.defect import surface_radius
 from beardyn_core.physics.patch_path import edge_softness, reach_of, roller_path
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from evidence.impact.cases import BEARING, DEPTH, WHEEL_RADIUS
 from evidence.impact.elastic import cup_radius, sink
 

@@ -14,7 +14,7 @@ import numpy as np
 import beardyn_core as bd
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.severity import Severity, severity_of
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from evidence.pages import DOCS, render
 from evidence.tables import markdown
 

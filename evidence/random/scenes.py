@@ -18,7 +18,7 @@ from beardyn_core.config.nouns import load_bearing, load_effects
 from beardyn_core.config.scene_file import with_length
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.effects import Thermal
-from beardyn_core.scene.defect import Patch, WornPocket
+from beardyn_core.scene.defect import WornPocket
 from beardyn_core.scene.excitation import IRREGULARITY_KINDS, MEASURED
 from beardyn_core.scene.operation import (
     MOST_RPM,
@@ -26,6 +26,7 @@ from beardyn_core.scene.operation import (
     QuarterVehicleOperation,
     SteppedOperation,
 )
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS

@@ -22,7 +22,7 @@ from beardyn_core.monitor.chain.wheel import SECTORS, struck_sectors
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
 from beardyn_core.monitor.features import line_at, order_spectrum, resample_by_angle
 from beardyn_core.run import blocks
-from beardyn_core.scene.defect import Patch, raceway_diameter
+from beardyn_core.scene.patch import Patch, raceway_diameter
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.trial import Trial
 from evidence.trial.pockets import RATE, TREND

@@ -12,7 +12,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies, roller_cone_spin,
 from beardyn_core.config import load_bearing
 from beardyn_core.physics.bodies.layout import ANGLE, CONTACT_OUTPUT, RADIUS, VELOCITY
 from beardyn_core.physics.lamina_table import surface_radius
-from beardyn_core.scene.defect import Spall
+from beardyn_core.scene.patch import Patch
 from test.arrays import first_axis
 from test.kernels.rig import Rig
 from test.runs import Float, shipped
@@ -160,7 +160,7 @@ def test_healthy_bearing_ripples_at_bpfo() -> None:
     assert strongest == pytest.approx(17 * cage / (2.0 * math.pi), rel=0.005)
 
 
-SPALL = Spall(on="cup", row=0, azimuth=math.pi / 17, width=6e-3, depth=0.0, length=0.05)
+SPALL = Patch(on="cup", row=0, azimuth=math.pi / 17, width=6e-3, depth=0.0, length=0.05)
 
 
 def cup_force(rig: Rig) -> tuple[Float, Float, Float]:

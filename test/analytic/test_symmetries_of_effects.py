@@ -40,9 +40,11 @@ from beardyn_core.effects import (
 )
 from beardyn_core.physics.tiers import build
 from beardyn_core.rail.build import load_history
-from beardyn_core.scene.defect import Defect, Growth, MissingRoller, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Defect, MissingRoller, RollerError, WornPocket
+from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation
+from beardyn_core.scene.patch import Growth, Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.twin import Twin
@@ -118,6 +120,7 @@ def mirrored(scene: Scene, mirror: Float) -> Scene:
 
     def defect(given: Defect) -> Defect:
         row = given.row if backwards else 1 - given.row
+        assert not isinstance(given, FieldSpall)  # grows to one side by chance
         if isinstance(given, Patch):
             azimuth = -given.azimuth if backwards else given.azimuth
             return replace(given, row=row, azimuth=azimuth, roller=number(given.roller))

@@ -25,7 +25,8 @@ from beardyn_core.monitor.chain.timeout import WAITED_FOR, NoAnswerError, within
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.rail.measured import read_measurement
 from beardyn_core.record.mcap_scanning import McapScan
-from beardyn_core.scene.defect import doubts_about, width_problem
+from beardyn_core.scene.defect import doubts_about
+from beardyn_core.scene.patch import width_problem
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run

@@ -24,7 +24,8 @@ from beardyn_core.physics.statics.rating_life import RatingLife
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.record.published import MissingMessages
 from beardyn_core.record.reporting import Gap, report
-from beardyn_core.scene.defect import Growth, MissingRoller, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import MissingRoller, RollerError, WornPocket
+from beardyn_core.scene.patch import Growth, Patch
 from beardyn_core.sensors.stage_clock import StageTime
 from beardyn_core.sensors.summary import torque_budget
 from beardyn_core.study.desk_run import RunSummary

@@ -16,7 +16,8 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.record.description import RunDescription
-from beardyn_core.scene.defect import PATCH_KINDS, Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import RollerError, WornPocket
+from beardyn_core.scene.patch import PATCH_KINDS, Growth, Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 from test.examples import examples

@@ -15,9 +15,9 @@ from beardyn_core.config.yaml_text import read_file, read_mapping, write_mapping
 from beardyn_core.effects import Cage, KinematicCage, LandGuidance, PocketFilm, RotatingCage
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.measured import read_measurement
-from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.load_check import problem_with
 from beardyn_core.scene.operation import SteppedOperation
+from beardyn_core.scene.patch import Patch
 
 GOOD = """\
 scene: mine

@@ -23,8 +23,8 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.load import read_scene
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.record.description import RunDescription
-from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.running import Curve, Stop, Timetable
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Band, Waviness

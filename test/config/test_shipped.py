@@ -31,9 +31,9 @@ from beardyn_core.config.keys import keys_of
 from beardyn_core.config.yaml_text import read_file, read_mapping
 from beardyn_core.effects import Drag, EffectSet, Rib, RibMixedFilm
 from beardyn_core.effects.catalogue import catalogue
-from beardyn_core.scene.defect import Patch
 from beardyn_core.scene.mounting import Guidance, Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, Track
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Numerics
 from beardyn_core.scene.sensor import Accelerometer
 

@@ -30,7 +30,8 @@ from beardyn_core.physics.bodies.layout import (
 from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.scene.defect import Defect, Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Defect, RollerError, WornPocket
+from beardyn_core.scene.patch import Growth, Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from beardyn_core.twin import Twin

@@ -36,7 +36,8 @@ from beardyn_core.effects import (
 )
 from beardyn_core.physics.bodies.layout import ROLLER_STATES
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.scene.defect import PATCH_KINDS, Defect, Growth, Patch, RollerError, WornPocket
+from beardyn_core.scene.defect import Defect, RollerError, WornPocket
+from beardyn_core.scene.patch import PATCH_KINDS, Growth, Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
 from test.kernels.rig import Float, Rig, parameters_of

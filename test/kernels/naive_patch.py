@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from test.kernels.naive import Float
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.effects import EffectSet
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import moving_contacts
 from test.kernels.rig import parameters_of

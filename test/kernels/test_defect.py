@@ -18,7 +18,8 @@ from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.lamina_table import contact_radii, surface_radius
 from beardyn_core.physics.patch_path import edge_softness, reach_of, roller_path
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.scene.defect import PATCH_KINDS, Patch, WornPocket
+from beardyn_core.scene.defect import WornPocket
+from beardyn_core.scene.patch import PATCH_KINDS, Patch
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.examples import fast_ones
 from test.kernels import naive_patch

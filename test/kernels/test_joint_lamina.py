@@ -14,7 +14,7 @@ from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from test.kernels.pressed_roller import (
     ENERGY,
     ENERGY_SLOPE,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.effects import EffectSet, LaminaCoupling
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.waviness import Waviness
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import damaged_contacts, powers

@@ -20,7 +20,7 @@ from beardyn_core.physics.lamina_table import contact_radii, surface_radius
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.spall_cover import counted_cover
 from beardyn_core.physics.tiers.tiers import TIERS
-from beardyn_core.scene.defect import Patch
+from beardyn_core.scene.patch import Patch
 from test.kernels.casting import Float, through
 from test.kernels.fault_entries import massless_rollers, spring_contacts
 from test.kernels.naive_half_space import HalfSpace

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from beardyn_core.record.description import BearingShape, RunDescription
-from beardyn_core.scene.defect import Spall
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.patch import Patch
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, Block, EnergyAudit, Vibration
 from test.arrays import quaternion_product
 
@@ -51,7 +51,7 @@ def description(duration: float = 1.0, sensors: tuple[str, ...] = ("axlebox_top"
         shape=SHAPE,
         body_names=body_names(SHAPE.roller_count),
         sensor_names=sensors,
-        defects=(Spall("cup", 0, 0.0, 0.012, 2e-4, 0.02),),
+        defects=(Patch("cup", 0, 0.0, 0.012, 2e-4, 0.02),),
         truth={
             "scene": "synthetic",
             "faults": [{"on": "cup", "row": 0}],

@@ -26,7 +26,8 @@ from beardyn_core.record.rerun_plots import order_spectrum
 from beardyn_core.record.rerun_scale import nice_ticks, round_range
 from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.viewer import picture_problem, take_picture, viewer_executable
-from beardyn_core.scene.defect import MissingRoller, Spall
+from beardyn_core.scene.defect import MissingRoller
+from beardyn_core.scene.patch import Patch
 from test.record.synthetic_run import SHAPE, SyntheticRun, description
 
 
@@ -97,7 +98,7 @@ def test_the_cage_leaves_room_for_the_rollers() -> None:
 @pytest.mark.parametrize("on", ["cup", "cone"])
 def test_a_spall_is_drawn_on_its_raceway(on: str) -> None:
     angle = SHAPE.cup_angle if on == "cup" else SHAPE.cone_angle
-    points = meshes.spall(SHAPE, Spall(on, 1, 0.5, 0.02, 1e-4, 0.03, 0.005)).vertices
+    points = meshes.spall(SHAPE, Patch(on, 1, 0.5, 0.02, 1e-4, 0.03, 0.005)).vertices
     assert np.abs(raceway_gap(points, SHAPE, angle)).max() < 5e-4
     assert np.arctan2(points[:, 0], points[:, 2]).mean() == pytest.approx(0.5, abs=1e-6)
 
