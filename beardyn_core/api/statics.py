@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 Load = float | Sequence[float]
 
 _KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
-_RIB_FRICTION = 0.05
 LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": (0.0, 1.0, "")}
 
 
@@ -130,7 +130,7 @@ def torque(
     *,
     lubricant: Lubricant | str = "L055",
     temperature_C: float = 70.0,
-    rib_friction: float = _RIB_FRICTION,
+    rib_friction: float | None = None,
     supply: str = "settled",
     end_play_mm: float | None = None,
     rings: Literal["elastic", "rigid"] = "elastic",
@@ -146,8 +146,8 @@ def torque(
     lubricant : Lubricant or str
     temperature_C : float
         At the inlets of the contacts.
-    rib_friction : float
-        Coefficient of friction on the ribs; 0.05 is assumed, of a rib that is well lubricated.
+    rib_friction : float, optional
+        Coefficient of friction on the ribs; by default film and asperities share the load, as in runs.
     supply : str
         Oil on the raceways, as in a scene: ``flooded``, or grease ``fresh``, ``settled``, ``channelled``.
 
@@ -160,12 +160,14 @@ def torque(
     ----------
     See `beardyn_core.physics.statics.torque.running_torque`.
     """
-    from beardyn_core.effects import RollingResistance
+    from beardyn_core.effects import Rib, RibMixedFilm, RollingResistance
     from beardyn_core.physics.rolling_resistance import oil_supply
     from beardyn_core.physics.statics.torque import running_torque
 
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
+    rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
+    rib = replace(rib, drilling=True)
 
     def one(rpm: float) -> float:
         static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm, rings=rings)
@@ -177,7 +179,7 @@ def torque(
             rpm * _RPM,
             form=RollingResistance().kind,
             supply=found,
-            rib_friction=rib_friction,
+            rib=rib,
         ).total
 
     return _each("speed_rpm", speed_rpm, one)

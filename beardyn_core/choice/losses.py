@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import partial
 from typing import Annotated as A
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
-from beardyn_core.bearing.film_thickness import line_film, rib_film_thickness, thermal_factor, thermal_loading
+from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.choice.load_cases import LoadCase
@@ -23,18 +22,22 @@ from beardyn_core.effects import (
     LoadSharingTraction,
     MixedTraction,
     Rib,
-    RibMixedFilm,
     ShearedFilmTraction,
     Traction,
 )
 from beardyn_core.physics.cage_drag import cage_drag_torque
 from beardyn_core.physics.drag import churning_rate, drag_params
-from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
-from beardyn_core.physics.statics.torque import entrainment_speeds, rib_torque, running_torque
+from beardyn_core.physics.statics.torque import (
+    asperity_load,
+    entrainment_speeds,
+    rib_friction,
+    rib_torque,
+    running_torque,
+)
 from beardyn_core.scene.scene import Scene
 
 _STANDARD_GRAVITY = 9.80665
@@ -148,31 +151,9 @@ class Losses:
         bearing = self.scene.bearing
         slide = roller_cone_spin(bearing, self.speed) * bearing.rib_contact_height
         sliding = slide / math.hypot(slide, rib.regularisation_speed)
-        friction = partial(self.rib_friction, rib)
-        return sliding * rib_torque(bearing, self.static, friction, rib.drilling)
-
-    def rib_friction(self, rib: Rib, load: float) -> float:
-        """Compute the coefficient of friction of a rib contact, shared by film and asperities."""
-        if not isinstance(rib.lubrication, RibMixedFilm):
-            return rib.friction if rib.lubrication is None else rib.lubrication.boundary_friction
-        film = self.rib_parameter(rib.lubrication, load)
-        asperities = _asperity_share(film)
-        wet = rib.lubrication.film_friction
-        return wet + (rib.lubrication.boundary_friction - wet) * asperities
-
-    def rib_parameter(self, film: RibMixedFilm, load: float) -> float:
-        """Compute film over roughness at a rib contact, [-]."""
         scene = self.scene
-        # roller end and rib pass the contact with the speed of the raceway they stand on
-        speed = max(self._entrainment[1], 1.0e-3)
-        thickness = rib_film_thickness(
-            scene.bearing,
-            load,
-            speed,
-            scene.lubricant.dynamic_viscosity(scene.temperature),
-            scene.lubricant.pressure_viscosity_at(scene.temperature),
-        )
-        return film.starvation * thickness / scene.bearing.rib_roughness
+        friction = rib_friction(rib, bearing, scene.lubricant, scene.temperature, self.speed)
+        return sliding * rib_torque(bearing, self.static, friction, rib.drilling)
 
     @property
     def pocket(self) -> float:
@@ -299,7 +280,7 @@ class Losses:
     ) -> Float:
         """Compute the friction of all rollers over the slip, [N]."""
         parameter = self.film_parameter(film)
-        asperities = _asperity_share(parameter)
+        asperities = asperity_load(parameter)
         dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
         force = np.zeros_like(slips)
         for load in loads:
@@ -337,8 +318,3 @@ class Losses:
         fitted = highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
         share = min(max(math.log2(pressure / NO_LONGER_FITTED), 0.0), 1.0)
         return sheared + share * (fitted - sheared)
-
-
-def _asperity_share(parameter: float) -> float:
-    """Compute the share of the load on asperities at a film parameter, by the formula of the kernels."""
-    return float(plain(asperity_share)(math.log2(parameter))) if parameter > 0.0 else 1.0

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
-from beardyn_core.effects import RingStructure
+from beardyn_core.config import load_lubricant
+from beardyn_core.effects import Rib, RibMixedFilm, RingStructure
 from beardyn_core.physics.ring_modes import rings
 from beardyn_core.physics.statics.static import solve
+from beardyn_core.physics.statics.torque import rib_friction, rib_torque
 
 BEARING = "HS130x230"
 
@@ -67,9 +69,20 @@ def test_lives_are_of_the_standard_with_rigid_rings_and_say_so() -> None:
 def test_torque_rises_with_speed_and_load() -> None:
     found = bd.torque(BEARING, [200, 600, 1200])
     assert found.shape == (3,)
-    assert (np.diff(found) > 0.0).all()
+    # that of the raceways; ribs rub less with a film
+    assert (np.diff(bd.torque(BEARING, [200, 600, 1200], rib_friction=0.0)) > 0.0).all()
     assert bd.torque(BEARING, 600, 120) > found[1] == bd.torque(bd.bearing(BEARING), 600)
     assert bd.torque(BEARING, 600, rib_friction=0.0) < found[1]
+
+
+@pytest.mark.parametrize("rpm", [60.0, 1165.0])
+def test_ribs_rub_as_film_and_asperities_share_the_load(rpm: float) -> None:
+    """As the losses of a scene with the effects `full` have it."""
+    bearing, oil, speed = bd.bearing(BEARING), load_lubricant("L055"), rpm * np.pi / 30.0
+    friction = rib_friction(Rib(lubrication=RibMixedFilm()), bearing, oil, 343.15, speed)
+    expected = rib_torque(bearing, bd.equilibrium(bearing, speed_rpm=rpm), friction)
+    found = bd.torque(bearing, rpm) - bd.torque(bearing, rpm, rib_friction=0.0)
+    assert found == pytest.approx(expected, rel=1e-9)
 
 
 def test_less_oil_is_less_torque_and_less_film() -> None:

@@ -18,6 +18,7 @@ from beardyn_core.bearing.rolling_resistance import (
     zhou_hoeprich_line,
 )
 from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.effects import Rib
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import running_torque
 from evidence.validation.losses import RPM, bearing_32216
@@ -82,7 +83,13 @@ def test_palmgrens_rule_is_of_the_same_size() -> None:
     bearing = load_bearing("HS130x230")
     static = solve(bearing, (0.0, 0.0, 80e3), end_play=bearing.end_play, speed=2000 * RPM)
     found = running_torque(
-        bearing, load_lubricant("L055"), 373.15, static, 2000 * RPM, form="zhou_hoeprich", rib_friction=0.05
+        bearing,
+        load_lubricant("L055"),
+        373.15,
+        static,
+        2000 * RPM,
+        form="zhou_hoeprich",
+        rib=Rib(friction=0.05, drilling=True),
     )
     oil = load_lubricant("L055").kinematic_viscosity(373.15) * 1e6
     diameter = 0.5 * (130.0 + 230.0)

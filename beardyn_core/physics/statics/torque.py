@@ -5,6 +5,7 @@ No motion is simulated: the static solution gives the load of every contact, pur
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -12,8 +13,9 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.jit import plain
 from beardyn_core.bearing.contact_law import drilling_lever
-from beardyn_core.bearing.film_thickness import thermal_loading
+from beardyn_core.bearing.film_thickness import rib_film_thickness, thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.bearing.lubricant import Lubricant
@@ -24,6 +26,8 @@ from beardyn_core.bearing.rolling_resistance import (
     thermal_reduction,
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
+from beardyn_core.effects import Rib, RibMixedFilm
+from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
 from beardyn_core.physics.statics.static import StaticSolution
 
@@ -60,7 +64,7 @@ def running_torque(
     supply: OilSupply = FLOODED,
     thermal: bool = True,
     hysteresis: float = 0.0,
-    rib_friction: float = 0.0,
+    rib: Rib | None = None,
 ) -> RunningTorque:
     """Work out the running torque in pure rolling under the loads of a static equilibrium.
 
@@ -78,8 +82,8 @@ def running_torque(
         Reduce the couple by heating of the inlet.
     hysteresis : float
         Loss factor of the elastic hysteresis, 0 for none.
-    rib_friction : float
-        Coefficient of friction on the rib, 0 for none.
+    rib : Rib, optional
+        Of the friction on the rib, see `rib_friction`; none by default.
 
     Raises
     ------
@@ -117,8 +121,48 @@ def running_torque(
         couples.append(couple)
     cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
-    rib = 0.0 if rib_friction == 0.0 else rib_torque(bearing, static, lambda _load: rib_friction)
-    return RunningTorque(couples[0], couples[1], rolling, rib)
+    sliding = 0.0
+    if rib is not None and speed != 0.0:
+        friction = rib_friction(rib, bearing, lubricant, temperature, speed)
+        sliding = rib_torque(bearing, static, friction, rib.drilling)
+    return RunningTorque(couples[0], couples[1], rolling, sliding)
+
+
+def rib_friction(
+    rib: Rib, bearing: Bearing, lubricant: Lubricant, temperature: float, speed: float
+) -> Callable[[float], float]:
+    """Find the coefficient of friction of a rib contact under a load [N], shared by film and asperities.
+
+    Parameters
+    ----------
+    rib : Rib
+        Without a lubrication its coefficient holds for every load.
+    temperature : float
+        [K].
+    speed : float
+        Of the shaft, [rad/s].
+    """
+    film = rib.lubrication
+    if film is None:
+        return lambda _load: rib.friction
+    if not isinstance(film, RibMixedFilm):
+        return lambda _load: film.boundary_friction
+    # roller end and rib pass the contact with the speed of the raceway they stand on
+    entrainment = max(entrainment_speeds(bearing, speed)[1], 1.0e-3)
+    viscosity = lubricant.dynamic_viscosity(temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
+
+    def found(load: float) -> float:
+        thickness = rib_film_thickness(bearing, load, entrainment, viscosity, pressure_viscosity)
+        asperities = asperity_load(film.starvation * thickness / bearing.rib_roughness)
+        return film.film_friction + (film.boundary_friction - film.film_friction) * asperities
+
+    return found
+
+
+def asperity_load(film_parameter: float) -> float:
+    """Compute the share of the load on asperities at a film over roughness, by the formula of the kernels."""
+    return float(plain(asperity_share)(math.log2(film_parameter))) if film_parameter > 0.0 else 1.0
 
 
 def rib_torque(
