@@ -168,9 +168,10 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
             {**sensor, "noise_density_m_per_s2_per_sqrt_Hz": trial.noise_density}
             for sensor in data.get("sensors", [])
         ]
-    scatter = data.get("scatter")
-    if trial.scatter is not None:
-        scatter = {**(scatter if isinstance(scatter, dict) else {}), "grade": trial.scatter}
+    scatter, made = data.get("scatter"), {"grade": trial.scatter, "surface": cell.surface}
+    given_by_trial = {key: value for key, value in made.items() if value}
+    if given_by_trial:
+        scatter = {**(scatter if isinstance(scatter, dict) else {}), **given_by_trial}
     if isinstance(scatter, dict):
         data["scatter"] = {**scatter, "seed": seed}
     if cell.tier == "lumped":  # healthy and faulty runs with the same band
@@ -253,6 +254,7 @@ def _corners(trial: Trial) -> list[Cell]:
     corners += [replace(healthy, track=track) for track in trial.tracks[1:]]
     corners += [replace(healthy, wheel=wheel.name) for wheel in trial.wheels[1:]]
     corners += [replace(healthy, sensor=sensor) for sensor in trial.sensors[1:]]
+    corners += [replace(healthy, surface=surface) for surface in trial.surfaces[1:]]
     ends = (*trial.sizes[:1], *trial.sizes[-1:])
     corners += [
         replace(healthy, fault=fault, size=size, shape=shape)

@@ -35,7 +35,7 @@ POSSIBLE = {
     "# or one of `beardyn scenes backgrounds`",
     "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',
     "waviness": 'waviness:\n  - {"on": cup, row: 0, orders: [20], amplitude_um: 1}',
-    "scatter": "scatter: {grade: G2, seed: 1}   # rollers, pockets, raceways as made: none, G1, G2, G3, G5",
+    "scatter": "scatter: {grade: G2, surface: typical, seed: 1}   # as made; grades none, G1, G2, G3, G5",
     "sensors": "sensors:\n  - {name: axlebox_top, position_mm: [0, 0, 170], type: iepe_100}",
     "numerics": "numerics: {laminae: 6}   # slices of each roller contact",
     "seed": "seed: 2   # of irregularity, background and sensor noise",

@@ -14,6 +14,7 @@ band_limited      interpolation between samples, by these polynomials where they
 mounting          axlebox, journal, suspension and guidance of a vehicle
 defect            patches, roller diameter, worn pocket
 waviness          harmonics of raceways and rollers
+surface           waves of raceways and rollers as made, and what of them moves a roller
 scatter           manufacturing scatter from a grade and a seed
 sensor            accelerometers, their kinds, measured paths to them
 background        what they hear besides the bearing

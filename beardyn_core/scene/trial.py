@@ -15,6 +15,7 @@ from beardyn_core.base.edge import INTERNAL, At
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.excitation import WheelDefect
 from beardyn_core.scene.scatter import GRADES
+from beardyn_core.scene.surface import FACTORS
 
 HEALTHY = "none"
 FAULTS = ("cup", "cone", "roller")
@@ -60,15 +61,17 @@ class Cell:
     checks: A[bool, "whether it repeats a run of the matrix in the tier of the check"] = False
     shape: A[str, "of the spall, one of `SHAPES`"] = SLOT
     sensor: A[str, "kind of the accelerometers; '' that of the scene"] = ""
+    surface: A[str, "of raceways and rollers; '' that of the scene"] = ""
 
     @property
     def conditions(self) -> str:
         """Conditions of the run in words, without its tier."""
         shape = "" if self.shape == SLOT else f"{self.shape}, "
         sensor = f"{self.sensor}, " if self.sensor else ""
+        surface = f"{self.surface} surface, " if self.surface else ""
         return (
             f"{self.fault} {1e3 * self.size:g} mm, {shape}{3.6 * self.speed:g} km/h, {self.track}, "
-            f"{self.wheel}, {sensor}run {self.repeat}"
+            f"{self.wheel}, {sensor}{surface}run {self.repeat}"
         )
 
     @property
@@ -140,6 +143,11 @@ class Trial:
     sensors: A[
         tuple[str, ...], At(longest=80), "kinds of the accelerometers; that of the scene when left out"
     ] = ()
+    surfaces: A[
+        tuple[str, ...],
+        At(one_of=tuple(FACTORS)),
+        "of raceways and rollers, as scatter.surface of a scene; that of the scene when left out",
+    ] = ()
     spall: A[Spall, "how a spall of a width looks"] = Spall()
     speeds: A[
         tuple[float, ...], At("kmh", gt=0.0, ge=5.0, le=400.0, size=(1, None), required=True), "of the train"
@@ -161,6 +169,7 @@ class Trial:
             "sizes_mm": self.sizes,
             "shapes": self.shapes,
             "sensors": self.sensors,
+            "surfaces": self.surfaces,
             "speeds_kmh": self.speeds,
             "tracks": self.tracks,
         }
@@ -203,12 +212,18 @@ class Trial:
             for size in self.sizes
             for shape in ((SLOT,) if fault == CAGE else self.shapes)
         ]
-        own = tuple(
-            Cell(fault, size, speed, track, wheel.name, repeat, self.tier, shape=shape, sensor=sensor)
-            for fault, size, shape, repeats in loads
-            for repeat, speed, track, wheel, sensor in product(
-                range(repeats), self.speeds, self.tracks, self.wheels, self.sensors or ("",)
+        sensors, surfaces = self.sensors or ("",), self.surfaces or ("",)
+        conditions = [
+            Cell(HEALTHY, 0.0, speed, track, wheel.name, 0, self.tier, sensor=sensor, surface=surface)
+            for speed, track, wheel, sensor, surface in product(
+                self.speeds, self.tracks, self.wheels, sensors, surfaces
             )
+        ]
+        own = tuple(
+            replace(cell, fault=fault, size=size, shape=shape, repeat=repeat)
+            for fault, size, shape, repeats in loads
+            for repeat in range(repeats)
+            for cell in conditions
         )
         if self.check is None:
             return own

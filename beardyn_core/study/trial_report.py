@@ -38,6 +38,7 @@ def slices(result: TrialResult) -> list[tuple[str, Where]]:
         *((f"{wheel.name} wheel", within("wheel", wheel.name)) for wheel in trial.wheels),
         *((f"{shape} spalls", within("shape", shape)) for shape in trial.shapes if len(trial.shapes) > 1),
         *((sensor, within("sensor", sensor)) for sensor in trial.sensors),
+        *((f"{surface} surface", within("surface", surface)) for surface in trial.surfaces),
     ]
 
 

@@ -181,8 +181,8 @@ def test_high_waves_turn_the_mean_of_the_roller_loads_of_one_row() -> None:
 
 @pytest.mark.slow
 def test_short_waves_cover_the_strikes_of_a_sound_bearing_at_low_speed() -> None:
-    assert sound_ringing(90.0) > 6.0
-    assert sound_ringing(90.0, 2e-4) == pytest.approx(3.1, abs=0.3)
+    assert sound_ringing(90.0, 1e-3) > 6.0
+    assert sound_ringing(90.0) == pytest.approx(3.1, abs=0.3)
 
 
 @pytest.mark.slow

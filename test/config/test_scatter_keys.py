@@ -15,7 +15,8 @@ from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import read_mapping
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.scene.scatter import GRADES, RACEWAY_ORDERS, ROLLER_ORDERS, Deviations, Scatter, passed_on
+from beardyn_core.scene.scatter import GRADES, Deviations, Scatter
+from beardyn_core.scene.surface import circumference
 from beardyn_core.scene.waviness import Waviness
 
 BEARING = load_scene("static_80kN").bearing
@@ -38,10 +39,20 @@ def test_a_grade_and_own_keys_are_read_and_recorded_as_they_were_written() -> No
     assert "scatter" in scene.effect_names
     assert scene_from_text(scene_text(scene)) == scene
     written = read_mapping(scene_text(scene), "again")["scatter"]
-    assert written == {"grade": "G2", "seed": 7, "roller_diameter_um": 1.5}
+    assert written == {"grade": "G2", "seed": 7, "roller_diameter_um": 1.5, "shortest_wave_mm": 0.2}
 
 
-@pytest.mark.parametrize("scatter", [{"grade": "none"}, {"seed": 3}, {"roller_diameter_um": 0.0}])
+def test_a_surface_and_the_end_of_its_waves_are_read_as_they_were_written() -> None:
+    keys = {"grade": "G1", "seed": 1, "surface": "fine", "shortest_wave_mm": 0.5}
+    scene = scene_with(**keys)
+    assert scene.scatter == Scatter("G1", surface="fine", shortest_wave=5e-4)
+    assert read_mapping(scene_text(scene), "again")["scatter"] == keys
+    assert scene_with(grade="G1", shortest_wave_mm=0.2).scatter == Scatter("G1")
+
+
+@pytest.mark.parametrize(
+    "scatter", [{"grade": "none"}, {"seed": 3}, {"roller_diameter_um": 0.0}, {"surface": "none"}]
+)
 def test_no_scatter_is_no_effect_and_no_parameter(scatter: dict[str, Any]) -> None:
     """The same types with the same numbers: nothing is compiled anew and no bit changes."""
     scene = scene_with(**scatter)
@@ -60,6 +71,7 @@ def test_no_scatter_is_no_effect_and_no_parameter(scatter: dict[str, Any]) -> No
     ("scatter", "words"),
     [
         ({"grade": "G4"}, ["scatter.grade is 'G4'", "'none', 'G1', 'G2', 'G3', 'G5'"]),
+        ({"grade": "G1", "surface": "rough"}, ["scatter.surface is 'rough'", "'fine', 'typical', 'coarse'"]),
         ({"roller_diameter_um": -1}, ["scatter.roller_diameter_um is -1", "at least 0"]),
         ({"roller_diameter_mm": 1}, ["scatter.roller_diameter_mm", "roller_diameter_um"]),
         (
@@ -133,44 +145,20 @@ def test_quantities_rows_and_seeds_are_not_alike() -> None:
     assert np.abs(found).max() < 5.0 / np.sqrt(len(columns[0]))
 
 
-def test_waves_have_the_rms_of_their_grade_and_phases_of_their_own() -> None:
-    scatter, azimuth = Scatter("G3", 9), np.linspace(0.0, 2.0 * np.pi, 4096, endpoint=False)
-    gaps = {(wave.on, wave.row): wave.gap(azimuth, 0) for wave in scatter.waves(BEARING)}
+def test_surfaces_rows_and_bearings_of_a_lot_have_phases_of_their_own() -> None:
+    azimuth = np.linspace(0.0, 2.0 * np.pi, 512, endpoint=False)
+    gaps = {(wave.on, wave.row): wave.gap(azimuth) for wave in Scatter("G3", 9).waves(BEARING)}
     assert set(gaps) == {(on, row) for on in ("cup", "cone", "roller") for row in (0, 1)}
-    for (on, _), gap in gaps.items():
-        rms = scatter.variation("roller_waviness" if on == "roller" else "raceway_waviness")
-        lines = np.abs(np.fft.rfft(gap)) * 2.0 / len(gap)
-        first, last, bridged = ROLLER_ORDERS if on == "roller" else RACEWAY_ORDERS
-        assert np.sqrt(0.5 * np.sum(lines[first : last + 1] ** 2)) == pytest.approx(rms, rel=1e-9)
-        # one law to the last order, and nothing beyond
-        order = np.arange(first, bridged + 1)
-        np.testing.assert_allclose(lines[first : bridged + 1] * order, first * lines[first], rtol=1e-6)
-        assert lines[bridged + 1 :].max() < 1e-6 * lines[bridged]
     assert len({gap.tobytes() for gap in gaps.values()}) == len(gaps)
-    other = {wave.gap(azimuth, 0).tobytes() for wave in Scatter("G3", 10).waves(BEARING)}
+    other = {wave.gap(azimuth).tobytes() for wave in Scatter("G3", 10).waves(BEARING)}
     assert not other & {gap.tobytes() for gap in gaps.values()}
 
 
-def test_short_waves_go_on_as_far_as_contacts_pass_them_on() -> None:
-    usual, finer = Scatter("G1", 9), Scatter("G1", 9, shortest_wave=2e-4)
-    for short, long in zip(finer.waves(BEARING), usual.waves(BEARING), strict=True):
-        diameter = {"cup": 1.0, "cone": -1.0}.get(short.on, 0.0) * BEARING.roller_diameter
-        diameter += BEARING.roller_diameter if short.on == "roller" else BEARING.pitch_diameter
-        assert np.pi * diameter / short.orders[-1] == pytest.approx(2e-4, rel=2e-3)
-        passed = np.array(short.amplitudes[: len(long.amplitudes)]) / long.amplitudes
-        assert passed[0] == pytest.approx(1.0, abs=1e-3)
-        assert np.all(np.diff(passed) < 0.0)
-
-
-def test_a_contact_passes_on_the_mean_of_a_wave_under_the_pressure_of_a_flat_punch() -> None:
-    """The envelope lies on the Bessel function where that is largest, and on 1 where waves are long."""
-    half, place = 1.5e-4, np.cos((np.arange(4000) + 0.5) / 4000 * np.pi)  # even under that pressure
-    lengths = 2.0 * np.pi * half / np.linspace(0.05, 40.0, 4000)
-    means = np.abs(np.cos(np.outer(2.0 * np.pi * half / lengths, place)).mean(axis=1))
-    envelope = passed_on(lengths, half)
-    peaks = np.flatnonzero((means[1:-1] > means[:-2]) & (means[1:-1] > means[2:])) + 1
-    np.testing.assert_allclose(envelope[peaks[1:]], means[peaks[1:]], rtol=0.02)
-    assert envelope[0] == pytest.approx(means[0], rel=2e-3)
+def test_waves_end_where_the_file_says() -> None:
+    usual, longer = Scatter("G1", 9), Scatter("G1", 9, shortest_wave=1e-3)
+    for all_of_them, some in zip(usual.waves(BEARING), longer.waves(BEARING), strict=True):
+        assert circumference(some.on, BEARING) / some.orders[-1] == pytest.approx(1e-3, rel=0.015)
+        assert some.amplitudes == all_of_them.amplitudes[: len(some.orders)]
 
 
 def test_waves_that_are_given_stay_beside_those_of_the_scatter() -> None:

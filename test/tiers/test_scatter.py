@@ -93,6 +93,25 @@ def test_a_seed_is_one_bearing_and_no_scatter_leaves_every_bit(tier: str) -> Non
     np.testing.assert_array_equal(forces(Scatter(), tier), forces(None, tier))
 
 
+def test_a_coarser_surface_is_louder_above_4_khz_by_its_factor() -> None:
+    """To 0.5 dB; preloaded, so that no roller leaves the load zone and knocks when it comes back."""
+    scene = load_scene("waviness", tier="quasistatic")
+    quiet = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
+
+    def level(surface: str) -> float:
+        scatter = Scatter("G1", 1, surface)
+        made = replace(scene, sensors=quiet, waviness=(), scatter=scatter, end_play=-1e-4)
+        found = [block.vibration[0].acceleration[:, 2] for block in blocks(made, 0.4)]
+        signal = np.concatenate(found)[2560:]
+        power = np.abs(np.fft.rfft((signal - signal.mean()) * np.hanning(len(signal)))) ** 2
+        return float(10.0 * np.log10(power[np.fft.rfftfreq(len(signal), 1.0 / 25_600) > 4000.0].sum()))
+
+    none, fine, typical, coarse = (level(surface) for surface in ("none", "fine", "typical", "coarse"))
+    assert fine - none > 10.0
+    assert typical - fine == pytest.approx(10.5, abs=0.5)
+    assert coarse - typical == pytest.approx(9.5, abs=0.5)
+
+
 def test_the_facts_of_a_run_name_every_deviation() -> None:
     scene = replace(load_scene("static_80kN", tier="lumped"), scatter=Scatter("G2", 7))
     assert scene.scatter is not None
@@ -100,6 +119,8 @@ def test_the_facts_of_a_run_name_every_deviation() -> None:
     made = scene.scatter.deviations(scene.bearing)
     assert (truth["grade"], truth["seed"]) == ("G2", 7)
     assert truth["roller_diameter_um"] == pytest.approx(2.0)
+    assert truth["surface"] == "typical"
+    assert truth["surface_factor"] == {"cup": 1.0, "cone": 1.0, "roller": 1.0}
     np.testing.assert_array_equal(truth["deviations_m"]["roller_diameter"], made.roller_diameter)
     assert Twin(replace(scene, scatter=None)).truth()["scatter"] is None
 
