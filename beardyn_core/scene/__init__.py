@@ -12,7 +12,9 @@ load_check        what samples of load must be to be used
 chord_polynomials from one even sample to the next without images of their rate
 band_limited      interpolation between samples, by these polynomials where they are even
 mounting          axlebox, journal, suspension and guidance of a vehicle
-defect            patches, roller diameter, worn pocket
+patch             patches of raceways and rollers, and their growth
+field_spall       a spall of rolling contact fatigue at a stage of its growth
+defect            every defect of a bearing: these, roller diameter, missing roller, worn pocket
 waviness          harmonics of raceways and rollers
 surface           waves of raceways and rollers as made, and what of them moves a roller
 scatter           manufacturing scatter from a grade and a seed

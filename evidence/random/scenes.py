@@ -20,6 +20,7 @@ from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.effects import Thermal
 from beardyn_core.scene.defect import WornPocket
 from beardyn_core.scene.excitation import IRREGULARITY_KINDS, MEASURED
+from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.operation import (
     MOST_RPM,
     ConstantOperation,
@@ -188,13 +189,17 @@ def _damage(keys: dict[str, Any], chance: Chance, faults: str, bearing: Bearing)
             each["row"] = 0
 
 
+_FIELD_SPALLS = 0.2  # share of them
+
+
 def _patch(chance: Chance, on: str, bearing: Bearing) -> dict[str, Any]:
     """Draw a patch that fits on a surface; most do not, and each would cost a scene."""
     for _ in range(MOST_TRIES):
-        keys = {**draw(Patch, chance, OWN), "on": on}
+        noun = FieldSpall if chance.random() < _FIELD_SPALLS else Patch
+        keys = {**draw(noun, chance, OWN), "on": on}
         if on == "roller":
             keys["roller"] = int(chance.integers(FEWEST_ROLLERS))
-        patch = valid(Patch, keys)
+        patch = valid(noun, keys)
         if patch is not None and not any(
             with_length(patch, bearing.effective_length).contradictions(bearing)
         ):
@@ -340,6 +345,11 @@ OWN: dict[tuple[str, str], Any] = {
     ("Patch", "length"): _within(0.1, 50.0, 0.6),
     ("Patch", "depth"): lambda chance: float(10.0 ** chance.uniform(-1.5, 3.7)),
     ("Patch", "roller"): _left_out,
+    ("FieldSpall", "azimuth"): _within(-180.0, 180.0),
+    ("FieldSpall", "width"): lambda chance: float(10.0 ** chance.uniform(-0.3, 1.7)),
+    ("FieldSpall", "length"): _left_out,
+    ("FieldSpall", "offset"): _within(-20.0, 20.0, 0.3),
+    ("FieldSpall", "roller"): _left_out,
     ("Growth", "start"): _within(0.0, 0.05),
     ("Growth", "end"): _within(0.01, 0.1),
     ("RollerError", "roller"): _whole(20),

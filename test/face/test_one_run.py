@@ -154,7 +154,7 @@ def test_the_summary_of_a_file_is_that_of_the_run(both: Both) -> None:
         "cage_revolutions",
     ):
         assert getattr(made, name) == getattr(told, name), name
-    assert made.averaged == pytest.approx(told.averaged, rel=1e-4)  # cages turn unevenly
+    assert made.averaged == pytest.approx(told.averaged, rel=2e-4)  # cages turn unevenly on waves
     assert made.mean_force == pytest.approx(told.mean_force, rel=1e-5, abs=0.1)
     assert made.shaft_torque == pytest.approx(told.shaft_torque, rel=5e-3)  # 200 Hz of 400
     assert made.cage_speed_ratio == pytest.approx(told.cage_speed_ratio, rel=2e-3)  # the same
