@@ -42,6 +42,7 @@ TITLES = {
     "trial": "Trial",
     "sweep": "Sweep",
     "structure": "Structure",
+    "fitted": "Structure like another one",
     "modes": "Structure by modes of another program",
     "sensor": "Sensor",
     "background": "Background",

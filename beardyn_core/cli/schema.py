@@ -14,6 +14,7 @@ KINDS = (
     "trial",
     "sweep",
     "structure",
+    "fitted",
     "modes",
     "sensor",
     "background",

@@ -33,6 +33,12 @@ def add_parser(subparsers: Any) -> None:
         "Needs pip install beardyn[structure].",
     )
     parser.add_argument("box", metavar="BOX", help="name of a shipped box or path of a YAML file")
+    parser.add_argument(
+        "--bearing",
+        metavar="NAME",
+        help="shipped bearing or path of its file: fit the box to it, all sizes in proportion to its outer "
+        "diameter and width; default the bearing of the box",
+    )
     parser.add_argument("-o", "--output", metavar="FILE.csv", type=Path, help="table to write; default none")
     parser.add_argument(
         "--mesh",
@@ -64,7 +70,7 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.base.outputs import file_problems, write_whole
-    from beardyn_core.config.nouns import load_bearing, load_box
+    from beardyn_core.config.nouns import box_for, load_bearing, load_box
     from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box
     from beardyn_core.structure.build import HIGHEST, MESH, modes_of
@@ -81,13 +87,15 @@ def run(args: argparse.Namespace) -> int:
         ]
     ):
         box = load_box(args.box)
-        bearing = load_bearing(box.bearing)
-        if isinstance(box, ModeFile) and {args.mesh, args.highest, args.waves} != {None}:
-            raise InputError(f"{args.box} has its modes: leave --mesh, --highest and --waves out")
+        if isinstance(box, ModeFile) and {args.bearing, args.mesh, args.highest, args.waves} != {None}:
+            raise InputError(f"{args.box} has its modes: leave --bearing, --mesh, --highest and --waves out")
         if isinstance(box, ModeFile) and (args.save or args.view):
             raise InputError(
                 f"{args.box} has modes at nodes and no mesh, so no surface: leave --save and --view out"
             )
+        if args.bearing is not None and isinstance(box, Box):
+            box = box_for(box, args.bearing)
+        bearing = load_bearing(box.bearing)
         if args.view:
             require_display()
     built: Built | None = None

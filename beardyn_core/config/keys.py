@@ -171,6 +171,8 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
     """Make the type of one of several nouns, a name or a switch; no key is a tag in brackets."""
     if len(options) > 1:
         options = tuple(each for each in options if not (is_noun(each) and has_no_key_for_its_kind(each)))
+    if len(options) > 1 and sum(map(is_noun, options)) == 1:
+        return _plain_or_table(options, at, sourced)
     if not all(is_noun(option) for option in options):
         return reduce(or_, (_annotation(option, at, sourced) for option in options))
     tagged: list[Any] = []
@@ -200,6 +202,20 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
             return "<options>"
         kind = value.get("kind", usual) if isinstance(value, dict) else getattr(value, "kind", None)
         return f"<{kind}>" if kind is not None or isinstance(value, dict) else None
+
+    return Annotated[reduce(or_, tagged), Discriminator(tag)]
+
+
+def _plain_or_table(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
+    """Make the type of a plain value or the keys of a noun; a mistake is explained in the form given."""
+    tagged = [
+        Annotated[_annotation(option, at, sourced), Tag("<table>" if is_noun(option) else "<plain>")]
+        for option in options
+    ]
+
+    def tag(value: Any) -> str:
+        """Tell a mapping from a plain value."""
+        return "<table>" if isinstance(value, dict | FileModel) else "<plain>"
 
     return Annotated[reduce(or_, tagged), Discriminator(tag)]
 

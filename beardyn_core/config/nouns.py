@@ -27,6 +27,7 @@ from beardyn_core.scene.sensor import SensorType
 from beardyn_core.scene.sweep import Sweep
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
+from beardyn_core.structure.fitting import FittedBox, fit_box
 from beardyn_core.structure.imported import ModeFile
 
 
@@ -55,7 +56,7 @@ def load_vehicle(name: str | Path) -> Vehicle:
 
 
 def load_box(name: str | Path) -> Box | ModeFile:
-    """Load a shipped axlebox or that of a file, in figures or as modes of another program.
+    """Load a shipped axlebox or that of a file: in figures, like another one, or as modes of another program.
 
     Raises
     ------
@@ -64,13 +65,13 @@ def load_box(name: str | Path) -> Box | ModeFile:
     """
     path = find("structures", str(name))
     data = read_file(path)
-    noun = ModeFile if "modes" in data else Box
+    noun = ModeFile if "modes" in data else FittedBox if "like" in data else Box
     if "bearing" not in data:
         raise InputError(
             f"{path}: bearing is missing; files of earlier versions lack it: add the one whose cup is in the "
             "box, such as `bearing: HS130x230`"
         )
-    box: Box | ModeFile = read_noun(noun, data, str(path))
+    box: Box | ModeFile | FittedBox = read_noun(noun, data, str(path))
     if isinstance(box, ModeFile):
         grid = None if box.grid is None else path.parent / box.grid
         box = replace(box, modes=path.parent / box.modes, grid=grid)
@@ -78,7 +79,36 @@ def load_box(name: str | Path) -> Box | ModeFile:
             note_read(each)
     if box.bearing not in shipped_names("bearings"):
         box = replace(box, bearing=str(find("bearings", box.bearing, path.parent)))
-    return box
+    return _fitted_box(box, path) if isinstance(box, FittedBox) else box
+
+
+def box_for(box: Box, bearing: str | Path, name: str | None = None) -> Box:
+    """Fit a box in figures to another bearing, sizes in proportion; raises `InputError` with every mistake.
+
+    Parameters
+    ----------
+    bearing : str or Path
+        Shipped bearing or path of its file.
+    name : str, optional
+        Of the box; that of the other one and of the bearing when left out.
+    """
+    carried = load_bearing(bearing)
+    fitted = fit_box(box, load_bearing(box.bearing), carried)
+    return replace(fitted, name=name or f"{box.name}_{carried.name}", bearing=str(bearing))
+
+
+def _fitted_box(fitted: FittedBox, path: Path) -> Box:
+    like = find("structures", fitted.like, path.parent)
+    data = read_file(like)
+    if other := next((key for key in ("modes", "like") if key in data), None):
+        raise InputError(
+            f"{path}: like is {fitted.like!r}, whose file has the key {other}; it must be a box in figures, "
+            "with outer_diameter_mm and length_mm"
+        )
+    box = load_box(like)
+    assert isinstance(box, Box)
+    made = box_for(box, fitted.bearing, fitted.name)
+    return replace(made, description=fitted.description or box.description)
 
 
 def load_sensor(name: str | Path) -> SensorType:

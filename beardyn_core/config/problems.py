@@ -74,7 +74,8 @@ def _expectation(found: Any, unit: str | None) -> str:
     if kind in ("float_type", "float_parsing"):
         text = unit and isinstance(found["input"], str)
         hint = " (the unit is in the key, write the number alone)" if text else ""
-        return f"it must be a number{in_unit}{hint}"
+        table = " or a mapping of keys to values" if "<plain>" in found["loc"] else ""
+        return f"it must be a number{in_unit}{hint}{table}"
     if kind in ("finite_number", "tuple_type", "list_type"):
         return f"it must be a {'finite number' if kind == 'finite_number' else 'list'}{in_unit}"
     if kind == "literal_error":

@@ -15,6 +15,7 @@ from beardyn_core.scene.sensor import SensorType
 from beardyn_core.scene.sweep import Sweep
 from beardyn_core.scene.trial import Trial
 from beardyn_core.structure.box import Box
+from beardyn_core.structure.fitting import FittedBox
 from beardyn_core.structure.imported import ModeFile
 
 _NOUNS: dict[str, type] = {
@@ -26,6 +27,7 @@ _NOUNS: dict[str, type] = {
     "trial": Trial,
     "sweep": Sweep,
     "structure": Box,
+    "fitted": FittedBox,
     "modes": ModeFile,
     "sensor": SensorType,
     "background": Background,

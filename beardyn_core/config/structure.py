@@ -117,7 +117,7 @@ def require_cup(modes: Modes, bearing: Bearing) -> None:
     if differences:
         raise InputError(
             f"the box {modes.name} was made with the cup of {modes.cup.bearing}: {differences}; take a table "
-            "made with this bearing (`beardyn structure`)"
+            f"made with this bearing: `beardyn structure BOX --bearing {bearing.name} -o box.csv` fits a box"
         )
 
 

@@ -5,6 +5,8 @@ module     responsibility
 ========== =====================================================================
 box        an axlebox in figures: housing, what is cast to it, cup, seats
 cup        the cup that modes are made with: only a bearing with the same one goes into the box
+damping    damping of modes over their frequency
+fitting    a box in proportion to the bearing that it carries
 mesh       tetrahedra of a box (gmsh)
 elastic    stiffness, mass and rigid motion of a mesh; static and free answers (scikit-fem)
 reduction  free modes and residual modes: the fewest numbers that answer right

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 from beardyn_core.base.edge import At, Vector, refuse
+from beardyn_core.structure.damping import DAMPING, DampingTable
 
 _NAME = At(longest=80, pattern=r"^[A-Za-z][A-Za-z0-9_]*$")
 
@@ -58,7 +59,9 @@ class Box:
     youngs_modulus: A[float, At("GPa", gt=0.0, le=500.0), "of housing, blocks and discs"] = 170.0e9
     poisson_ratio: A[float, At(ge=0.0, le=0.45), "of housing, blocks and discs"] = 0.28
     density: A[float, At("kg_per_m3", gt=0.0, le=20000.0), "of housing, blocks and discs"] = 7100.0
-    damping_ratio: A[float, At(gt=0.0, le=0.2), "of every mode, over the critical one"] = 0.02
+    damping_ratio: A[
+        float | DampingTable, DAMPING, "of every mode, over the critical one, or a table over the frequency"
+    ] = 0.02
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:

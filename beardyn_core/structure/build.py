@@ -14,6 +14,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.cup import Cup
+from beardyn_core.structure.damping import damping_ratios
 from beardyn_core.structure.elastic import Elastic, elastic_body, stack_functionals
 from beardyn_core.structure.mesh import mesh_of
 from beardyn_core.structure.modes import RESIDUAL_WAVES, WAVES, Modes
@@ -83,7 +84,7 @@ def modes_of(
         box.name,
         f"{box.description}; finite elements, edges of {1e3 * mesh:g} mm".removeprefix("; "),
         found.frequency,
-        np.full(count, box.damping_ratio),
+        damping_ratios(box.damping_ratio, found.frequency),
         found.seen[:series].T.reshape(count, 2, 3, 2 * WAVES + 1),
         {name: seats[i].T for i, name in enumerate(names)},
         {seat.name: seat.position for seat in (*box.sensors, *box.suspension)},

@@ -16,6 +16,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.cup import Cup
+from beardyn_core.structure.damping import DAMPING, DampingTable, damping_ratios
 from beardyn_core.structure.mesh import row_places
 from beardyn_core.structure.modes import WAVES, Modes
 from beardyn_core.structure.nastran import read_nastran
@@ -68,7 +69,11 @@ class ModeFile:
         "of the cylinder whose nodes are taken for the raceways; that of the cup's raceway when left out",
     ] = None
     tolerance: A[float, At("mm", gt=0.0, le=20.0), "how far from that cylinder a node may lie"] = 1.0e-3
-    damping_ratio: A[float, At(gt=0.0, le=0.2), "of modes for which the file has none"] = 0.02
+    damping_ratio: A[
+        float | DampingTable,
+        DAMPING,
+        "of modes for which the file has none, one for all or a table over the frequency",
+    ] = 0.02
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
@@ -150,7 +155,7 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
         box.name,
         f"{box.description}; modes of {box.modes.name}".removeprefix("; "),
         found.frequency[bending],
-        np.where(damping > 0.0, damping, box.damping_ratio),
+        np.where(damping > 0.0, damping, damping_ratios(box.damping_ratio, found.frequency[bending])),
         raceway,
         read,
         {seat.name: seat.position for seat in seats},

@@ -13,6 +13,7 @@ from beardyn_core.cli import main as command
 from beardyn_core.config import load_bearing
 from beardyn_core.config.nouns import load_box
 from beardyn_core.structure.box import Seat
+from beardyn_core.structure.damping import DampingTable
 from beardyn_core.structure.imported import ModeFile, modes_of_file
 from beardyn_core.structure.mesh import row_places
 from beardyn_core.structure.table import read_table
@@ -120,6 +121,13 @@ def test_modes_come_back_in_the_axlebox_frame(tmp_path: Path) -> None:
     expected[1, 1, 2, 0] = 0.25
     assert modes.raceway == pytest.approx(expected, abs=1e-4)
     assert modes.seats["top"] == pytest.approx(np.array([[0.0, 0.0, 1.5], [0.0, 0.0, 0.0]]), abs=1e-4)
+
+
+def test_a_mode_without_damping_has_that_of_the_box_at_its_frequency(tmp_path: Path) -> None:
+    write(tmp_path / "modes.unv")
+    table = DampingTable((1000.0, 2000.0), (0.03, 0.01))
+    modes = modes_of_file(box(tmp_path / "modes.unv", damping_ratio=table), BEARING)
+    assert modes.damping_ratio == pytest.approx([0.013, 0.01])
 
 
 def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

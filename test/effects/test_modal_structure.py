@@ -12,6 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.choice.statics import Statics
 from beardyn_core.cli.structure import zone_yield
+from beardyn_core.config.folders import shipped_names
 from beardyn_core.config.load import read_scene_mapping, read_scene_text
 from beardyn_core.config.nouns import load_bearing, load_box
 from beardyn_core.config.structure import modes_of_effects, mounting_of, seat_of, table_path
@@ -37,7 +38,7 @@ from test.kernels.states import shaken
 from test.runs import constant_load, started
 from test.scenes import LOAD_80_KN, scene_with
 
-BOXES = ("freight_adapter", "freight_box", "high_speed", "metro")
+BOXES = shipped_names("structures")
 MODES = replace(EffectSet(), structure=ModalStructure("high_speed"))
 
 
