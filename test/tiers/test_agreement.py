@@ -187,8 +187,11 @@ def _spalled(tier: str) -> np.ndarray:
 
 @pytest.mark.parametrize("tier", FAST)
 def test_a_spall_shakes_the_box_as_in_the_full_tier(tier: str) -> None:
-    """Third octaves from 400 Hz to 5 kHz, within 2 dB on smooth surfaces; over 2 s, for cages that slip by themselves excite the
-    resonance at 1 kHz by 2.5 dB more or less within half a second."""
+    """Third octaves from 400 Hz to 5 kHz, within 2 dB on smooth surfaces.
+
+    Over 2 s, for cages that slip by themselves excite the resonance at 1 kHz by 2.5 dB more or less within
+    half a second.
+    """
     levels = [_spalled(each) for each in ("full", tier)]
     bands = (BAND_CENTRES > 380.0) & (BAND_CENTRES < 5200.0)
     apart = np.abs(levels[1] - levels[0])[bands]
