@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.edge import INTERNAL, ROW, SEED, At
+from beardyn_core.base.edge import ROW, SEED, At
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.scene.patch import Patch, no_such, not_on_a_roller, raceway_diameter, width_problem
 
@@ -68,6 +68,7 @@ class Outline(NamedTuple):
     place: Float  # along the roller, from mid-length, shape [cell], [m]
     low: Float  # along the raceway, from where it began, shape [cell], [m]
     high: Float
+    cell: float  # distance of the lines, [m]
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,6 @@ class FieldSpall:
     roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0
     seed: A[int, SEED, "which spall of that size"] = 1
     kind: A[str, At(one_of=("field_spall",), required=True), "which of the kinds this is"] = "field_spall"
-    growth: A[None, INTERNAL] = None
 
     def rules(self) -> Iterator[str]:
         """Check that a roller's number is set only for rollers."""
@@ -143,12 +143,12 @@ class FieldSpall:
     def extent(self) -> tuple[float, float]:
         """Length along the roller and its middle from mid-length, [m]."""
         place = self.outline.place
-        return float(place[-1] - place[0]) + _CELL, float(0.5 * (place[0] + place[-1]))
+        return float(place[-1] - place[0]) + self.outline.cell, float(0.5 * (place[0] + place[-1]))
 
     @property
     def area(self) -> float:
         """Area that is broken out, [m^2]."""
-        return float((self.outline.high - self.outline.low).sum()) * _CELL
+        return float((self.outline.high - self.outline.low).sum()) * self.outline.cell
 
     def patches(self, bearing: Bearing) -> tuple[Patch, ...]:
         """Make the strips, pits and dents that a roller meets."""
@@ -206,7 +206,8 @@ def _length_at(width: float) -> float:
 def _outline(seed: int, width: float, line: float, offset: float | None) -> Outline:
     """Break chips off until the spall is `width` wide in rolling direction."""
     cells = max(round(line / _CELL), 3)
-    place = np.asarray((np.arange(cells) - 0.5 * (cells - 1)) * (line / cells))
+    cell = line / cells
+    place = np.asarray((np.arange(cells) - 0.5 * (cells - 1)) * cell)
     low, high = np.zeros(cells), np.zeros(cells)
     origin = offset if offset is not None else 0.2 * line * _normal(_stream(seed, "offset"))
     longer = math.exp(_SPREAD_LENGTH * _normal(_stream(seed, "length")))
@@ -218,13 +219,13 @@ def _outline(seed: int, width: float, line: float, offset: float | None) -> Outl
     while True:
         now = float(high[begin:end].max() - low[begin:end].min())
         if now >= width * (1.0 - 1e-9):
-            return Outline(place[begin:end], low[begin:end], high[begin:end])
+            return Outline(place[begin:end], low[begin:end], high[begin:end], cell)
         wanted = min(longer * _length_at(max(now, STAGES[0].width)), line)
         chance = random.random(_CANDIDATES + 3)
         along, across = np.exp(_SPREAD_CHIP * np.clip(random.standard_normal(2), -_CUT, _CUT))
         smaller = 0.25 if now < STAGES[1].width else 1.0
         count = max(round(smaller * across * _CHIP_ACROSS / _CELL), 1)
-        if (end - begin) * _CELL < wanted and end - begin < cells:
+        if (end - begin) * cell < wanted and end - begin < cells:
             up = end < cells and (begin == 0 or chance[-1] < 0.5)
             nearest = end - 1 if up else begin
             share = 0.3 + 0.5 * chance[-2]
@@ -254,9 +255,9 @@ def _roundness(cell: Any, begin: int, end: int) -> Float:
 
 @lru_cache(maxsize=64)
 def _patches(spall: FieldSpall, radius: float) -> tuple[Patch, ...]:
-    place, low, high = spall.outline
+    place, low, high, cell = spall.outline
     random, rims = _stream(spall.seed, "floor"), _stream(spall.seed, "rims")
-    edges = np.linspace(place[0] - 0.5 * _CELL, place[-1] + 0.5 * _CELL, min(PARTS, len(place)) + 1)
+    edges = np.linspace(place[0] - 0.5 * cell, place[-1] + 0.5 * cell, min(PARTS, len(place)) + 1)
     belongs = np.clip(np.searchsorted(edges, place, side="right") - 1, 0, len(edges) - 2)
     found = []
     for part in range(len(edges) - 1):

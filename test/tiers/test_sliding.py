@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
@@ -85,6 +87,21 @@ def test_creep_is_the_traction_law_of_the_full_tier_at_next_to_no_slip(
     params = slide_params(scene)
     found = plain(creep_of)(load, plain(rolling_level)(speed, params), params)
     assert found == pytest.approx(load * creep_over_load(scene, load, speed), rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "traction",
+    [
+        {"kind": "mixed", "regularisation": "ambrosio", "regularisation_start_m_per_s": 0.01},
+        {"kind": "mixed", "full_film_friction": 0.0},
+    ],
+)
+def test_a_law_without_friction_at_little_slip_leaves_numbers(traction: dict[str, Any]) -> None:
+    effects = {"preset": "standard", "traction": traction}
+    scene = make_scene("static_80kN", tier="quasistatic", effects=effects)
+    params = slide_params(scene)
+    assert params is None or np.isfinite(params).all()
+    assert (params is None) == ("regularisation" in traction)
 
 
 @pytest.mark.parametrize("tier", FAST)

@@ -42,6 +42,7 @@ _LOADS = (200.0, 30e3)  # of a roller [N]
 _SPEEDS = (0.5, 8.0)  # of rolling [m/s]
 _POINTS = 13
 _SLIP = 1e-6  # slip that is none, over rolling speed
+_LEAST_CREEP = 1e-3  # over the largest one; where films without friction carry all load it would be 0
 
 
 class SlideParams(NamedTuple):
@@ -100,16 +101,19 @@ def _creep_over_load(laws: _Laws, laminae: Float, load: float, speed: float) -> 
 
 
 def slide_params(scene: Scene) -> SlideParams | None:
-    """Fit the creep along the cup of films that shear; none in a bearing without them."""
+    """Fit the creep along the cup of films that shear; ``None`` where nothing resists so little slip."""
     laws, laminae = _Laws(film_params(scene), *traction_params(scene)), lamina_table(scene)
     if laws.film is None or scene.effects.traction is None:
         return None
     load, speed = (np.geomspace(*bounds, _POINTS) for bounds in (_LOADS, _SPEEDS))
     share = 1.0 / scene.numerics.laminae
-    creep = [[_creep_over_load(laws, laminae, share * q, v) for v in speed] for q in load]
+    creep = np.array([[_creep_over_load(laws, laminae, share * q, v) for v in speed] for q in load]).ravel()
+    if creep.max() <= 0.0:  # a law may have no friction up to some slip
+        return None
+    creep = np.maximum(creep, _LEAST_CREEP * creep.max())
     x, y = (axis.ravel() for axis in np.meshgrid(np.log2(load), np.log2(speed), indexing="ij"))
     terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
-    found = np.linalg.lstsq(terms, np.log2(np.array(creep).ravel()), rcond=None)[0]
+    found = np.linalg.lstsq(terms, np.log2(creep), rcond=None)[0]
     angle = scene.bearing.cup_angle
     radial, axial = place_on_cup(scene.bearing)
     level, by_load, by_speed, load_squared, both, speed_squared = found.tolist()
