@@ -74,7 +74,8 @@ def _log_pin(
 ) -> None:
     """Draw a line with a name from the spall to outside the bearing, as raceways are hidden."""
     shape = run.shape
-    axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + (defect.offset or 0.0))
+    middle = defect.extent[1] if isinstance(defect, FieldSpall) else defect.offset
+    axial = meshes.ROW_SIDE[defect.row] * (shape.row_spacing / 2.0 + middle)
     inner = shape.pitch_diameter / 2.0
     outer = (1.66 if defect.on == "cup" else 1.25) * shape.outer_diameter / 2.0
     ends = _polar(np.full(2, defect.azimuth), np.array([inner, outer]), axial).astype(np.float32)

@@ -27,6 +27,7 @@ from beardyn_core.record.rerun_scale import nice_ticks, round_range
 from beardyn_core.record.rerun_view import live_stream
 from beardyn_core.record.viewer import picture_problem, take_picture, viewer_executable
 from beardyn_core.scene.defect import MissingRoller
+from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.patch import Patch
 from test.record.synthetic_run import SHAPE, SyntheticRun, description
 
@@ -101,6 +102,20 @@ def test_a_spall_is_drawn_on_its_raceway(on: str) -> None:
     points = meshes.spall(SHAPE, Patch(on, 1, 0.5, 0.02, 1e-4, 0.03, 0.005)).vertices
     assert np.abs(raceway_gap(points, SHAPE, angle)).max() < 5e-4
     assert np.arctan2(points[:, 0], points[:, 2]).mean() == pytest.approx(0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize("on", ["cup", "cone"])
+def test_a_field_spall_is_drawn_by_its_strips_where_it_is(on: str) -> None:
+    """Along the roller it has its extent, around the raceway about its width."""
+    found = FieldSpall(on, 1, 0.5, 0.02, 0.05, seed=3)
+    strips = tuple(each for each in found.patches_at(0.1) if each.kind == "spall")
+    points = np.concatenate([meshes.spall(SHAPE, each).vertices for each in strips])
+    length, middle = found.extent
+    whole = meshes.spall(SHAPE, found).vertices
+    assert len(whole) >= len(points)
+    assert np.ptp(points[:, 1]) == pytest.approx(length, rel=0.1)
+    assert np.ptp(np.arctan2(points[:, 0], points[:, 2])) < 1.3 * 0.02 / 0.1 + 0.01
+    assert abs(middle) < 0.5 * 0.05
 
 
 def test_what_is_missing_is_not_drawn() -> None:
