@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.sinks import McapSink
     from beardyn_core.study import desk_run
 
-    print(f"beardyn: {scene.name}, {scene.purpose}", file=sys.stderr)
+    print("beardyn: " + ", ".join(filter(None, (scene.name, scene.purpose))), file=sys.stderr)
     tell_doubts(scene)
     sinks = [] if args.output is None else [McapSink(args.output, replace=args.force)]
     bar_format = "{desc} {bar} {n:.2f}/{total:.2f} s{postfix} [{elapsed}<{remaining}]"
