@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import re
 import sys
 from dataclasses import fields, is_dataclass
@@ -58,11 +59,26 @@ def whole_pages(app: Any, name: str, source: list[str]) -> None:
     source[0] = text
 
 
+class _ForTypesAlone(dict[str, Any]):
+    """What a module imports for its types alone, which is nothing at run time."""
+
+    def __init__(self, there: dict[str, Any]) -> None:
+        self.there = there
+
+    def __missing__(self, name: str) -> Any:
+        """Take any type for a name that is neither in the module nor built in."""
+        if name in self.there or hasattr(builtins, name):
+            raise KeyError(name)
+        return Any
+
+
 def words_of_fields(app: Any, what: str, name: str, found: Any, options: Any, lines: list[str]) -> None:
     """List the fields of a dataclass with the words of their annotations, where no docstring has them."""
     if what != "class" or not is_dataclass(found) or any(line.strip() == "Attributes" for line in lines):
         return
-    hints = get_type_hints(found, include_extras=True)
+    hints = get_type_hints(
+        found, localns=_ForTypesAlone(vars(sys.modules[found.__module__])), include_extras=True
+    )
     words = {
         field.name: next((each for each in get_args(hints[field.name])[1:] if isinstance(each, str)), "")
         for field in fields(found)
