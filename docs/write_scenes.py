@@ -20,6 +20,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of
 from beardyn_core.rail.build import load_history, load_of_scene
 from beardyn_core.rail.events import events_of
+from beardyn_core.rail.roughness import select_roughness
 from beardyn_core.rail.spectra import spectral_density
 from beardyn_core.scene.excitation import SPECTRA, VERTICAL_ONLY, RailDefect, WheelDefect
 from beardyn_core.scene.mounting import Mounting
@@ -130,7 +131,8 @@ def irregularity(scene: Scene) -> str:
     if not isinstance(scene.operation, QuarterVehicleOperation):
         return ""
     rail = scene.operation.irregularity
-    return f"`{rail.kind}`" + (f", `{rail.short_waves}`" if rail.short_waves else "")
+    roughness, _ = select_roughness(rail, scene.background)
+    return f"`{rail.kind}`" + (f", `{roughness.rail}`" if roughness.rail != "none" else "")
 
 
 def page() -> str:
@@ -160,9 +162,8 @@ def page() -> str:
 
 
 def _irregularities() -> Iterator[str]:
-    yield "Keys of `irregularity`. The sources hold for waves above some 2 m; below, their formulas go on."
-    yield "The SNCF spectra fall so slowly that they need `shortest_wavelength_m: 2`. `short_waves` adds what"
-    yield "a rail has below half a metre."
+    yield "Keys of `irregularity`. A spectrum ends at 2 m, as its source does; `short_waves` gives the"
+    yield "roughness of the rail below. [sensors.md](sensors.md#lines-and-wheels) compares the levels."
     yield ""
     yield from _options(keys_of(Irregularity))
     yield ""

@@ -4,10 +4,11 @@
 module        responsibility
 ============= ================================================================================
 table         a CSV file of numbers, with all its mistakes at once
-spectra       power spectral densities of the rail, and what the contact patch leaves of them
+spectra       power spectral densities and levels of rail and wheel
+patch         length of the wheel-rail contact, and what it leaves of short waves
 irregularity  random-phase or measured profile over the distance
 excitation    defects of wheel and rail over the distance
-roughness     short waves of wheel and rail, drawn from published levels
+roughness     waves of wheel and rail below 2 m, drawn from published levels
 background    forces on the journal from drive, other bearing and knocks
 track         the rail as standing waves of a long beam on two layers of seats
 wheelset      free modes of a wheelset from its dimensions

@@ -12,7 +12,8 @@ from beardyn_core.rail.background import background_force
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
 from beardyn_core.rail.measured import replay_load
-from beardyn_core.rail.roughness import roughness_height
+from beardyn_core.rail.patch import patch_length
+from beardyn_core.rail.roughness import roughness_height, select_roughness
 from beardyn_core.rail.running import Running, journal_force, running, suspension_shift, tilting_moment
 from beardyn_core.rail.vehicle import Ride, equivalent_displacement, quarter_vehicle, ride
 from beardyn_core.scene.background import BACKGROUND_SAMPLE_NS, Background
@@ -74,7 +75,7 @@ def load_history(
         raise InputError(f"duration is {duration:g} s; allowed is more than 0 and less than 86 400 s")
     # shorter where wheel or rail strikes
     strikes = isinstance(operation, QuarterVehicleOperation) and (
-        operation.wheel_defects or operation.rail_defects or operation.irregularity.short_waves
+        operation.wheel_defects or operation.rail_defects or operation.irregularity.roughness != "none"
     )
     if background is not None and not background.forces:
         background = None
@@ -148,20 +149,24 @@ def ride_steps(
     """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
     position = distance_at(operation.speed_profile, time)
+    radius = 0.5 * operation.wheel_diameter
+    vehicle = quarter_vehicle(operation, mounting, bearing)
     patch = operation.contact_patch
-    height = irregular_height(operation.irregularity, position, seed, patch)
+    if patch is None:
+        patch = patch_length(radius, vehicle.static_force)
+    irregularity = operation.irregularity
+    height = irregular_height(irregularity, position, seed, patch)
     if operation.wheel_defects or operation.rail_defects:
-        radius = 0.5 * operation.wheel_diameter
         height = height + wheel_height(operation.wheel_defects, radius, position, patch)
         height += rail_height(operation.rail_defects, position, patch)
-    if background is not None and background.roughness is not None:
-        rough = roughness_height(background.roughness, operation, position, seed)
-        height = height + background.amplitude_factor * rough
+    roughness, factor = select_roughness(irregularity, background)
+    rough = roughness_height(roughness, irregularity, 2.0 * np.pi * radius, position, seed, patch)
+    height = height + factor * rough
     fade = _rise(time, FADE_IN)
     height = (height - height[0]) * fade
     besides = running(operation, mounting, time, fade, seed)
     push = None if besides is None else besides.push
-    return ride(quarter_vehicle(operation, mounting, bearing), height, 1.0 / RIDE_RATE, push), besides
+    return ride(vehicle, height, 1.0 / RIDE_RATE, push), besides
 
 
 def _quarter_vehicle(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.rail.excitation import waves_of
+from beardyn_core.rail.roughness import select_roughness
 from beardyn_core.scene import excitation
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import distance_at, speed_at
@@ -76,7 +77,7 @@ def _operation(scene: Scene) -> dict[str, Any]:
         return {
             "load": f"{operation.vehicle.name} on its track",
             "distance_m": round(float(travel.distance[-1]), 3),
-            "irregularity": _irregularity(operation.irregularity, scene.seed),
+            "irregularity": _irregularity(operation.irregularity, scene),
             "events": [
                 *_wheel(operation, travel),
                 *_rail(operation.rail_defects, travel),
@@ -90,16 +91,17 @@ def _operation(scene: Scene) -> dict[str, Any]:
     return {"load": "as written in the scene", "events": []}
 
 
-def _irregularity(irregularity: excitation.Irregularity, seed: int) -> dict[str, Any]:
+def _irregularity(irregularity: excitation.Irregularity, scene: Scene) -> dict[str, Any]:
     found: dict[str, Any] = {"kind": irregularity.kind}
     if irregularity.path is not None:
         found["file"] = irregularity.path.name
     if irregularity.kind not in ("none", "csv"):
         found["wavelength_m"] = [irregularity.shortest_wavelength, irregularity.longest_wavelength]
-    if irregularity.short_waves is not None:
-        found["short_waves"] = irregularity.short_waves
-    if irregularity.kind not in ("none", "csv") or irregularity.short_waves is not None:
-        found["seed"] = seed
+    roughness, _ = select_roughness(irregularity, scene.background)
+    if roughness.rail != "none":
+        found["short_waves"] = roughness.rail
+    if irregularity.kind not in ("none", "csv") or roughness.rail != "none":
+        found["seed"] = scene.seed
     return found
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.rail.spectra import wave_gain
+from beardyn_core.rail.patch import wave_gain
 from beardyn_core.scene import excitation
 
 _STREAM = 0x7768656C  # keeps the wheel's random numbers apart from those of rail and sensors

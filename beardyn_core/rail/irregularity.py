@@ -10,19 +10,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.rail.spectra import SHORT_WAVE_BAND, iso_3095_density, patch_gain, target_density
+from beardyn_core.rail.patch import patch_gain
+from beardyn_core.rail.spectra import target_density
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.chord_polynomials import refine_series
 from beardyn_core.scene.excitation import Irregularity
 from beardyn_core.scene.load import LOOK_AHEAD, UNEVENNESS
 
 _SHORTEST_PERIOD = 4096.0
-_SHORT_WAVE_PERIOD = 512.0
-# of the shortest wave: images of the grid are 95 dB down; 70 dB where the contact patch swallows it
-_SAMPLES_PER_WAVE, _SAMPLES_PER_SHORT_WAVE = 16, 8
+_SAMPLES_PER_WAVE = 16  # of the shortest wave: images of the grid are 95 dB down
 _STREAM = 0x7261696C  # keeps the rail's random numbers apart from those of the sensors
-# numbers that further profiles of the same seed add to the stream
-_FURTHER = {"lateral": 1, "short_waves": 2}
+_LATERAL = 1  # which the alignment adds to the stream of the same seed
 
 RAIL_LAYOUT = Layout(
     what="rail irregularity over the distance",
@@ -45,7 +43,6 @@ class RailProfile:
     spacing: A[float, "between grid points, [m]"]
     height: A[Float, "shape [point], upwards, [m]"]
     slope: A[Float, "shape [point], first derivative along the track, [-]"]
-    finer: A[RailProfile | None, "short waves on a grid of their own, that add to it"] = None
 
     @property
     def period(self) -> float:
@@ -62,8 +59,7 @@ class RailProfile:
         rise = self.height[right] - self.height[left]
         entry = self.slope[left] * self.spacing - rise
         leave = rise - self.slope[right] * self.spacing
-        height = self.height[left] + s * (rise + (1.0 - s) * ((1.0 - s) * entry + s * leave))
-        return height if self.finer is None else height + self.finer.height_at(position)
+        return self.height[left] + s * (rise + (1.0 - s) * ((1.0 - s) * entry + s * leave))
 
 
 def rail_profile(
@@ -73,7 +69,7 @@ def rail_profile(
 
     Every spectral line in the wavelength band gets the amplitude sqrt(2 S dOmega) and a random phase.
     The period is 4096 m times a power of two, so all runs shorter than that see the same rail for
-    the same seed, however long they last. Short waves come back after 512 m.
+    the same seed, however long they last.
 
     Parameters
     ----------
@@ -82,7 +78,7 @@ def rail_profile(
     direction : str
         ``vertical``, upwards, or ``lateral``, the alignment, along +y; zero where the source has none.
     patch : float
-        Length of the contact patch, over which short waves are smoothed, [m]; 0: a point.
+        Length of the contact patch, over which the vertical profile is smoothed, [m]; 0: a point.
 
     Raises
     ------
@@ -90,14 +86,8 @@ def rail_profile(
         When a file is bad, or shorter than the run.
     """
     if irregularity.kind == "csv":
-        profile = _measured_profile(irregularity, distance, direction, patch)
-    else:
-        profile = _draw_profile(irregularity, distance, seed, direction, patch)
-    if irregularity.short_waves is None or direction == "lateral":
-        return profile
-    return RailProfile(
-        profile.spacing, profile.height, profile.slope, _short_waves(irregularity, seed, patch)
-    )
+        return _measured_profile(irregularity, distance, direction, patch)
+    return _draw_profile(irregularity, distance, seed, direction, patch)
 
 
 def irregular_height(irregularity: Irregularity, position: Float, seed: int, patch: float) -> Float:
@@ -123,32 +113,10 @@ def _draw_profile(
         return RailProfile(period / points, np.zeros(points), np.zeros(points))
     line, wavenumber = spectral_lines(period, shortest, longest)
     density = target_density(irregularity, wavenumber, direction)
-    stream = [_STREAM, seed] if direction == "vertical" else [_STREAM, seed, _FURTHER[direction]]
+    stream = [_STREAM, seed] if direction == "vertical" else [_STREAM, seed, _LATERAL]
     if direction == "vertical":
         density = density * patch_gain(wavenumber, patch) ** 2
     return random_phases(period, points, line, wavenumber, density, stream)
-
-
-def _short_waves(irregularity: Irregularity, seed: int, patch: float) -> RailProfile:
-    """Compute the density that the spectrum lacks against that of the roughness limit."""
-    period = _SHORT_WAVE_PERIOD
-    line, wavenumber = spectral_lines(period, *SHORT_WAVE_BAND)
-    density = lacking_density(irregularity, wavenumber, iso_3095_density(wavenumber))
-    density = density * patch_gain(wavenumber, patch) ** 2
-    points = grid_points(period, SHORT_WAVE_BAND[0], _SAMPLES_PER_SHORT_WAVE)
-    return random_phases(period, points, line, wavenumber, density, [_STREAM, seed, _FURTHER["short_waves"]])
-
-
-def lacking_density(irregularity: Irregularity, wavenumber: Float, density: Float) -> Float:
-    """Compute what the spectrum of an irregularity lacks against a density of short waves."""
-    found = density.copy()
-    if irregularity.kind not in ("csv", "none"):
-        wavelength = 2.0 * np.pi / wavenumber
-        there = (wavelength >= irregularity.shortest_wavelength) & (
-            wavelength <= irregularity.longest_wavelength
-        )
-        found[there] -= target_density(irregularity, wavenumber[there])
-    return np.maximum(found, 0.0)
 
 
 def grid_points(period: float, shortest: float, samples_per_wave: int) -> int:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 from beardyn_core.base.edge import At
+from beardyn_core.scene.excitation import RAIL_LEVELS
 
-RAILS = ("iso_3095", "average_network", "none")
-WHEELS = ("disc_brake", "composite", "cast_iron", "none")
+WHEELS = ("smooth", "disc_brake", "composite", "cast_iron", "none")
 FAULTS = ("cup", "cone", "roller")
 # between two samples of a load with a background, which reaches 8 kHz
 BACKGROUND_SAMPLE_NS = 50_000
@@ -18,18 +18,24 @@ FORCE = At("kN", ge=0.0, le=20.0)
 
 @dataclass(frozen=True)
 class Roughness:
-    """Short waves of wheel and rail, 4 mm to 0.5 m, which excite wheel and track to 5 kHz and above.
+    """Short waves of wheel and rail, 4 mm to 2 m, which excite wheel and track to 5 kHz and above.
 
     References
     ----------
     Levels in third octaves of the wavelength: Directive (EU) 2015/996 (CNOSSOS-EU), table G-1; `iso_3095` is
-    the limit of ISO 3095:2013 for test tracks. The contact patch smooths both as it does the irregularity.
+    the limit of ISO 3095:2013 for test tracks; `good` and `smooth` are those of French high-speed lines and
+    of wheels with composite blocks and discs (SNCF, 2021). The contact patch smooths both as it does the
+    irregularity.
     """
 
-    rail: A[str, At(one_of=RAILS), "level of the rail: of a test track, or of an average network"] = (
-        "iso_3095"
-    )
-    wheel: A[str, At(one_of=WHEELS), "level of the wheel, by what brakes it"] = "disc_brake"
+    rail: A[
+        str,
+        At(one_of=RAIL_LEVELS),
+        "level of the rail: of a good line, the limit of test tracks, of an average network",
+    ] = "iso_3095"
+    wheel: A[
+        str, At(one_of=WHEELS), "level of the wheel, by its brakes; smooth: composite blocks and discs"
+    ] = "disc_brake"
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ SPECTRA = (
 VERTICAL_ONLY = ("sncf_good", "sncf_bad")
 MEASURED = ("csv", "density_csv")
 IRREGULARITY_KINDS = (*SPECTRA, *MEASURED, "none")
-SHORT_WAVES = ("iso_3095",)
+RAIL_LEVELS = ("good", "iso_3095", "average_network", "none")  # of roughness
 DIRECTIONS = ("vertical", "lateral")
 FLAT_SHAPES = ("fresh", "rounded")
 AMPLITUDE = At("um", ge=0.0, le=2000.0)
@@ -40,18 +40,26 @@ class Irregularity:
     kind: A[
         str, At(one_of=IRREGULARITY_KINDS), "a spectrum by name, or a file of a profile or of a density"
     ] = "german_low"
-    shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 0.1
+    shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 2.0
     longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0
     short_waves: A[
         str | None,
-        At(one_of=SHORT_WAVES),
-        "rail roughness between 1 cm and 0.5 m, at least that of the limit for test tracks",
+        At(one_of=RAIL_LEVELS),
+        "level of the rail's roughness between 4 mm and 2 m; average_network with a spectrum, none with kind "
+        "csv or none, that of the background where it has one, when left out",
     ] = None
     path: A[
         Path | None,
         "of a kind from a file, relative to the scene file; columns distance_m, vertical_mm and "
         "perhaps lateral_mm, or wavelength_m, vertical_mm2_m and perhaps lateral_mm2_m",
     ] = None
+
+    @property
+    def roughness(self) -> str:
+        """Level of the rail's roughness, also where none is given."""
+        if self.short_waves is not None:
+            return self.short_waves
+        return "none" if self.kind in ("csv", "none") else "average_network"
 
     def __post_init__(self) -> None:
         refuse(self, "irregularity")

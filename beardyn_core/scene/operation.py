@@ -184,10 +184,11 @@ class QuarterVehicleOperation:
         tuple[RailDefect, ...], "joints, welds, crossings and corrugation, besides the irregularity"
     ] = ()
     contact_patch: A[
-        float,
+        float | None,
         At("mm", ge=0.0, le=30.0),
-        "length of the wheel-rail contact, which smooths short waves; 0 for a point",
-    ] = 0.012
+        "length of the wheel-rail contact, which smooths short waves, 0 for a point; that of a Hertz contact "
+        "under the wheel's load when left out",
+    ] = None
     payload: A[
         float, At("t", ge=0.0, le=100.0), "of the whole car, besides what its body_mass_t has in it"
     ] = 0.0

@@ -8,7 +8,18 @@ from collections.abc import Iterator
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_background, load_sensor, shipped_names
 from evidence.pages import DOCS, write_page
-from evidence.service.study import PARTS, SPANS_HZ, TIERS, Heard, hear, services, with_parts
+from evidence.service.study import (
+    LINES,
+    OCTAVES_HZ,
+    PARTS,
+    SPANS_HZ,
+    TIERS,
+    Heard,
+    hear,
+    services,
+    with_parts,
+    with_roughness,
+)
 from evidence.tables import markdown
 
 PAGE = DOCS / "sensors.md"
@@ -42,6 +53,16 @@ def _table(first: str, found: list[tuple[str, Heard]]) -> str:
     return markdown(head, rows, f"l{'r' * (len(SPANS_HZ) + 2)}l")
 
 
+def _lines() -> str:
+    scene = load_scene("service_freight", tier="quasistatic")
+    head = ("rail", "wheel", *(f"{low * 2**0.5:g} Hz" for low, _ in OCTAVES_HZ))
+    rows = []
+    for rail, wheel in LINES:
+        heard = hear(with_roughness(scene, rail, wheel))
+        rows.append((f"`{rail}`", f"`{wheel}`", *(f"{level:.2g}" for level in heard.octaves)))
+    return markdown(head, rows, f"ll{'r' * len(OCTAVES_HZ)}")
+
+
 def main() -> int:
     """Run and write."""
     scene = load_scene("service_high_speed", tier="quasistatic")
@@ -51,6 +72,7 @@ def main() -> int:
         "kinds": list(_kinds()),
         "backgrounds": list(_backgrounds()),
         "parts": _table("background", parts),
+        "lines": _lines(),
         "tiers": {
             tier: _table("scene", [(f"`{each.name}`", hear(each)) for each in services(tier)])
             for tier in TIERS

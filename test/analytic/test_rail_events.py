@@ -96,7 +96,7 @@ def test_waves_of_the_wheel_and_the_rail_name_sizes_and_seeds():
     assert polygon["top_frequency_Hz"] == pytest.approx(20 * 200 / 3.6 / (np.pi * 0.92))
     assert (wheel["orders"], wheel["amplitudes_m"], wheel["seed"]) == ([1, 2], [1e-4, 2e-5], 9)
     assert told["irregularity"] == {
-        "kind": "fra_3", "wavelength_m": [0.1, 150.0], "short_waves": "iso_3095", "seed": scene.seed,
+        "kind": "fra_3", "wavelength_m": [2.0, 150.0], "short_waves": "iso_3095", "seed": scene.seed,
     }  # fmt: skip
     assert events_of(scene_with(irregularity=Irregularity("none")))["irregularity"] == {"kind": "none"}
 

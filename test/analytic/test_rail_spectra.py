@@ -12,14 +12,15 @@ from scipy.signal import welch
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.rail.irregularity import RAIL_LAYOUT, irregular_height, rail_profile
+from beardyn_core.rail.patch import patch_gain, wave_gain
+from beardyn_core.rail.roughness import roughness_height
 from beardyn_core.rail.spectra import (
     THIRD_OCTAVE,
-    iso_3095_density,
-    patch_gain,
+    roughness_density,
     spectral_density,
-    wave_gain,
 )
 from beardyn_core.rail.table import read_table
+from beardyn_core.scene.background import Roughness
 from beardyn_core.scene.excitation import SPECTRA, VERTICAL_ONLY, Irregularity
 from test.analytic.density_estimate import band_ratios, estimate
 
@@ -93,30 +94,25 @@ def test_the_roughness_limit_has_its_level_in_each_third_octave():
     for wavelength, level in ((0.2, 11.0), (0.1, 4.9), (0.05, -1.1), (0.025, -5.6), (0.0125, -7.4)):
         centre = 0.4 * 10 ** (0.1 * np.round(10 * np.log10(wavelength / 0.4)))
         low, high = 2 * np.pi / centre * 10 ** np.array([-0.05, 0.05])
-        square, _ = quad(lambda k: float(iso_3095_density(np.array(k))), low, high)
+        square, _ = quad(lambda k: float(roughness_density("iso_3095", np.array(k))), low, high)
         assert 10 * np.log10(square / 1e-12) == pytest.approx(level, abs=0.15)
     assert pytest.approx(0.2307, abs=1e-4) == THIRD_OCTAVE
 
 
 def test_short_waves_fill_the_rail_up_to_the_limit_and_no_further():
-    irregularity = Irregularity("german_low", 0.1, 150.0, "iso_3095")
-    profile = rail_profile(irregularity, 100.0, 5)
-    assert profile.finer is not None
-    spacing = profile.finer.spacing
-    position = np.arange(2**19) * spacing
-    wavenumber, density = estimate(profile.height_at(position), spacing, 2**14)
+    irregularity = Irregularity("german_low", 0.1, 150.0)
+    spacing = 512.0 / 2**20
+    position = np.asarray(np.arange(2**20) * spacing, dtype=np.float64)
+    longer = rail_profile(irregularity, 100.0, 5).height_at(position)
+    finer = roughness_height(Roughness("iso_3095", "none"), irregularity, 2.9, position, 5, 0.0)
+    wavenumber, density = estimate(longer + finer, spacing, 2**15)
     edges = 2 * np.pi / np.array([0.45, 0.25, 0.12, 0.06, 0.03, 0.0125])
     within = np.where(
         wavenumber <= 2 * np.pi / 0.1, spectral_density("german_low", np.maximum(wavenumber, 1)), 0
     )
-    target = np.maximum(within, iso_3095_density(np.maximum(wavenumber, 1e-3)))
+    target = np.maximum(within, roughness_density("iso_3095", np.maximum(wavenumber, 1e-3)))
     # interpolation between the points of the long waves adds less than a percent
     assert band_ratios(wavenumber, density, target, edges) == pytest.approx(1.0, abs=0.05)
-    without = rail_profile(Irregularity("german_low", 0.1, 150.0), 100.0, 5)
-    assert np.array_equal(profile.height, without.height)
-    assert profile.finer is not None
-    longer, finer = without.height_at(position), profile.finer.height_at(position)
-    assert np.array_equal(profile.height_at(position), longer + finer)
 
 
 def test_the_patch_smooths_waves_that_are_not_much_longer():
@@ -133,13 +129,13 @@ def test_the_patch_smooths_waves_that_are_not_much_longer():
     # random roughness: half the power where k a = (4 / pi)^(1/3)
     half = (4 / np.pi) ** (1 / 3) / 0.006
     assert patch_gain(np.array([half]), 0.012)[0] ** 2 == pytest.approx(0.5, rel=1e-9)
-    rough = Irregularity("none", short_waves="iso_3095")
-    heights = []
-    for patch in (0.0, 0.012):
-        finer = rail_profile(rough, 100.0, 1, patch=patch).finer
-        assert finer is not None
-        heights.append(np.abs(np.fft.rfft(finer.height))[1100:50_000:1000])
-    ratio = heights[1] / heights[0]
+    position = np.asarray(np.arange(2**20) * (512.0 / 2**20), dtype=np.float64)
+    rough = Roughness("iso_3095", "none")
+    heights = [
+        roughness_height(rough, Irregularity("none"), 2.9, position, 1, patch) for patch in (0.0, 0.012)
+    ]
+    before, after = (np.abs(np.fft.rfft(height))[1100:50_000:1000] for height in heights)
+    ratio = after / before
     wavenumber = np.asarray(np.arange(1100, 50_000, 1000) * (2 * np.pi / 512.0), np.float64)
     assert ratio == pytest.approx(patch_gain(wavenumber, 0.012), rel=1e-9)
 
@@ -161,9 +157,7 @@ def test_a_measured_rail_is_met_where_it_was_measured(tmp_path):
     assert np.allclose(height, 2e-3 * np.sin(2 * np.pi * position / 12.0), rtol=0, atol=2e-5)
     aside = rail_profile(irregularity, 59.0, 1, "lateral").height_at(position)
     assert np.allclose(aside, 1e-3 * np.cos(2 * np.pi * position / 20.0), rtol=0, atol=2e-5)
-    rough = Irregularity("csv", path=path, short_waves="iso_3095")
-    added = irregular_height(rough, position, 1, 0.0) - irregular_height(irregularity, position, 1, 0.0)
-    assert 1e-6 < added.std() < 2e-5
+    assert irregularity.roughness == "none"
     with pytest.raises(InputError, match=r"covers 60 m; the run needs 200 m"):
         rail_profile(irregularity, 200.0, 1)
     with pytest.raises(InputError, match="goes back 3 m behind its start"):
@@ -238,7 +232,7 @@ def test_everything_wrong_with_a_measured_rail_is_told_at_once(tmp_path):
         ({"kind": "csv"}, "needs the path"),
         ({"kind": "fra_7"}, "allowed are german_low"),
         ({"path": Path("rail.csv")}, "it goes with kind 'csv' or 'density_csv'"),
-        ({"short_waves": "smooth"}, "allowed are iso_3095"),
+        ({"short_waves": "smooth"}, "allowed are good, iso_3095"),
     ],
 )
 def test_an_irregularity_that_cannot_be_is_refused(options, words):

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.rail.excitation import wheel_height
+from beardyn_core.rail.patch import patch_gain, patch_length
+from beardyn_core.rail.spectra import THIRD_OCTAVE, roughness_density
 from beardyn_core.rail.vehicle import BOX, WHEEL, quarter_vehicle, ride
 from beardyn_core.scene.excitation import DippedJoint, WheelFlat, WheelPolygon
 from beardyn_core.scene.mounting import Mounting
@@ -151,3 +153,42 @@ def test_a_polygon_excites_at_its_order_times_the_revolution(order, speed_kmh, f
     force = response.contact_force[-round(2.0 / step) :]
     spectrum = np.abs(np.fft.rfft((force - force.mean()) * np.hanning(len(force))))
     assert np.argmax(spectrum) / (len(force) * step) == pytest.approx(frequency, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("load", "filter_dB"),
+    [
+        (25e3, (0.0, -0.3, -0.5, -1.1, -1.8, -3.3, -5.3, -7.9)),
+        (50e3, (-0.1, -0.6, -1.1, -1.3, -3.5, -5.3, -8.0, -12.0)),
+        (100e3, (-0.3, -1.0, -1.8, -3.2, -5.4, -8.7, -12.2, -16.7)),
+    ],
+)
+def test_the_contact_patch_smooths_as_the_filter_of_cnossos(load, filter_dB):
+    """Directive (EU) 2021/1226, table G-2, wheels of 920 mm, as in the tables of NoiseModelling.
+
+    Below 25 mm Remington's filter passes more than the table, up to 4 dB at 16 mm.
+    """
+    wavelength = np.array([0.1, 0.063, 0.05, 0.04, 0.0315, 0.025, 0.02, 0.016])
+    ours = 20.0 * np.log10(patch_gain(2.0 * np.pi / wavelength, patch_length(0.46, load)))
+    assert ours[:5] == pytest.approx(filter_dB[:5], abs=0.65)
+    assert ours[5] == pytest.approx(filter_dB[5], abs=1.4)
+    assert np.all(ours[6:] - filter_dB[6:] < 4.2)
+    assert np.all(ours[6:] - filter_dB[6:] > -0.1)
+
+
+@pytest.mark.parametrize(
+    ("level", "expected"),
+    [
+        ("good", {1.0: 7.9, 0.25: 0.2, 0.063: -7.1, 0.0315: -8.6, 0.01: -11.1}),
+        ("smooth", {1.0: -12.5, 0.2: -14.5, 0.063: -14.3, 0.0315: -14.5, 0.01: -17.5}),
+        ("average_network", {1.0: 25.0, 0.25: 9.0, 0.063: 0.1, 0.0315: -0.8, 0.01: -9.0}),
+        ("disc_brake", {0.25: 2.32, 0.063: -0.25, 0.0315: -4.94, 0.01: -10.12}),
+    ],
+)
+def test_levels_of_rails_and_wheels_are_the_published_ones(level, expected):
+    """Directive (EU) 2015/996 and 2021/1226, table G-1; SNCF, June 2021, both as in NoiseModelling."""
+    for wavelength, decibel in expected.items():
+        centre = 0.4 * 10.0 ** (0.1 * np.round(10.0 * np.log10(wavelength / 0.4)))
+        wavenumber = 2.0 * np.pi / np.array([centre])
+        square = roughness_density(level, wavenumber)[0] * THIRD_OCTAVE * wavenumber[0]
+        assert 10.0 * np.log10(square / 1e-12) == pytest.approx(decibel, abs=1e-6), wavelength
