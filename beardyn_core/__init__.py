@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, train
     from beardyn_core.api.following import Following, follow
-    from beardyn_core.api.heat import steady_heat
+    from beardyn_core.api.heat import heat_interval, steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
     from beardyn_core.api.reading import monitor, read, severity
@@ -99,7 +99,7 @@ __all__ += [
     "calibrate",
 ]
 __all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "follow"]
-__all__ += ["forecast", "import_measured"]
+__all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
 __all__ += ["torque", "train", "trend"]
@@ -108,7 +108,7 @@ _MODULES = {
     "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
     "api.following": ("Following",),
-    "api.heat": ("steady_heat",),
+    "api.heat": ("heat_interval", "steady_heat"),
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
     "api.reading": ("read", "severity"),

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.api.making import scene
+from beardyn_core.choice import heat_interval as interval
 from beardyn_core.choice import steady_heat as found
+from beardyn_core.choice.heat_interval import HeatInterval
 from beardyn_core.choice.steady_heat import SteadyHeat
 from beardyn_core.scene.scene import Scene
 
@@ -39,3 +41,31 @@ def steady_heat(source: str | Path | Mapping[str, Any] | Scene, **options: Any) 
     See `beardyn_core.choice.steady_heat`.
     """
     return found.steady_heat(scene(source, **options))
+
+
+def heat_interval(source: str | Path | Mapping[str, Any] | Scene, **options: Any) -> HeatInterval:
+    """Find the steady temperatures of a bearing as 90 % intervals over grease, seals and air.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or Scene
+        As of `steady_heat`, which is solved 15 times.
+    **options
+        Other arguments of `beardyn_core.scene`.
+
+    Returns
+    -------
+    HeatInterval
+        ``rise("axlebox")``: least, usual and most above the air [K]; ``inputs``: what each assumed input
+        does; ``warm_from(air)``: a limit for the monitor [K].
+
+    Raises
+    ------
+    InputError, ValidityError
+        An argument makes no sense; there is no equilibrium or no steady state.
+
+    References
+    ----------
+    See `beardyn_core.choice.heat_interval`.
+    """
+    return interval.heat_interval(scene(source, **options))

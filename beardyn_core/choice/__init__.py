@@ -7,6 +7,7 @@ load_cases            load cases of the operation
 statics               equilibria of the load cases
 losses                torque by source, slip of the raceways
 steady_heat           steady temperatures, where losses and heat carried off agree
+heat_interval         the same over the ranges of grease, seals and air
 costs                 measured cost of tiers, effects, laminae (`costs.json`)
 reference_solution    all of these for one scene, each worked out once
 rule                  alternatives with influence and cost, decisions, the choice with reasons and errors

@@ -140,9 +140,14 @@ NTN_LIGHT = State("likewise, little grease, light seals", supply="channelled", f
 
 @cache
 def on_the_rig(state: State) -> SteadyHeat:
-    """Find the steady state of a bearing of 120 x 220 on NTN's rig: 2216 rpm, air of 10 m/s."""
+    """Find the steady state of a bearing on NTN's rig."""
+    return steady_heat(rig_scene(state))
+
+
+def rig_scene(state: State) -> Scene:
+    """Build the scene of a bearing of 120 x 220 on NTN's rig: 2216 rpm, air of 10 m/s."""
     wheel = 330.0 / 3.6 / (2216.0 / 60.0) / math.pi
-    scene = scene_of(
+    return scene_of(
         state,
         330.0,
         force=(0.0, 13.6e3, 68.3e3),
@@ -150,7 +155,6 @@ def on_the_rig(state: State) -> SteadyHeat:
         wheel_diameter=wheel,
         air_speed=10.0 / (330.0 / 3.6),
     )
-    return steady_heat(scene)
 
 
 def all_states() -> Iterator[tuple[State, float, SteadyHeat]]:

@@ -29,6 +29,7 @@ from evidence.heat.cases import (
     torque_point,
     torque_without_stiffening,
 )
+from evidence.heat.intervals import at_speed, intervals, shares
 from evidence.heat.published import (
     ALTRIOS,
     COEFFICIENTS,
@@ -118,6 +119,10 @@ def write() -> None:
         "clearance": steady(CLEARANCE, SPEED_OF_LIESER).rise("axlebox"),
         "overgreased": steady(OVERGREASED, SPEED_OF_LIESER).rise("axlebox"),
         "variations": variations(),
+        "intervals": intervals(),
+        "shares": shares(200.0),
+        "warm_200": at_speed(200.0).warm_from(SUMMER) - 273.15,
+        "warm_80": at_speed(80.0).warm_from(SUMMER) - 273.15,
         "seals": SEALS,
         "seal_200": steady(garter, 200.0).rise("cone") - steady(HEALTHY, 200.0).rise("cone"),
         "seal_300": steady(garter, 300.0).rise("cone") - steady(HEALTHY, 300.0).rise("cone"),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from beardyn_core.choice.heat_interval import heat_interval
 from beardyn_core.config import load_lubricant
 from beardyn_core.monitor.chain import MonitorSettings
 from evidence.heat.cases import (
@@ -26,6 +27,7 @@ from evidence.heat.cases import (
     torque_point,
     torque_without_stiffening,
 )
+from evidence.heat.intervals import published
 from evidence.heat.published import (
     EMPTY,
     LIP_SEAL,
@@ -163,3 +165,11 @@ def test_rollers_pressed_by_their_orbit_make_the_rolling_loss_of_the_crh380b() -
     assert (static.cup_load > 0.0).all()
     assert static.loaded_roller_count == (7, 3)
     assert power_loss(None, "locked") == pytest.approx(2558.0, rel=0.01)
+
+
+@pytest.mark.slow
+def test_measured_temperatures_are_inside_the_intervals_of_their_scenes() -> None:
+    for each in published():
+        low, _, high = heat_interval(each.scene).rise(each.part)
+        assert low <= each.least, each.name
+        assert each.most <= high, each.name
