@@ -200,3 +200,12 @@ def test_every_option_of_a_noun_has_a_key_and_the_same_usual_value(noun: type[An
     found = keys.model_validate(kind | needed).noun()
     assert found == noun(**needed)
     assert repr(found) == repr(noun(**needed))
+
+
+@pytest.mark.parametrize("name", shipped_names("scenes"))
+def test_every_box_rings_but_those_of_the_laboratory(name: str) -> None:
+    scene = load_scene(name, effects=None)
+    rings = isinstance(scene.effects.structure, effects.ModalStructure)
+    assert rings != name.startswith(("santos_", "static_"))
+    if scene.defects:
+        assert rings
