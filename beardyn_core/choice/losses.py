@@ -12,12 +12,11 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
-from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin, roller_spin
+from beardyn_core.bearing.kinematics import roller_cone_spin
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import (
     CoulombTraction,
-    KinematicCage,
     LineFilm,
     LoadSharingTraction,
     MixedTraction,
@@ -26,8 +25,9 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.physics.cage_drag import cage_drag_torque
-from beardyn_core.physics.drag import churning_rate, drag_params
+from beardyn_core.physics.drag import drag_params, drag_push, drag_torque
 from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.pure_rolling import bar_weight, kinematic_params
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
@@ -86,6 +86,8 @@ class Losses:
         self.speed = abs(case.speed)
         bearing = scene.bearing
         self._entrainment = entrainment_speeds(bearing, self.speed)
+        self._motion, self._medium = kinematic_params(scene), drag_params(scene)
+        self._speeds = self.speed, self._motion.cage_ratio * self.speed
         self.rolling, self._couples = self._roll(scene.effects.film)
 
     def _roll(self, film: LineFilm | None) -> tuple[float, Float]:
@@ -115,24 +117,12 @@ class Losses:
     @property
     def drag(self) -> float:
         """Torque of drag and churning, [N m]."""
-        push, churning = self._drag()
-        if self.speed == 0.0:
-            return 0.0
-        bearing = self.scene.bearing
-        count = self.scene.roller_total
-        orbit = cage_speed(bearing, self.speed)
-        power = push * orbit * 0.5 * bearing.pitch_diameter + churning * roller_spin(bearing, self.speed)
-        return count * power / self.speed
+        return float(plain(drag_torque)(self._speeds, self._motion, self._medium))
 
-    def _drag(self) -> tuple[float, float]:
-        """Compute the force on a roller's orbit and couple on its spin, [N], [N m]."""
-        law = drag_params(self.scene)
-        if law is None or self.speed == 0.0:
-            return 0.0, 0.0
-        bearing = self.scene.bearing
-        flow = cage_speed(bearing, self.speed) * 0.5 * bearing.pitch_diameter
-        spin = roller_spin(bearing, self.speed)
-        return law.orbit * flow**2, float(plain(churning_rate)(spin, law)) * spin
+    @property
+    def _push(self) -> float:
+        """Force of the medium on the orbit of a roller, [N]."""
+        return float(plain(drag_push)(self._speeds, self._motion, self._medium))
 
     @property
     def seal(self) -> float:
@@ -158,22 +148,16 @@ class Losses:
     @property
     def pocket(self) -> float:
         """Torque of the pockets, [N m]: the cage pushes idle rollers, loaded ones push the cage."""
-        cage = self.scene.effects.cage
-        if cage is None or isinstance(cage, KinematicCage) or self.speed == 0.0:
-            return 0.0  # a kinematic cage has no pockets that rub
-        return (
-            cage.friction
-            * self.pocket_force
-            * roller_spin(self.scene.bearing, self.speed)
-            * (0.5 * self.scene.bearing.roller_diameter / self.speed)
-        )
+        pocket = self._motion.pocket  # a kinematic cage has none that rub
+        if pocket is None or self.speed == 0.0:
+            return 0.0
+        return 0.5 * pocket.lever * self.pocket_force
 
     @property
     def pocket_force(self) -> float:
         """Normal forces of all pockets, [N]."""
-        idle = int(np.count_nonzero(self.static.cone_load <= 0.0))
-        weight = self.gravity * self.scene.bearing.roller_mass * 2.0 / math.pi
-        return 2.0 * idle * (self._drag()[0] + weight)
+        idle = self.scene.roller_total - int(np.count_nonzero(self.static.cone_load > 0.0))
+        return 2.0 * idle * (self._push + bar_weight(self.scene.bearing, self.gravity))
 
     @property
     def total(self) -> float:
@@ -227,7 +211,7 @@ class Losses:
         if rolling:
             needed += float(self._couples[:, loaded].sum()) / self.scene.bearing.roller_diameter
         if drag:
-            needed += self.scene.roller_total * self._drag()[0]
+            needed += self.scene.roller_total * self._push
         needed += 0.5 * self.pocket_force
         loads = np.minimum(self.static.cone_load, self.static.cup_load)[loaded]
         available, slip = self._slip(traction, film, loads, needed)

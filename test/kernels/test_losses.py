@@ -13,6 +13,10 @@ from numpy.typing import NDArray
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice.load_cases import circumstances
+from beardyn_core.choice.losses import Losses
+from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance
 from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
@@ -157,6 +161,31 @@ def test_drag_and_churning_are_those_of_the_plain_formulas(lanes: Any) -> None:
         couple = -1.5 * math.copysign(cylinder + discs, spin) * axis
         np.testing.assert_allclose(wrench[:3], [0.0, force, 0.0], rtol=1e-9, atol=1e-15)
         np.testing.assert_allclose(wrench[3:], couple, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize("speed", [3.0, 122.0])
+def test_rolling_rollers_lose_to_the_medium_what_the_choice_counts(lanes: Any, speed: float) -> None:
+    """A roller in pure rolling turns about the line that touches the cup at rest; one formula, rounding."""
+    scene = scene_with(replace(EffectSet(), drag=Drag(churning=1.5)))
+    bearing, angle = scene.bearing, scene.bearing.contact_angle
+    orbit = cage_speed(bearing, speed)
+    axis = np.array([math.sin(angle), 0.0, math.cos(angle)])
+    line = np.array([math.sin(bearing.cup_angle), 0.0, math.cos(bearing.cup_angle)])
+    apex = np.array([0.0, 0.0, bearing.apex_place])
+    place = apex + (bearing.apex_distance + bearing.roller_mass_offset) * axis
+    # its mass centre has the speed of its orbit
+    about = np.cross(line, place - apex)
+    omega = line * (orbit * place[0] / about[1])
+    velocity = np.cross(omega, place - apex)
+    case = np.array([*place, *axis, *velocity, *omega, *np.zeros(3), 0.0, 0.0, 1.0, *np.zeros(6)])
+    wrench = through(lanes, drags, case[None], 6, drag_params(scene))[0]
+    power = -float(wrench[:3] @ velocity + wrench[3:] @ omega)
+    case_of_load = circumstances(scene).typical
+    turning = replace(case_of_load, speed=speed)
+    static = Statics(scene).at(case_of_load)
+    assert static is not None
+    torque = Losses(scene, turning, static).drag
+    assert torque * speed == pytest.approx(scene.roller_total * power, rel=1e-9)
 
 
 @pytest.mark.parametrize("reynolds", [1e3, 3e3, 1e4, 3e4, 1e5])
