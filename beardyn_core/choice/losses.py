@@ -12,7 +12,6 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
 from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
-from beardyn_core.bearing.kinematics import roller_cone_spin
 from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import (
@@ -28,13 +27,13 @@ from beardyn_core.physics.cage_drag import cage_drag_torque
 from beardyn_core.physics.drag import drag_params, drag_push, drag_torque
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.pure_rolling import bar_weight, kinematic_params
+from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.statics.torque import (
     asperity_load,
     entrainment_speeds,
-    rib_friction,
     rib_torque,
     running_torque,
 )
@@ -136,14 +135,9 @@ class Losses:
 
     def rib(self, rib: Rib | None) -> float:
         """Compute the torque of the sliding ribs with some options, [N m]."""
-        if rib is None or self.speed == 0.0:
-            return 0.0
-        bearing = self.scene.bearing
-        slide = roller_cone_spin(bearing, self.speed) * bearing.rib_contact_height
-        sliding = slide / math.hypot(slide, rib.regularisation_speed)
         scene = self.scene
-        friction = rib_friction(rib, bearing, scene.lubricant, scene.temperature, self.speed)
-        return sliding * rib_torque(bearing, self.static, friction, rib.drilling)
+        law = rib_params(scene.bearing, rib, scene.lubricant, scene.temperature)
+        return rib_torque(scene.bearing, self.static, self.speed, law)
 
     @property
     def pocket(self) -> float:

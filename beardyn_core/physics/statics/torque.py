@@ -6,18 +6,17 @@ No motion is simulated: the static solution gives the load of every contact, pur
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.jit import plain
-from beardyn_core.bearing.contact_law import drilling_lever
-from beardyn_core.bearing.film_thickness import rib_film_thickness, thermal_loading
+from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
+from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.rolling_resistance import (
     RollingContact,
@@ -26,9 +25,11 @@ from beardyn_core.bearing.rolling_resistance import (
     thermal_reduction,
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
-from beardyn_core.effects import Rib, RibMixedFilm
+from beardyn_core.effects import Rib
 from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
+from beardyn_core.physics.pure_rolling import pure_rolling
+from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
 from beardyn_core.physics.statics.static import StaticSolution
 
 
@@ -83,7 +84,7 @@ def running_torque(
     hysteresis : float
         Loss factor of the elastic hysteresis, 0 for none.
     rib : Rib, optional
-        Of the friction on the rib, see `rib_friction`; none by default.
+        Options of the friction on the rib; none by default.
 
     Raises
     ------
@@ -121,43 +122,8 @@ def running_torque(
         couples.append(couple)
     cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
-    sliding = 0.0
-    if rib is not None and speed != 0.0:
-        friction = rib_friction(rib, bearing, lubricant, temperature, speed)
-        sliding = rib_torque(bearing, static, friction, rib.drilling)
+    sliding = rib_torque(bearing, static, speed, rib_params(bearing, rib, lubricant, temperature))
     return RunningTorque(couples[0], couples[1], rolling, sliding)
-
-
-def rib_friction(
-    rib: Rib, bearing: Bearing, lubricant: Lubricant, temperature: float, speed: float
-) -> Callable[[float], float]:
-    """Find the coefficient of friction of a rib contact under a load [N], shared by film and asperities.
-
-    Parameters
-    ----------
-    rib : Rib
-        Without a lubrication its coefficient holds for every load.
-    temperature : float
-        [K].
-    speed : float
-        Of the shaft, [rad/s].
-    """
-    film = rib.lubrication
-    if film is None:
-        return lambda _load: rib.friction
-    if not isinstance(film, RibMixedFilm):
-        return lambda _load: film.boundary_friction
-    # roller end and rib pass the contact with the speed of the raceway they stand on
-    entrainment = max(entrainment_speeds(bearing, speed)[1], 1.0e-3)
-    viscosity = lubricant.dynamic_viscosity(temperature)
-    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
-
-    def found(load: float) -> float:
-        thickness = rib_film_thickness(bearing, load, entrainment, viscosity, pressure_viscosity)
-        asperities = asperity_load(film.starvation * thickness / bearing.rib_roughness)
-        return film.film_friction + (film.boundary_friction - film.film_friction) * asperities
-
-    return found
 
 
 def asperity_load(film_parameter: float) -> float:
@@ -165,20 +131,24 @@ def asperity_load(film_parameter: float) -> float:
     return float(plain(asperity_share)(math.log2(film_parameter))) if film_parameter > 0.0 else 1.0
 
 
-def rib_torque(
-    bearing: Bearing, static: StaticSolution, friction: Callable[[float], float], drilling: bool = True
-) -> float:
-    """Work out the torque on the shaft of the sliding of all large ends on their ribs, [N m].
+def rib_torque(bearing: Bearing, static: StaticSolution, speed: float, rib: RibParams | None) -> float:
+    """Work out the torque on the shaft of all large ends that slide on their ribs in pure rolling, [N m].
 
     Parameters
     ----------
-    friction : callable
-        Coefficient of friction of a contact under a load, [N].
-    drilling : bool
-        Whether the spin inside the contact counts too.
+    speed : float
+        Of the shaft, [rad/s].
+    rib : RibParams, optional
+        As the steps have it, with its film; ``None`` for ribs without friction.
     """
-    torque = 0.0
-    for load in map(float, static.rib_load[static.rib_load > 0.0]):
-        lever = drilling_lever(bearing, load) if drilling else bearing.rib_contact_height
-        torque += friction(load) * load * lever * roller_cone_spin(bearing, 1.0)
-    return torque
+    motion, cone = pure_rolling(bearing), _Cone(math.sin(bearing.cone_angle), math.cos(bearing.cone_angle))
+    speeds = abs(speed), motion.cage_ratio * abs(speed)
+    loads = static.rib_load[static.rib_load > 0.0]
+    return float(np.sum(plain(sliding_torque)(loads, speeds, motion, cone, rib)))
+
+
+class _Cone(NamedTuple):
+    """What `sliding_torque` reads of the cone."""
+
+    sine: float
+    cosine: float

@@ -186,7 +186,7 @@ def build_parameters(
             seal=seal_params(scene),
             cage_drag=cage_drag_params(scene),
             cage=cage_params(scene, step),
-            rib=rib_params(scene),
+            rib=rib_params(bearing, effects.rib, scene.lubricant, scene.temperature),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
             structure=structure_params(body, scene, arrangement, step),
