@@ -16,7 +16,6 @@ force_triangle     one roller between cup, cone and rib
 lubricant          viscosity and pressure-viscosity with temperature
 film_thickness     films of line contacts, inlet heating; film of the rib contact
 rolling_resistance rolling couple of one lubricated contact
-aihara_range       where the fit of a fluid film's traction ends
 oil_layer          oil on the raceways, and what it leaves of film and rolling couple
 starvation         rolling couple of a starved inlet by Reynolds' equation
 starved_rolling    rolling couple of a contact with the oil it finds

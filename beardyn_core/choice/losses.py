@@ -3,46 +3,35 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
-from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
-from beardyn_core.bearing.film_thickness import line_film, thermal_factor, thermal_loading
-from beardyn_core.bearing.oil_layer import layer_thickness, starved_film
 from beardyn_core.choice.load_cases import LoadCase
-from beardyn_core.effects import (
-    CoulombTraction,
-    LineFilm,
-    LoadSharingTraction,
-    MixedTraction,
-    Rib,
-    ShearedFilmTraction,
-    Traction,
-)
+from beardyn_core.effects import LineFilm, Rib, Traction
+from beardyn_core.physics.bodies.layout import CONE
 from beardyn_core.physics.cage_drag import cage_drag_torque
 from beardyn_core.physics.drag import drag_params, drag_push, drag_torque
-from beardyn_core.physics.lamina_table import equivalent_radius
+from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.pure_rolling import bar_weight, kinematic_params
 from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
-from beardyn_core.physics.statics.torque import (
-    asperity_load,
-    entrainment_speeds,
-    rib_torque,
-    running_torque,
-)
+from beardyn_core.physics.statics.torque import entrainment_speeds, rib_torque, running_torque
+from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
 from beardyn_core.scene.scene import Scene
 
 _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
+_SLIPS = np.concatenate([np.zeros(1), np.geomspace(1.0e-7, _DEEP_SLIP, 400)])
 _NEARLY_ALL = 0.5
-_THICKEST = 30.0 * math.log(2.0)
+# Films have their limiting stress at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4. What resists
+# more is the oil around the contacts, which has no limit: from this slip on the rollers count as skidding.
+LOST_GRIP = 0.25
 
 
 @dataclass(frozen=True)
@@ -62,7 +51,7 @@ class Drive:
     @property
     def skids(self) -> bool:
         """Whether so much of the traction is used that lightly loaded rollers may skid."""
-        return self.used > _NEARLY_ALL
+        return self.used > _NEARLY_ALL or self.slip > LOST_GRIP
 
     @property
     def used(self) -> float:
@@ -168,31 +157,16 @@ class Losses:
         load = float(self.static.cone_load.max())
         if film is None or self.speed == 0.0 or load <= 0.0:
             return 0.0
-        return self._film(film, load) / self.scene.bearing.raceway_roughness
+        laws, laminae = self._laws(None, film)
+        contact = rolling_lamina(load, self._entrainment[1], 0.0, CONE, laws, laminae)
+        return float(np.exp2(contact.log2_film)) / self.scene.bearing.raceway_roughness
 
-    def _film(self, film: LineFilm, load: float) -> float:
-        """Compute the film at the cone under a roller load, [m]."""
-        scene, oil = self.scene, self.scene.lubricant
-        viscosity = oil.dynamic_viscosity(scene.temperature)
-        thickness = line_film(
-            load / scene.bearing.effective_length,
-            self._entrainment[1],
-            float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0]),
-            scene.bearing.material.contact_modulus,
-            viscosity,
-            oil.pressure_viscosity_at(scene.temperature),
-            film.formula,
-        )
-        factor = 1.0
-        if film.thermal != "none":
-            loading = thermal_loading(
-                viscosity, oil.temperature_coefficient, self._entrainment[1], oil.thermal_conductivity
-            )
-            factor = thermal_factor(loading, film.thermal)
-        found = film.constant_share * factor * thickness
-        if film.oil_layer is not None:
-            found = starved_film(found, layer_thickness(film.oil_layer, viscosity, self._entrainment[1]))
-        return found
+    def _laws(self, traction: Traction | None, film: LineFilm | None) -> tuple[TractionLaws, Float]:
+        """Take other friction and another film, of contacts in one lamina."""
+        scene = self.scene
+        effects = replace(scene.effects, traction=traction, film=film)
+        whole = replace(scene, effects=effects, numerics=replace(scene.numerics, laminae=1))
+        return traction_laws(whole), lamina_table(whole)
 
     def drive(
         self, traction: Traction | None, film: LineFilm | None, *, rolling: bool = True, drag: bool = True
@@ -216,83 +190,12 @@ class Losses:
         self, traction: Traction | None, film: LineFilm | None, loads: Float, needed: float
     ) -> tuple[float, float]:
         """Compute the available traction [N] and the slip over entrainment speed at the needed traction."""
-        speed, total = self._entrainment[1], float(loads.sum())
         if traction is None:
             return 0.0, _DEEP_SLIP
-        if isinstance(traction, LoadSharingTraction):
-            return self._share_traction(traction, film, loads, needed)
-        if isinstance(traction, CoulombTraction) or film is None:
-            friction = (
-                traction.friction if isinstance(traction, CoulombTraction) else traction.boundary_friction
-            )
-        else:
-            friction = self._blend_friction(traction, film)
-        available = friction * total
-        if needed >= available:
-            return available, _DEEP_SLIP
-        used = needed / available
-        slip = traction.regularisation_speed * used / math.sqrt(1.0 - used**2) / speed
-        return available, min(slip, _DEEP_SLIP)
-
-    def _blend_friction(self, traction: MixedTraction | ShearedFilmTraction, film: LineFilm) -> float:
-        """Blend boundary and full-film coefficients by the sixth power of the film parameter."""
-        boundary = traction.boundary_friction
-        full = traction.full_film_friction if isinstance(traction, MixedTraction) else traction.limiting_shear
-        low, high = traction.boundary_film_parameter, traction.full_film_parameter
-        place = (self.film_parameter(film) - low) / max(high - low, 1.0e-9)
-        return float(full + (boundary - full) * (1.0 - min(max(place, 0.0), 1.0)) ** 6)
-
-    def _share_traction(
-        self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, needed: float
-    ) -> tuple[float, float]:
-        """Compute the sum of asperity and film friction over the rollers, solved for the slip."""
-        slips = np.geomspace(1.0e-7, _DEEP_SLIP, 400)
-        force = self._shared_force(law, film, loads, slips)
+        speed, (laws, laminae) = self._entrainment[1], self._laws(traction, film)
+        contact = rolling_lamina(loads[:, None], speed, _SLIPS * speed, CONE, laws, laminae)
+        force = (lamina_friction(contact, laws) * _SLIPS * speed).sum(axis=0)
         available = float(force.max())
         if needed >= available:
             return available, _DEEP_SLIP
-        return available, float(np.interp(needed, np.maximum.accumulate(force), slips))
-
-    def _shared_force(
-        self, law: LoadSharingTraction, film: LineFilm | None, loads: Float, slips: Float
-    ) -> Float:
-        """Compute the friction of all rollers over the slip, [N]."""
-        parameter = self.film_parameter(film)
-        asperities = asperity_load(parameter)
-        dry = law.boundary_friction * 2.0 / math.pi * np.arctan(law.boundary_slope * slips)
-        force = np.zeros_like(slips)
-        for load in loads:
-            wet = dry if film is None else np.minimum(self._film_friction(law, film, float(load), slips), dry)
-            force += load * (wet + (dry - wet) * asperities)
-        return force
-
-    def _film_friction(self, law: LoadSharingTraction, film: LineFilm, load: float, slips: Float) -> Float:
-        """Compute the traction coefficient of the film over the slip.
-
-        References
-        ----------
-        Aihara (1987), below the pressures of his tests Bair and Winer (1979), as in the kernels. Eyring's
-        ends near three times its stress.
-        """
-        scene, speed = self.scene, self._entrainment[1]
-        radius = float(equivalent_radius(scene.bearing, np.zeros(1), "cone")[0])
-        modulus = scene.bearing.material.contact_modulus
-        pressure = math.sqrt(load / scene.bearing.effective_length * modulus / (2.0 * math.pi * radius))
-        if law.film_traction == "eyring":
-            return 3.0 * law.eyring_stress / pressure * (1.0 - np.exp(-slips / 1.0e-3))
-        mean = 0.25 * math.pi * pressure
-        oil, temperature = scene.lubricant, scene.temperature
-        thickening = min(oil.pressure_viscosity_at(temperature) * mean, _THICKEST)
-        viscous = (
-            oil.dynamic_viscosity(temperature) * math.exp(thickening) * speed / self._film(film, load) / mean
-        )
-        sheared: Float = law.limiting_shear * (1.0 - np.exp(-viscous / law.limiting_shear * slips))
-        if law.film_traction == "bair_winer":
-            return sheared
-        cp, mm_s = 1e3 * scene.lubricant.dynamic_viscosity(scene.temperature), 1e3 * speed
-        kgf = pressure / (1.0e6 * _STANDARD_GRAVITY)
-        slide = min(1.2448e7 * cp**-1.5 * mm_s**-0.75 * kgf**-1.5, law.largest_slide)
-        highest = 4.078e-2 * kgf**0.18 if kgf > 94.404 else 1.008e-4 * kgf**1.5
-        fitted = highest * cp**0.1 * mm_s**-0.12 * (1.0 - np.exp(-2.6 * slips / slide))
-        share = min(max(math.log2(pressure / NO_LONGER_FITTED), 0.0), 1.0)
-        return sheared + share * (fitted - sheared)
+        return available, float(np.interp(needed, np.maximum.accumulate(force), _SLIPS))

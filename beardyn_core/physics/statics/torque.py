@@ -26,7 +26,6 @@ from beardyn_core.bearing.rolling_resistance import (
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
 from beardyn_core.effects import Rib
-from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
 from beardyn_core.physics.pure_rolling import pure_rolling
 from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
@@ -124,11 +123,6 @@ def running_torque(
     rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
     sliding = rib_torque(bearing, static, speed, rib_params(bearing, rib, lubricant, temperature))
     return RunningTorque(couples[0], couples[1], rolling, sliding)
-
-
-def asperity_load(film_parameter: float) -> float:
-    """Compute the share of the load on asperities at a film over roughness, by the formula of the kernels."""
-    return float(plain(asperity_share)(math.log2(film_parameter))) if film_parameter > 0.0 else 1.0
 
 
 def rib_torque(bearing: Bearing, static: StaticSolution, speed: float, rib: RibParams | None) -> float:
