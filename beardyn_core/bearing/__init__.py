@@ -18,7 +18,7 @@ film_thickness     films of line contacts, inlet heating; film of the rib contac
 rolling_resistance rolling couple of one lubricated contact
 oil_layer          oil on the raceways, and what it leaves of film and rolling couple
 starvation         rolling couple of a starved inlet by Reynolds' equation
-starved_rolling    rolling couple of a contact with the oil it finds
+starved_rolling    how much oil a rolling contact finds
 thermal            what temperature does to the end play; parts as a network of lumped nodes
 life               load ratings and rating life, ISO 281, and from the load of every lamina, ISO 16281
 ================== =================================================================

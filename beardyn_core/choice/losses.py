@@ -29,8 +29,8 @@ _STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _SLIPS = np.concatenate([np.zeros(1), np.geomspace(1.0e-7, _DEEP_SLIP, 400)])
 _NEARLY_ALL = 0.5
-# Films have their limiting stress at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4. What resists
-# more is the oil around the contacts, which has no limit: from this slip on the rollers count as skidding.
+# Films have their limiting stress at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4. What
+# resists more is the oil around the contacts, which has no limit: from this slip on rollers are said to skid.
 LOST_GRIP = 0.25
 
 
@@ -83,20 +83,16 @@ class Losses:
         effect = self.scene.effects.rolling_resistance
         if effect is None or self.speed == 0.0:
             return 0.0, np.zeros((2, *self.static.cup_load.shape))
-        lubricated = effect.kind != "hysteresis"
         running = running_torque(
             self.scene.bearing,
             self.scene.lubricant,
             self.scene.temperature,
             self.static,
             self.speed,
-            form=effect.kind if lubricated else "aihara",
-            thermal=effect.thermal,
-            hysteresis=effect.hysteresis,
+            resistance=effect,
             supply=oil_supply(film),
         )
-        share = effect.supply if lubricated else 0.0
-        return share * running.rolling, share * np.stack([running.cup_couple, running.cone_couple])
+        return running.rolling, np.stack([running.cup_couple, running.cone_couple])
 
     def rolling_with(self, film: LineFilm | None) -> float:
         """Compute the torque of the rolling resistance with another film, whose oil feeds it, [N m]."""

@@ -162,6 +162,11 @@ def test_rolling_loss_is_the_bearing_sum_of_the_couples(kind: str) -> None:
     static = solve(scene.bearing, LOAD_80_KN, end_play=scene.end_play, laminae=6, speed=SPEED)
     static = replace(static, cup_load=loads[0], cone_load=loads[1])
     expected = running_torque(
-        scene.bearing, scene.lubricant, scene.temperature, static, SPEED, form=kind
+        scene.bearing,
+        scene.lubricant,
+        scene.temperature,
+        static,
+        SPEED,
+        resistance=RollingResistance(kind=kind),
     ).rolling
     assert spent / rig.parameters.step / SPEED == pytest.approx(expected, rel=3e-3)

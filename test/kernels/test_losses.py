@@ -11,7 +11,6 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
-from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice.load_cases import circumstances
@@ -22,6 +21,7 @@ from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_F
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.scene.scene import Scene
+from test.kernels import naive_losses
 from test.kernels.casting import through
 from test.kernels.loss_entries import couple_matrices, drags, rolling_couples
 from test.scenes import scene_with
@@ -30,7 +30,6 @@ Float = NDArray[np.float64]
 CASES = np.random.default_rng(7)
 LOAD = 10.0 ** CASES.uniform(0.0, 4.5, 200)
 SPEED = 10.0 ** CASES.uniform(-2.0, 1.3, 200)
-FORMS = starved_rolling.FORMS
 
 
 def scene_of(**options: Any) -> Scene:
@@ -38,8 +37,13 @@ def scene_of(**options: Any) -> Scene:
 
 
 def couples(scene: Scene, lanes: Any, ring: int, load: Any, speed: Any) -> Float:
+    effects = scene.effects
+    supply = oil_supply(effects.film)
+    law = rolling_params(
+        scene.bearing, effects.rolling_resistance, scene.lubricant, scene.temperature, supply
+    )
     cases = np.stack(np.broadcast_arrays(load, speed), axis=-1).astype(float)
-    return through(lanes, rolling_couples, cases, 1, ring, rolling_params(scene))[:, 0]
+    return through(lanes, rolling_couples, cases, 1, ring, law)[:, 0]
 
 
 def contact(scene: Scene, ring: int, load: float, speed: float) -> laws.RollingContact:
@@ -67,7 +71,7 @@ def reduction(scene: Scene, speed: float) -> float:
     )
 
 
-@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize("kind", naive_losses.FORMS)
 @pytest.mark.parametrize("ring", [0, 1])
 def test_couple_is_that_of_the_plain_formula(lanes: Any, kind: str, ring: int) -> None:
     """Logarithms of 1e-10, times ten in the tenth power of Biboulet and Houpert."""
@@ -75,7 +79,7 @@ def test_couple_is_that_of_the_plain_formula(lanes: Any, kind: str, ring: int) -
     supply = oil_supply(scene.effects.film)
     exact = [
         0.6
-        * starved_rolling.rolling_couple(kind, contact(scene, ring, q, u + 1e-3), supply)
+        * naive_losses.rolling_couple(kind, contact(scene, ring, q, u + 1e-3), supply)
         * reduction(scene, u + 1e-3)
         for q, u in zip(LOAD, SPEED, strict=True)
     ]
@@ -89,7 +93,7 @@ def test_isothermal_couple_and_hysteresis_add_up(lanes: Any) -> None:
         line = contact(scene, 1, q, u + 1e-3)
         width = laws.hertz_half_width(q / line.length, line.radius, line.contact_modulus)
         exact.append(
-            starved_rolling.rolling_couple("zhou_hoeprich", line, oil_supply(scene.effects.film))
+            naive_losses.rolling_couple("zhou_hoeprich", line, oil_supply(scene.effects.film))
             + laws.hysteresis_line(q, width, 0.007)
         )
     np.testing.assert_allclose(couples(scene, lanes, 1, LOAD, SPEED), exact, rtol=1e-8)
@@ -102,7 +106,7 @@ def test_hysteresis_alone_does_not_ask_for_the_speed(lanes: Any) -> None:
     assert np.all(slow > 0.0)
 
 
-@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize("kind", naive_losses.FORMS)
 def test_an_unloaded_contact_rolls_freely_and_a_light_one_nearly_so(lanes: Any, kind: str) -> None:
     """With enough oil: a starved light contact has little but its hysteresis."""
     scene = scene_of(kind=kind, hysteresis=0.007)

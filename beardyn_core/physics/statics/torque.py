@@ -7,29 +7,27 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.jit import plain
-from beardyn_core.bearing.film_thickness import thermal_loading
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.rolling_resistance import (
-    RollingContact,
-    hertz_half_width,
-    hysteresis_line,
-    thermal_reduction,
-)
-from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
-from beardyn_core.effects import Rib
-from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
+from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply
+from beardyn_core.effects import Rib, RollingResistance
+from beardyn_core.effects.rolling_resistance import RollingKind
+from beardyn_core.physics.bodies.layout import CONE, CUP
+from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.pure_rolling import pure_rolling
 from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
+from beardyn_core.physics.rolling_resistance import moving_couple, rolling_params, rolling_torque
 from beardyn_core.physics.statics.static import StaticSolution
+
+USUAL_RESISTANCE = RollingResistance()
 
 
 @dataclass(frozen=True)
@@ -60,10 +58,8 @@ def running_torque(
     static: StaticSolution,
     speed: float,
     *,
-    form: str = "aihara",
+    resistance: RollingResistance = USUAL_RESISTANCE,
     supply: OilSupply = FLOODED,
-    thermal: bool = True,
-    hysteresis: float = 0.0,
     rib: Rib | None = None,
 ) -> RunningTorque:
     """Work out the running torque in pure rolling under the loads of a static equilibrium.
@@ -74,21 +70,17 @@ def running_torque(
         Of the lubricant at the inlets, [K].
     speed : float
         Of the shaft, [rad/s].
-    form : str
-        ``aihara``, ``zhou_hoeprich`` or ``biboulet_houpert``.
+    resistance : RollingResistance
+        Options of the rolling resistance.
     supply : OilSupply
         How much oil the contacts find.
-    thermal : bool
-        Reduce the couple by heating of the inlet.
-    hysteresis : float
-        Loss factor of the elastic hysteresis, 0 for none.
     rib : Rib, optional
         Options of the friction on the rib; none by default.
 
     Raises
     ------
     InputError
-        Unknown form.
+        Unknown kind of resistance.
 
     References
     ----------
@@ -96,33 +88,21 @@ def running_torque(
     rib mu Q_f h sqrt(1 + 0.18 (a/h)^2) R_o/Dm. The equivalent radius and the entrainment speed are not
     those printed there: the cup is concave, and surface speeds are taken against the contact.
     """
-    if form not in FORMS:
-        raise InputError([f"form is {form!r}; allowed are {', '.join(FORMS)}."])
-    viscosity = lubricant.dynamic_viscosity(temperature)
-    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
-    modulus, length = bearing.material.contact_modulus, bearing.effective_length
-    couples = []
-    speeds = entrainment_speeds(bearing, speed)
-    for ring, loads, entrainment in zip(
-        ("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True
-    ):
-        radius = float(equivalent_radius(bearing, np.zeros(1), ring)[0])
-        reduction = 1.0
-        if thermal:
-            oil = lubricant.temperature_coefficient, lubricant.thermal_conductivity
-            reduction = thermal_reduction(thermal_loading(viscosity, oil[0], entrainment, oil[1]))
-        couple = np.zeros_like(loads)
-        for index in zip(*np.nonzero(loads > 0.0), strict=True):
-            load = float(loads[index])
-            unit = RollingContact(load, entrainment, radius, length, modulus, viscosity, pressure_viscosity)
-            width = hertz_half_width(load / length, radius, modulus)
-            couple[index] = reduction * rolling_couple(form, unit, supply)
-            couple[index] += hysteresis_line(load, width, hysteresis)
-        couples.append(couple)
-    cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
-    rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
+    allowed = get_args(RollingKind)
+    if resistance.kind not in allowed:
+        raise InputError([f"kind is {resistance.kind!r}; allowed are {', '.join(allowed)}."])
+    motion, loads = pure_rolling(bearing), (static.cup_load, static.cone_load)
+    speeds = abs(speed), motion.cage_ratio * abs(speed)
+    law = rolling_params(bearing, resistance, lubricant, temperature, supply)
+    cup, cone = (
+        plain(moving_couple)(load, entrainment, ring, law)
+        for ring, load, entrainment in zip(
+            (CUP, CONE), loads, entrainment_speeds(bearing, speed), strict=True
+        )
+    )
+    rolling = float(np.sum(plain(rolling_torque)(loads, speeds, motion, law)))
     sliding = rib_torque(bearing, static, speed, rib_params(bearing, rib, lubricant, temperature))
-    return RunningTorque(couples[0], couples[1], rolling, sliding)
+    return RunningTorque(cup, cone, rolling, sliding)
 
 
 def rib_torque(bearing: Bearing, static: StaticSolution, speed: float, rib: RibParams | None) -> float:

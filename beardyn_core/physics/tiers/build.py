@@ -31,7 +31,7 @@ from beardyn_core.physics.lamina_table import coupling_params, lamina_table
 from beardyn_core.physics.pocket import cage_params
 from beardyn_core.physics.rib import rib_params, small_rib_params
 from beardyn_core.physics.ring_modes import body_of, structure_params
-from beardyn_core.physics.rolling_resistance import rolling_params
+from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
 from beardyn_core.physics.seal import seal_params
 from beardyn_core.physics.suspension import mounting_params
@@ -181,7 +181,13 @@ def build_parameters(
             coupling=coupling_params(bearing, effects.lamina_coupling, scene.numerics.laminae, arrangement),
             coulomb=coulomb,
             mixed=mixed,
-            rolling=rolling_params(scene),
+            rolling=rolling_params(
+                bearing,
+                effects.rolling_resistance,
+                scene.lubricant,
+                scene.temperature,
+                oil_supply(effects.film),
+            ),
             drag=drag_params(scene),
             seal=seal_params(scene),
             cage_drag=cage_drag_params(scene),
