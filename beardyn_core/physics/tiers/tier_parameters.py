@@ -9,7 +9,14 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.effects import Cage, KinematicCage
+from beardyn_core.effects import (
+    Cage,
+    CoulombTraction,
+    EffectSet,
+    KinematicCage,
+    LoadSharingTraction,
+    ShearedFilmTraction,
+)
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_copy
 from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.physics.defect import FaultParams
@@ -152,10 +159,11 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
     Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
     ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
 
+    Traction is in proportion to the slip up to a limit, see `_limiting_traction`.
+
     References
     ----------
-    Bair and Winer (1979): limiting shear stress over pressure, the scene's where it names one; it is reached
-    at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
+    Johnson and Tevaarwerk (1977), Fig. 4: a film reaches its limit at slips of some percent.
     """
     cage, bearing, pocket = scene.effects.cage, scene.bearing, pocket_params(scene)
     if cage is None or isinstance(cage, KinematicCage) or pocket is None:
@@ -171,7 +179,7 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
         bar_sine=math.sin(lean),
         friction=cage.friction,
         regularisation=cage.regularisation_speed,
-        traction=2.0 * _LIMITING_SHEAR,
+        traction=2.0 * _limiting_traction(scene.effects),
         slide=_SLIDE,
         slowest=_SLOWEST,
         mass=bearing.cage.mass,
@@ -180,6 +188,29 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
         rubbing=0.5 * pocket.lever,
         rubbing_floor=pocket.regularisation,
     )
+
+
+def _limiting_traction(effects: EffectSet) -> float:
+    """Take the largest friction of a raceway over its load from the law of friction, if it has such a number.
+
+    The coefficient of dry friction where there is no film, the limiting shear stress over the pressure of a
+    film that shears. The other laws, and rollers that only roll, have the usual limiting shear stress: the
+    limit of a blend depends on the film, and that of fits on speed and load.
+
+    References
+    ----------
+    Bair and Winer (1979) for the limiting shear stress.
+    """
+    law = effects.traction
+    if isinstance(law, CoulombTraction):
+        return law.friction
+    if law is not None and effects.film is None:
+        return law.boundary_friction
+    if isinstance(law, ShearedFilmTraction):
+        return law.limiting_shear
+    if isinstance(law, LoadSharingTraction) and law.film_traction == "bair_winer":
+        return law.limiting_shear
+    return _LIMITING_SHEAR
 
 
 def ring_motion_params(base: Parameters) -> RingMotionParams:
