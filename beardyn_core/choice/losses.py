@@ -10,6 +10,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import plain
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LineFilm, Rib, Traction
 from beardyn_core.physics.bodies.layout import CONE
@@ -25,7 +26,6 @@ from beardyn_core.physics.statics.torque import entrainment_speeds, rib_torque, 
 from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
 from beardyn_core.scene.scene import Scene
 
-_STANDARD_GRAVITY = 9.80665
 _DEEP_SLIP = 1.0
 _SLIPS = np.concatenate([np.zeros(1), np.geomspace(1.0e-7, _DEEP_SLIP, 400)])
 _NEARLY_ALL = 0.5
@@ -68,7 +68,7 @@ class Losses:
     """
 
     def __init__(
-        self, scene: Scene, case: LoadCase, static: StaticSolution, gravity: float = _STANDARD_GRAVITY
+        self, scene: Scene, case: LoadCase, static: StaticSolution, gravity: float = STANDARD_GRAVITY
     ) -> None:
         self.scene, self.case, self.static, self.gravity = scene, case, static, gravity
         self.speed = abs(case.speed)

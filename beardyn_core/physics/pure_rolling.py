@@ -45,10 +45,9 @@ def pure_rolling(bearing: Bearing) -> KinematicParams:
     """Work out the pure rolling of one roller of a bearing, without weight and without pockets."""
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     offset = bearing.roller_mass_offset
-    radius = 0.5 * bearing.pitch_diameter + offset * sine
+    radius = bearing.roller_orbit_radius
     axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
     spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
-    distance = bearing.apex_distance / math.cos(bearing.half_angle)
     return KinematicParams(
         cage_ratio=cage_speed_ratio(bearing),
         spin_ratio=-spin_ratio,
@@ -58,12 +57,12 @@ def pure_rolling(bearing: Bearing) -> KinematicParams:
         axial=0.5 * bearing.row_spacing + offset * cosine,
         axis_radial=sine,
         axis_axial=cosine,
-        cup_radius=distance * math.sin(bearing.cup_angle),
-        cone_radius=distance * math.sin(bearing.cone_angle),
+        cup_radius=bearing.cup_radius,
+        cone_radius=bearing.cone_radius,
         rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
         rib_spin=roller_cone_spin(bearing, 1.0),
-        rolling_on_cup=distance * math.sin(bearing.cone_angle) / bearing.roller_diameter,
-        rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
+        rolling_on_cup=bearing.cone_radius / bearing.roller_diameter,
+        rolling_on_cone=bearing.cup_radius / bearing.roller_diameter,
         rolling_weight=0.0,
         rolling_count=1.0,
         pocket=None,

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.jit import inline, plain
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import (
     CoulombTraction,
@@ -120,6 +121,7 @@ class LoadSharingParams(NamedTuple):
 # All of Aihara's fit holds from twice this largest Hertz pressure on, the lowest of its tests; below it is
 # blended away.
 _NO_LONGER_FITTED = 0.25e9  # [Pa]
+_KGF_PER_MM2 = 1e6 * STANDARD_GRAVITY  # [Pa]
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
 
 
@@ -192,7 +194,7 @@ def aihara_params(
         log2_slide=math.log2(1.2448e7) - 1.5 * log2_viscosity,
         log2_friction=0.1 * log2_viscosity,
         log2_largest_slide=math.log2(largest_slide),
-        log2_pressure=for_springs(np.log2(4.0 / math.pi * mean / 9.80665e6)),
+        log2_pressure=for_springs(np.log2(4.0 / math.pi * mean / _KGF_PER_MM2)),
     )
 
 
@@ -240,7 +242,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 # Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
 _LOG2_SPEED_UNIT = math.log2(1000.0)
 _LOG2_PRESSURE_BEND = math.log2(94.404)
-_LOG2_NO_LONGER_FITTED = math.log2(_NO_LONGER_FITTED / 9.80665e6)
+_LOG2_NO_LONGER_FITTED = math.log2(_NO_LONGER_FITTED / _KGF_PER_MM2)
 _LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
 _LOG2_STEEPNESS = math.log2(2.6)
 _LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)

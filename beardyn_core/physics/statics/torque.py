@@ -21,7 +21,6 @@ from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply
 from beardyn_core.effects import Rib, RollingResistance
 from beardyn_core.effects.rolling_resistance import RollingKind
 from beardyn_core.physics.bodies.layout import CONE, CUP
-from beardyn_core.physics.lamina_table import surface_radius
 from beardyn_core.physics.pure_rolling import pure_rolling
 from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
 from beardyn_core.physics.rolling_resistance import moving_couple, rolling_params, rolling_torque
@@ -48,7 +47,7 @@ class RunningTorque:
 def entrainment_speeds(bearing: Bearing, speed: float) -> tuple[float, float]:
     """Work out entrainment speeds on cup and cone in pure rolling, contact-fixed frame, [m/s]."""
     orbit = cage_speed(bearing, abs(speed))
-    return orbit * surface_radius(bearing, "cup"), (abs(speed) - orbit) * surface_radius(bearing, "cone")
+    return orbit * bearing.cup_radius, (abs(speed) - orbit) * bearing.cone_radius
 
 
 def running_torque(

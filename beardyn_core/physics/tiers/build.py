@@ -161,9 +161,7 @@ def build_parameters(
             half_length=0.5 * bearing.roller_length,
             mass_offset=offset,
         ),
-        cup=RacewayParams(
-            math.sin(cup_angle), math.cos(cup_angle), 1.0, 0.5 * scene.end_play * math.sin(cup_angle)
-        ),
+        cup=RacewayParams(math.sin(cup_angle), math.cos(cup_angle), 1.0, bearing.normal_gap(scene.end_play)),
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),

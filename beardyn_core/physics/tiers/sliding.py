@@ -58,8 +58,8 @@ class SlideParams(NamedTuple):
 
 def place_on_cup(bearing: Bearing) -> tuple[float, float]:
     """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
-    return distance * math.sin(angle), bearing.apex_place + distance * math.cos(angle)
+    along = bearing.contact_distance * math.cos(bearing.cup_angle)
+    return bearing.cup_radius, bearing.apex_place + along
 
 
 def creep_over_load(scene: Scene, load: float, speed: float) -> float:
