@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 Load = float | Sequence[float]
 
 _KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
+_SLOWEST = 1e-6  # [m/s]
 LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": (0.0, 1.0, "")}
 
 
@@ -167,7 +168,9 @@ def torque(
     chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
     rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
-    rib = replace(rib, drilling=True)
+    # no step needs the corner of friction at rest rounded
+    rib = replace(rib, drilling=True, regularisation_speed=_SLOWEST)
+    resistance = RollingResistance(regularisation_speed=_SLOWEST)
 
     def one(rpm: float) -> float:
         static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=rpm, rings=rings)
@@ -177,7 +180,7 @@ def torque(
             kelvin,
             static,
             rpm * _RPM,
-            form=RollingResistance().kind,
+            resistance=resistance,
             supply=found,
             rib=rib,
         ).total

@@ -12,6 +12,7 @@ from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.follow.inference import stretches_of
@@ -21,7 +22,6 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.labels import HEALTHY
 
-_GRAVITY = 9.81
 _TWIN_STRETCHES = 4  # that are compared with the twin, the last ones
 _USUAL_LENGTH_MM, _DEPTH_UM = 20.0, 100.0  # of a spall whose length is not told; of all
 
@@ -63,7 +63,7 @@ def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> S
         operation["lateral_force_kN"] = 1e-3 * told["lateral_load"]
     if "vertical_load" in told:
         other = course.vehicle.bogie_mass / 4.0 + base.mounting.box_mass
-        body = 8.0 * (told["vertical_load"] / _GRAVITY - other)
+        body = 8.0 * (told["vertical_load"] / STANDARD_GRAVITY - other)
         operation["vehicle"] = {**operation["vehicle"], "body_mass_t": 1e-3 * (body - course.payload)}
     part = "" if known.part is None else known.part.condition
     keys: dict[str, Any] = {"operation": operation}

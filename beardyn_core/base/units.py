@@ -42,6 +42,8 @@ class Unit(NamedTuple):
         return min(near, key=lambda found: abs(self.to_si(found) + added - value))
 
 
+STANDARD_GRAVITY = 9.80665  # [m/s^2]
+
 # Ending of a key -> its unit; longer endings stand before the shorter ones that they end in.
 UNITS = {
     "m_per_s2_per_sqrt_Hz": Unit("metres per second squared per square root of hertz"),

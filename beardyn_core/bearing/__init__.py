@@ -16,10 +16,9 @@ force_triangle     one roller between cup, cone and rib
 lubricant          viscosity and pressure-viscosity with temperature
 film_thickness     films of line contacts, inlet heating; film of the rib contact
 rolling_resistance rolling couple of one lubricated contact
-aihara_range       where the fit of a fluid film's traction ends
 oil_layer          oil on the raceways, and what it leaves of film and rolling couple
 starvation         rolling couple of a starved inlet by Reynolds' equation
-starved_rolling    rolling couple of a contact with the oil it finds
+starved_rolling    how much oil a rolling contact finds
 thermal            what temperature does to the end play; parts as a network of lumped nodes
 life               load ratings and rating life, ISO 281, and from the load of every lamina, ISO 16281
 ================== =================================================================

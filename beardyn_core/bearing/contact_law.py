@@ -129,18 +129,6 @@ def rib_contact(bearing: Bearing) -> PointContact:
 SPIN_SHARE = 0.18
 
 
-def drilling_lever(bearing: Bearing, load: float) -> float:
-    """Compute the lever of the friction of a sliding and drilling rib contact under a load [N], [m].
-
-    References
-    ----------
-    Zhao et al. (2026): T = mu Q h sqrt(1 + 0.18 (a/h)^2), h the height of the contact, a its larger
-    semi-axis.
-    """
-    height = bearing.rib_contact_height
-    return height * math.sqrt(1.0 + SPIN_SHARE * (rib_contact(bearing).semi_axes(load)[0] / height) ** 2)
-
-
 def rib_contact_factor(bearing: Bearing) -> float:
     """Compute the stiffness factor K of the rib contact, Q = K delta^1.5, [N/m^1.5]."""
     return rib_contact(bearing).factor

@@ -140,6 +140,36 @@ class Bearing:
         return self.contact_angle - self.half_angle
 
     @property
+    def contact_distance(self) -> float:
+        """From the common apex to the roller mid-length along the raceways, [m]."""
+        return self.apex_distance / math.cos(self.half_angle)
+
+    @property
+    def cup_radius(self) -> float:
+        """Radius of the cup raceway at the mid-length of the rollers, [m]."""
+        return self.contact_distance * math.sin(self.cup_angle)
+
+    @property
+    def cone_radius(self) -> float:
+        """Radius of the cone raceway at the mid-length of the rollers, [m]."""
+        return self.contact_distance * math.sin(self.cone_angle)
+
+    @property
+    def roller_orbit_radius(self) -> float:
+        """Radius on which the centres of mass of the rollers orbit, [m]."""
+        return 0.5 * self.pitch_diameter + self.roller_mass_offset * math.sin(self.contact_angle)
+
+    def normal_gap(self, end_play: float) -> float:
+        """Compute the gap between roller and cup along the cup's normal, all parts in the middle, [m].
+
+        Parameters
+        ----------
+        end_play : float
+            Total axial travel, [m].
+        """
+        return 0.5 * end_play * math.sin(self.cup_angle)
+
+    @property
     def large_end_radius(self) -> float:
         """r_L: roller radius at its large end, [m]."""
         return (self.apex_distance + 0.5 * self.roller_length) * math.tan(self.half_angle)

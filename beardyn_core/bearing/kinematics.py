@@ -77,6 +77,11 @@ def roller_spin(bearing: Bearing, shaft_speed: float) -> float:
     return cage_speed(bearing, shaft_speed) * math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
 
 
+def centrifugal_force(bearing: Bearing, shaft_speed: float) -> float:
+    """Compute the centrifugal force of a roller in pure rolling, [N]."""
+    return bearing.roller_mass * cage_speed(bearing, shaft_speed) ** 2 * bearing.roller_orbit_radius
+
+
 def roller_cone_spin(bearing: Bearing, shaft_speed: float) -> float:
     """Compute the relative speed of roller and cone about their common generator, [rad/s].
 

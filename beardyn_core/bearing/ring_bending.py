@@ -41,14 +41,9 @@ def rectangular_ring(inner: float, wall: float, width: float, modulus: float, ma
     return ThinRing(inner + 0.5 * wall, modulus * width * wall**3 / 12.0, mass)
 
 
-def cup_raceway(bearing: Bearing) -> float:
-    """Give the radius of the cup's raceway at the mid-length of the rollers, [m]."""
-    return bearing.apex_distance / math.cos(bearing.half_angle) * math.sin(bearing.cup_angle)
-
-
 def cup_ring(bearing: Bearing) -> ThinRing:
     """Make the ring that stands for the cup, its wall taken at the mid-length of the rollers."""
-    raceway = cup_raceway(bearing)
+    raceway = bearing.cup_radius
     wall = 0.5 * bearing.outer_diameter - raceway
     return rectangular_ring(raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass)
 

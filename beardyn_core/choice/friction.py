@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from beardyn_core.choice.losses import Drive
+from beardyn_core.choice.losses import LOST_GRIP, Drive
 from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.rule import FAST, FRICTION_DB, FULL, Alternative, Rule, absent, on_or_off, percent
 from beardyn_core.effects import (
@@ -45,7 +45,7 @@ def traction(evidence: Evidence) -> Rule:
         if reference.needed > 0.0
         else "nothing has to be driven"
     )
-    if reference.slip >= 1.0:
+    if reference.slip > LOST_GRIP:
         reason += ": they skid, and the law of friction decides the torque"
     costs = evidence.costs
 

@@ -6,6 +6,7 @@ import math
 
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
+from beardyn_core.physics.pure_rolling import bar_weight
 
 _NOTABLE = 0.01  # of the torque
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile
@@ -34,7 +35,7 @@ def gravity(evidence: Evidence) -> Rule:
     torque = abs(losses.total - light.total)
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
-        part = drive.share(effect.acceleration * rolling * 2.0 / math.pi)
+        part = drive.share(scene.roller_total * bar_weight(bearing, effect.acceleration))
         reason += f", and {percent(part)} of what brakes rollers that hardly stick"
         slip, torque = max(slip, part), max(torque, part * drive.torque)
     moved = evidence.slipping(0.5 * slip)

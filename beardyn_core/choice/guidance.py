@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.base.units import STANDARD_GRAVITY
+from beardyn_core.bearing.kinematics import centrifugal_force
 from beardyn_core.choice.discretisation_error import edge_time
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import (
@@ -21,7 +22,6 @@ from beardyn_core.choice.rule import (
 )
 from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
 
-_GRAVITY = 9.80665
 # Torque that a cage which cannot sink leaves out, over that of the pockets of idle rollers: 1.2 to 1.3 in
 # runs of three spalled scenes, tried by `make automatic`.
 _HELD_UP = 1.35
@@ -77,8 +77,8 @@ def small_rib(evidence: Evidence) -> Rule:
     effect = scene.effects.small_rib
     if effect is None:
         return absent("small_rib")
-    orbit = cage_speed(scene.bearing, abs(loads.typical.speed))
-    outward = orbit**2 * 0.5 * scene.bearing.pitch_diameter * math.sin(scene.bearing.cup_angle) / _GRAVITY
+    outward = centrifugal_force(scene.bearing, loads.typical.speed) * math.sin(scene.bearing.cup_angle)
+    outward /= scene.bearing.roller_mass * STANDARD_GRAVITY
     influence: dict[str, float] = {}
     if loads.reverses:
         reason = (

@@ -10,7 +10,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.kinematics import centrifugal_force
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.load_cases import Circumstances, circumstances
 from beardyn_core.choice.losses import Losses
@@ -135,9 +135,7 @@ class Evidence:
 
     def slipping(self, orbit: float) -> dict[str, float]:
         """Compute the errors that an error of the orbit speed causes, by centrifugal force of the rollers."""
-        bearing = self.scene.bearing
-        turning = cage_speed(bearing, self.loads.typical.speed)
-        force = bearing.roller_mass * 0.5 * bearing.pitch_diameter * turning**2
+        force = centrifugal_force(self.scene.bearing, self.loads.typical.speed)
         share = 2.0 * orbit * force / max(self.typical.largest_roller_load, 1.0e-3)
         return {"cage_speed": orbit, "roller_load": share, "deflection": share}
 

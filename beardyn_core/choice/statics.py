@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.kinematics import centrifugal_force
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.bodies.arrangement import Arrangement
@@ -85,10 +84,10 @@ class Statics:
             for side in sides
         ]
         normal = np.concatenate(normals)[there]
-        offset = np.concatenate(tilting)[there] - 0.5 * self.scene.end_play * sine
+        offset = np.concatenate(tilting)[there] - bearing.normal_gap(self.scene.end_play)
         springs = np.array([0.0, self.scene.mounting.axial_prop_stiffness, 0.0])
         found, load = exact.displacement.copy(), np.asarray(case.force)
-        idle = spring.idle * _centrifugal(bearing, case.speed)
+        idle = spring.idle * centrifugal_force(bearing, case.speed)
         force = np.zeros(len(normal))
         for _ in range(_ITERATIONS):
             approach = normal @ found + offset
@@ -108,8 +107,3 @@ class Statics:
             if np.abs(step).max() < _SMALLEST:
                 break
         return float(np.linalg.norm(found)), float(force.max())
-
-
-def _centrifugal(bearing: Bearing, speed: float) -> float:
-    """Compute the centrifugal force of a roller in pure rolling, [N]."""
-    return bearing.roller_mass * 0.5 * bearing.pitch_diameter * cage_speed(bearing, speed) ** 2

@@ -7,6 +7,7 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import At
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.effects.about import About
 
 
@@ -23,4 +24,4 @@ class Gravity:
         source="Standard gravity, CGPM (1901)",
     )
 
-    acceleration: A[float, At("m_per_s2", ge=0.0), "of free fall"] = 9.80665
+    acceleration: A[float, At("m_per_s2", ge=0.0), "of free fall"] = STANDARD_GRAVITY

@@ -6,7 +6,8 @@ import math
 import re
 from collections.abc import Mapping
 
-STANDARD_GRAVITY = 9.80665
+from beardyn_core.base.units import STANDARD_GRAVITY
+
 ACCELERATION = {
     "m/s2": 1.0,
     "g": STANDARD_GRAVITY,

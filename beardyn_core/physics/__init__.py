@@ -49,6 +49,7 @@ spall_cover        share of each lamina that counts as lost over a patch, from t
 journal            bending of the axle at the journal
 ring_modes         bending of the axlebox: rings or modes of a table
 suspension         what holds the box, or both rings
+pure_rolling       speeds and places of rollers that roll without slip
 drag               medium around the rollers
 rolling_resistance couple against rolling
 contact_damping    damping of every Hertz contact

@@ -63,9 +63,8 @@ def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
 
 def surface_radius(bearing: Bearing, on: str) -> float:
     """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
-    distance = bearing.apex_distance / math.cos(bearing.half_angle)
-    angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}
-    return 0.5 * bearing.roller_diameter if on == "roller" else distance * math.sin(angle[on])
+    radii = {"cup": bearing.cup_radius, "cone": bearing.cone_radius, "roller": 0.5 * bearing.roller_diameter}
+    return radii[on]
 
 
 def lamina_pressure(bearing: Bearing, lamina_load: NDArray[np.float64], ring: str) -> NDArray[np.float64]:

@@ -139,7 +139,7 @@ def cage_params(scene: Scene, step: float) -> CageParams | None:
     if cage is None:
         return None
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    radial = 0.5 * bearing.pitch_diameter + bearing.roller_mass_offset * sine
+    radial = bearing.roller_orbit_radius
     axial = bearing.roller_mass_offset * cosine
     lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
     wear = 0.0 if isinstance(cage, KinematicCage) else cage.pocket_wear

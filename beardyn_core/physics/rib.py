@@ -10,6 +10,7 @@ from beardyn_core.bearing import contact_law
 from beardyn_core.bearing.contact_law import SPIN_SHARE, PointContact, exact_rib_contact
 from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
 from beardyn_core.physics import point_contact
 from beardyn_core.physics.bodies.contact_output import (
@@ -45,7 +46,6 @@ from beardyn_core.physics.lanes.vectors import (
     scale,
     subtract,
 )
-from beardyn_core.scene.scene import Scene
 
 
 class RibWindowParams(NamedTuple):
@@ -126,9 +126,16 @@ class SmallRibParams(NamedTuple):
 _SMALLEST_BEND = 0.01
 
 
-def rib_params(scene: Scene) -> RibParams | None:
-    """Describe the rib contact in the cone's coordinates; the nominal roller just touches it."""
-    bearing, rib = scene.bearing, scene.effects.rib
+def rib_params(
+    bearing: Bearing, rib: Rib | None, lubricant: Lubricant, temperature: float
+) -> RibParams | None:
+    """Describe the rib contact in the cone's coordinates; the nominal roller just touches it.
+
+    Parameters
+    ----------
+    temperature : float
+        Of the lubricant at the inlet, [K].
+    """
     if rib is None:
         return None
     normal_axial, normal_radial = math.cos(bearing.rib_lean), math.sin(bearing.rib_lean)
@@ -146,7 +153,7 @@ def rib_params(scene: Scene) -> RibParams | None:
         regularisation=rib.regularisation_speed,
         window=_window(bearing, nominal, rib),
         end=_roller_end(bearing) if rib.roller_end else None,
-        film=_film(scene, rib, contact),
+        film=_film(bearing, rib, lubricant, temperature, contact),
         drilling=RibDrillingParams(SPIN_SHARE * _around_squared(contact)) if rib.drilling else None,
     )
 
@@ -173,13 +180,15 @@ def _roller_end(bearing: Bearing) -> RibEndParams:
     )
 
 
-def _film(scene: Scene, rib: Rib, contact: PointContact) -> RibFilmParams | None:
-    """Work out film thickness at the inlet temperature of the scene, and its friction."""
+def _film(
+    bearing: Bearing, rib: Rib, lubricant: Lubricant, temperature: float, contact: PointContact
+) -> RibFilmParams | None:
+    """Work out film thickness at the temperature of the inlet, and its friction."""
     lubrication = rib.lubrication
     if lubrication is None:
         return None
-    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
-    pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
+    viscosity = lubricant.dynamic_viscosity(temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
     sheared = None
     if isinstance(lubrication, RibShearedFilm):
         larger, smaller = contact.semi_axes(1.0)
@@ -187,12 +196,10 @@ def _film(scene: Scene, rib: Rib, contact: PointContact) -> RibFilmParams | None
         pressure = 1.0 / (math.pi * larger * smaller) / math.sqrt(approach)
         sheared = RibShearParams(viscosity, pressure_viscosity, lubrication.limiting_shear, pressure)
     return RibFilmParams(
-        log2_factor=log2_rib_film_factor(
-            scene.bearing, viscosity, pressure_viscosity, lubrication.starvation
-        ),
+        log2_factor=log2_rib_film_factor(bearing, viscosity, pressure_viscosity, lubrication.starvation),
         speed_exponent=SPEED_EXPONENT,
         load_exponent=LOAD_EXPONENT,
-        log2_roughness=math.log2(scene.bearing.rib_roughness),
+        log2_roughness=math.log2(bearing.rib_roughness),
         boundary_friction=lubrication.boundary_friction,
         film_friction=0.0 if isinstance(lubrication, RibShearedFilm) else lubrication.film_friction,
         sheared=sheared,
@@ -672,20 +679,20 @@ def with_spin(sliding, reach, spin, drilling):
 
 
 @inline
-def sliding_torque(load, speeds, p, rib):
+def sliding_torque(load, speeds, k, cone, rib):
     """Work out the torque of large ends that slide on their ribs, along the shaft's rotation, [N m].
 
-    The contact is taken in the roller's meridian plane at its nominal height.
+    The contact is taken in the roller's meridian plane at its nominal height. ``cone``: sine and cosine of
+    its raceway.
     """
     if rib is None:
         return 0.0 * load
-    k = p.kinematic
     slip = k.rib_slip * speeds[0]
     radius = k.radius + rib.sphere_place * k.axis_radial + rib.sphere_radius * rib.normal_radial
     entrainment = (speeds[0] - speeds[1]) * radius - 0.5 * slip
     # load = K depth^1.5
     root = exp2((1.0 / 3.0) * log2(at_least(load, SMALLEST_LOAD) * (1.0 / rib.stiffness)))
-    along = p.base.cone.sine * rib.normal_radial + p.base.cone.cosine * rib.normal_axial
+    along = cone.sine * rib.normal_radial + cone.cosine * rib.normal_axial
     spin = k.rib_spin * along * speeds[0]
     squared = with_spin(slip * slip, spin_reach(root * root, rib.drilling), spin, rib.drilling)
     log2_film = rib_log2_film(load, entrainment, rib.film)

@@ -18,10 +18,12 @@ from numpy.typing import NDArray
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.film_thickness import LINE_FORMULAS, thermal_loading
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT, CoupleShares
 from beardyn_core.bearing.starvation import couple_shares
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
-from beardyn_core.effects import LineFilm
+from beardyn_core.effects import LineFilm, RollingResistance
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import account_loss, react
 from beardyn_core.physics.bodies.friction_substeps import held_couple, keep_couple
@@ -32,7 +34,6 @@ from beardyn_core.physics.film import layer_params
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2, magnitude, sqrt
 from beardyn_core.physics.lanes.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
-from beardyn_core.scene.scene import Scene
 
 
 class PowerLawRollingParams(NamedTuple):
@@ -96,22 +97,33 @@ POWER_LAWS: dict[str, Any] = {
 }
 
 
-def rolling_params(scene: Scene) -> RollingParams | None:
-    """Work out the couples of cup and cone contacts at 1 N and 1 m/s, at the mid-length of the roller."""
-    effect = scene.effects.rolling_resistance
+def rolling_params(
+    bearing: Bearing,
+    effect: RollingResistance | None,
+    lubricant: Lubricant,
+    temperature: float,
+    supply: OilSupply,
+) -> RollingParams | None:
+    """Work out the couples of cup and cone contacts at 1 N and 1 m/s, at the mid-length of the roller.
+
+    Parameters
+    ----------
+    temperature : float
+        Of the lubricant at the inlets, [K].
+    supply : OilSupply
+        How much oil the contacts find.
+    """
     if effect is None:
         return None
-    bearing, lubricant = scene.bearing, scene.lubricant
     radii = np.array([equivalent_radius(bearing, np.zeros(1), ring)[0] for ring in RINGS])
-    viscosity = lubricant.dynamic_viscosity(scene.temperature)
-    pressure_viscosity = lubricant.pressure_viscosity_at(scene.temperature)
+    viscosity = lubricant.dynamic_viscosity(temperature)
+    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
     length, modulus = bearing.effective_length, bearing.material.contact_modulus
     units = [
         laws.RollingContact(1.0, 1.0, float(radius), length, modulus, viscosity, pressure_viscosity)
         for radius in radii
     ]
     power_law, biboulet_houpert, thermal, hysteresis = None, None, None, None
-    supply = oil_supply(scene.effects.film)
     left = CoupleShares(1.0, 1.0) if supply.layer is not None else couple_shares(supply.film_share)
     rigid, elastic = (
         _log2(part) + math.log2(share)
@@ -185,7 +197,7 @@ def _biboulet_houpert_limits(units: list[laws.RollingContact]) -> tuple[list[flo
     return rigid, elastic
 
 
-_THERMAL_FACTOR, _THERMAL_EXPONENT = 0.29, 0.78
+_THERMAL_FACTOR, _THERMAL_EXPONENT = laws.THERMAL_FACTOR, laws.THERMAL_EXPONENT
 _SMALLEST_SPEED = 1e-3
 _RIGID_BEGIN, _RIGID_STEEPNESS, _RIGID_POWER = (
     math.log2(RIGID_FIT[0]),
@@ -317,12 +329,18 @@ def prepare_rolling(contact, ring, view, body, rolling):
 
 
 @inline
+def moving_couple(load, speed, ring, rolling):
+    """Work out the couple of one raceway contact against rolling, which falls to none at rest, [N m]."""
+    floor = rolling.smallest_speed
+    return rolling_couple(load, speed, ring, rolling) * speed / sqrt(speed * speed + floor * floor)
+
+
+@inline
 def _couple(load, speed, ring, held, rolling):
     """Work out the couple against the entrainment, or take the one that is held, [N m]."""
     if held.recalled:
         return held_couple(held, load, held.params)
-    floor = rolling.smallest_speed
-    couple = rolling_couple(load, speed, ring, rolling) * speed / sqrt(speed * speed + floor * floor)
+    couple = moving_couple(load, speed, ring, rolling)
     keep_couple(held, couple, held.params)
     return couple
 

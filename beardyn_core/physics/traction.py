@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.base.jit import inline
-from beardyn_core.bearing.aihara_range import NO_LONGER_FITTED
+from beardyn_core.base.jit import inline, plain
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import (
     CoulombTraction,
@@ -25,7 +25,13 @@ from beardyn_core.effects import (
     Traction,
 )
 from beardyn_core.physics.bodies.layout import LAMINA_PRESSURE
-from beardyn_core.physics.film import asperity_share
+from beardyn_core.physics.film import (
+    FilmParams,
+    asperity_share,
+    film_params,
+    log2_entrainment,
+    log2_film_thickness,
+)
 from beardyn_core.physics.lamina_table import for_springs, lamina_table
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
@@ -112,6 +118,10 @@ class LoadSharingParams(NamedTuple):
     inlet: Any  # shear of the gap around a contact with a film of 1 m, [ring, spring], [log2 N s/m m^0.5]
 
 
+# All of Aihara's fit holds from twice this largest Hertz pressure on, the lowest of its tests; below it is
+# blended away.
+_NO_LONGER_FITTED = 0.25e9  # [Pa]
+_KGF_PER_MM2 = 1e6 * STANDARD_GRAVITY  # [Pa]
 REYNOLDS_EXIT = 0.47513  # where the film of a parabolic gap ends, over sqrt(2 R h)
 
 
@@ -130,6 +140,20 @@ def traction_params(
     if scene.effects.film is None:
         return CoulombParams(traction.boundary_friction, traction.regularisation_speed, law), None, None
     return None, _mixed_params(traction, law), None
+
+
+class TractionLaws(NamedTuple):
+    """What `friction_rate` reads of the effects."""
+
+    film: FilmParams | None
+    coulomb: CoulombParams | None
+    mixed: MixedParams | None
+    load_sharing: LoadSharingParams | None
+
+
+def traction_laws(scene: Scene) -> TractionLaws:
+    """Take film and traction of a scene as the steps have them."""
+    return TractionLaws(film_params(scene), *traction_params(scene))
 
 
 def slip_law_params(traction: Traction) -> SlipLawParams | None:
@@ -170,7 +194,7 @@ def aihara_params(
         log2_slide=math.log2(1.2448e7) - 1.5 * log2_viscosity,
         log2_friction=0.1 * log2_viscosity,
         log2_largest_slide=math.log2(largest_slide),
-        log2_pressure=for_springs(np.log2(4.0 / math.pi * mean / 9.80665e6)),
+        log2_pressure=for_springs(np.log2(4.0 / math.pi * mean / _KGF_PER_MM2)),
     )
 
 
@@ -218,7 +242,7 @@ _LARGEST_LOG2_THICKENING = 30.0
 # Aihara's units: largest Hertz pressure in kgf/mm^2, speed in mm/s from m/s
 _LOG2_SPEED_UNIT = math.log2(1000.0)
 _LOG2_PRESSURE_BEND = math.log2(94.404)
-_LOG2_NO_LONGER_FITTED = math.log2(NO_LONGER_FITTED / 9.80665e6)
+_LOG2_NO_LONGER_FITTED = math.log2(_NO_LONGER_FITTED / _KGF_PER_MM2)
 _LOG2_AT_HIGH_PRESSURE = math.log2(4.078e-2)
 _LOG2_STEEPNESS = math.log2(2.6)
 _LOG2_AT_LOW_PRESSURE = math.log2(1.008e-4)
@@ -235,6 +259,36 @@ class LaminaContact(NamedTuple):
     lamina: int
     ring: int
     laminae: Any  # lamina table [row of the table, lamina]
+
+
+def rolling_lamina(
+    load: Any, speed: float, slip: Any, ring: int, laws: TractionLaws, laminae: NDArray[np.float64]
+) -> LaminaContact:
+    """Describe the middle lamina of a contact that rolls, in plain Python.
+
+    Parameters
+    ----------
+    load : float or float64 array
+        Of the lamina, [N].
+    speed : float
+        Entrainment speed, [m/s].
+    slip : float or float64 array
+        Of the surfaces, [m/s].
+    ring : int
+        ``CUP`` or ``CONE``.
+    laminae : float64 array, shape [LAMINA_ROWS, lamina]
+        Of `lamina_table`.
+    """
+    middle = laminae.shape[1] // 2
+    log2_load = np.log2(load)
+    log2_speed = plain(log2_entrainment)(speed, laws.film)
+    film = plain(log2_film_thickness)(log2_load, log2_speed, middle, ring, laminae, laws.film)
+    return LaminaContact(load, log2_load, slip * slip, film, log2_speed[1], middle, ring, laminae)
+
+
+def lamina_friction(contact: LaminaContact, laws: TractionLaws) -> Any:
+    """Evaluate `friction_rate` in plain Python, [N s/m]."""
+    return plain(friction_rate)(contact, laws)
 
 
 @inline

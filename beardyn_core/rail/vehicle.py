@@ -13,6 +13,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.base.low_pass import first_order
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.rail.wheelset import Modes, bending_modes
@@ -74,7 +75,7 @@ def equivalent_displacement(force: Float, mounting: Mounting, axis: int, step: f
     return first_order(force / stiffness, damping / stiffness / step)
 
 
-GRAVITY = 9.80665
+GRAVITY = STANDARD_GRAVITY
 BODY, BOGIE, WHEEL, BOX = range(4)
 
 # of a 130 mm axlebox bearing, radial, under 5 to 80 kN: 4.8 to 6.4 GN/m; share of critical damping

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
+from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, cos_sin, log2
 from beardyn_core.scene.sensor import Accelerometer
 
@@ -111,7 +112,7 @@ def _ring(stretch, taps, poles, out):
             out[i, j] = total
 
 
-GRAVITY = 9.80665
+GRAVITY = STANDARD_GRAVITY
 _STREAM = 0x61636365  # keeps the sensors' random numbers apart from those of the rail
 _TWICE_LN_2 = 1.3862943611198906
 _TWO_PI = 6.283185307179586

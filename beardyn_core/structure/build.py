@@ -11,7 +11,6 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.damping import damping_ratios
@@ -115,7 +114,7 @@ def digest(box: Box, bearing: Bearing) -> str:
     cup = bearing.material
     figures = replace(box, name="", description="", bearing="", sources=())
     shape = (bearing.outer_diameter, bearing.width, bearing.row_spacing, bearing.effective_length)
-    text = repr((figures, shape, cup_raceway(bearing), cup.youngs_modulus, cup.poisson_ratio, cup.density))
+    text = repr((figures, shape, bearing.cup_radius, cup.youngs_modulus, cup.poisson_ratio, cup.density))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields
 from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_raceway
 
 _SAME = 1e-4  # [m]; tables have five digits
 
@@ -29,7 +28,7 @@ class Cup:
             bearing.name,
             bearing.outer_diameter,
             bearing.width,
-            2.0 * cup_raceway(bearing),
+            2.0 * bearing.cup_radius,
             bearing.row_spacing,
         )
 

@@ -17,7 +17,6 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box, Seat
 from beardyn_core.structure.mesh import CUP, EXTRA, Mesh, row_places
 from beardyn_core.structure.modes import WAVES
@@ -230,7 +229,7 @@ def _rigid_motion(places: Float, axis: Any) -> Float:
 
 def _raceway(skfem: Any, body: Any, element: Any, bearing: Bearing) -> Float:
     """Make the functionals that read the series of the displacement off both roller tracks."""
-    radius, half = cup_raceway(bearing), 0.5 * bearing.effective_length
+    radius, half = bearing.cup_radius, 0.5 * bearing.effective_length
 
     def series(facets: Any) -> Float:
         track = skfem.FacetBasis(body, element, facets=facets, intorder=6)

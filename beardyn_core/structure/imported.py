@@ -13,7 +13,6 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At, Vector, refuse
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.damping import DAMPING, DampingTable, damping_ratios
@@ -173,7 +172,7 @@ def _fit_row(
     target: Float, nodes: Float, shape: Float, box: ModeFile, bearing: Bearing, row: int, name: str
 ) -> Iterator[str]:
     """Fit the series around one row to the nodes under it; yields what is wrong with them."""
-    radius = cup_raceway(bearing) if box.seat_diameter is None else 0.5 * box.seat_diameter
+    radius = bearing.cup_radius if box.seat_diameter is None else 0.5 * box.seat_diameter
     distance = np.hypot(nodes[:, 0], nodes[:, 2])
     along = np.abs(nodes[:, 1] - row_places(bearing)[row]) <= 0.5 * bearing.effective_length
     near = along & (np.abs(distance - radius) <= box.tolerance)

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.structure.box import Box
 
 EXTRA = "pip install beardyn[structure]"
@@ -62,7 +61,7 @@ def mesh_of(box: Box, bearing: Bearing, size: float) -> Mesh:
 
 def _mesh_parts(model: Any, box: Box, bearing: Bearing, size: float, option: Any) -> Mesh:
     occ = model.occ
-    bore, race = 0.5 * bearing.outer_diameter, cup_raceway(bearing)
+    bore, race = 0.5 * bearing.outer_diameter, bearing.cup_radius
     if box.outer_diameter <= bearing.outer_diameter:
         raise InputError(
             f"box {box.name!r}: outer_diameter_mm is {1e3 * box.outer_diameter:g}; the cup of "

@@ -159,8 +159,10 @@ def example_film(side: str, formula: str = "dowson_higginson") -> float:
     bearing, oil = load_bearing("HS130x230"), load_lubricant("L055")
     shaft = 2000.0 * math.pi / 30.0
     angle = {"cup": bearing.cup_angle, "cone": bearing.cone_angle}[side]
-    distance = bearing.apex_distance / math.cos(bearing.half_angle)
-    raceway = distance * math.sin(angle)
+    distance, raceway = (
+        bearing.contact_distance,
+        {"cup": bearing.cup_radius, "cone": bearing.cone_radius}[side],
+    )
     # cup at rest: its contact point moves with the cage, so both surfaces enter with w_c R
     orbit = cage_speed(bearing, shaft)
     speed = (orbit if side == "cup" else shaft - orbit) * raceway

@@ -14,6 +14,8 @@ from beardyn_core.bearing.rolling_resistance import (
 )
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply
 from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.effects import RollingResistance
+from beardyn_core.effects.rolling_resistance import RollingKind
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.physics.statics.torque import running_torque
 from evidence.validation.anchor import Anchor
@@ -76,11 +78,13 @@ def bearing_32216() -> tuple[Bearing, StaticSolution]:
     return bearing, static
 
 
-def torque_32216(rpm: float, form: str = "zhou_hoeprich", supply: OilSupply = FLOODED) -> float:
+def torque_32216(rpm: float, form: RollingKind = "zhou_hoeprich", supply: OilSupply = FLOODED) -> float:
     """Compute the rolling torque of the 32216, N m."""
     bearing, static = bearing_32216()
     oil = load_lubricant("FVA3")
-    return running_torque(bearing, oil, 323.15, static, rpm * RPM, form=form, supply=supply).rolling
+    return running_torque(
+        bearing, oil, 323.15, static, rpm * RPM, resistance=RollingResistance(kind=form), supply=supply
+    ).rolling
 
 
 @cache
@@ -100,7 +104,12 @@ def loss_under(static: StaticSolution) -> float:
     """Compute the same under the loads of an equilibrium, W."""
     speed = 2000 * RPM
     torque = running_torque(
-        load_bearing("HS130x230"), load_lubricant("L055"), 373.15, static, speed, form="aihara"
+        load_bearing("HS130x230"),
+        load_lubricant("L055"),
+        373.15,
+        static,
+        speed,
+        resistance=RollingResistance(kind="aihara"),
     )
     return torque.rolling * speed
 

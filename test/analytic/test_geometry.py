@@ -14,6 +14,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import (
     cage_speed,
     cage_speed_ratio,
+    centrifugal_force,
     fault_frequencies,
     roller_cone_spin,
     roller_spin,
@@ -169,3 +170,19 @@ def test_every_contradiction_is_reported_at_once():
     assert len(problems) == 3
     problems = check(dataclasses.replace(HS, bore=-1.0, width=0.0, cup_mass=-3.0, sphere_ratio=2.0))
     assert len(problems) == 4
+
+
+@given(bearings())
+@settings(max_examples=60, deadline=None)
+def test_radii_at_mid_length_are_those_of_pitch_circle_and_roller(bearing):
+    """The contacts stand square on the raceways, at the roller's radius from mid-length: rounding."""
+    across = bearing.apex_distance * math.tan(bearing.half_angle)
+    half = 0.5 * bearing.pitch_diameter
+    outwards, inwards = (across * math.cos(bearing.contact_angle) * side for side in (1.0, -1.0))
+    assert bearing.cup_radius == pytest.approx(half + outwards, rel=1e-12)
+    assert bearing.cone_radius == pytest.approx(half + inwards, rel=1e-12)
+    assert abs(bearing.roller_orbit_radius / half - 1.0) < 5e-3
+    # cone moved by half of the play along the axis, seen along the cup's normal
+    assert bearing.normal_gap(2e-4) == pytest.approx(1e-4 * math.sin(bearing.cup_angle))
+    force = bearing.roller_mass * cage_speed(bearing, -100.0) ** 2 * bearing.roller_orbit_radius
+    assert centrifugal_force(bearing, 100.0) == pytest.approx(force)

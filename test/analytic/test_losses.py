@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance, Seal
+from beardyn_core.effects.rolling_resistance import RollingKind
 from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
     CONE,
@@ -146,13 +147,13 @@ def test_seals_take_their_torque_from_the_shaft_and_not_from_the_rollers() -> No
 
 
 @pytest.mark.parametrize("kind", ["aihara", "zhou_hoeprich"])
-def test_rolling_loss_is_the_bearing_sum_of_the_couples(kind: str) -> None:
+def test_rolling_loss_is_the_bearing_sum_of_the_couples(kind: RollingKind) -> None:
     """T = sum (1/Dm)(R_o T_i + R_i T_o), Zhao et al. (2026), with the loads of the step.
 
     0.3 %: the kernel takes the contact at the centre of mass, 0.9 mm from mid-length, and the cosine of
     the roller's half angle.
     """
-    rig = lossy(effects=replace(LOSSY, rolling_resistance=RollingResistance(kind=kind)))  # type: ignore[arg-type]
+    rig = lossy(effects=replace(LOSSY, rolling_resistance=RollingResistance(kind=kind)))
     spent = lost_per_step(rig, 1)[0, LOSS_ROLLING]
     scene, fields = rig.scene, rig.fields()
     loads = []
@@ -162,6 +163,11 @@ def test_rolling_loss_is_the_bearing_sum_of_the_couples(kind: str) -> None:
     static = solve(scene.bearing, LOAD_80_KN, end_play=scene.end_play, laminae=6, speed=SPEED)
     static = replace(static, cup_load=loads[0], cone_load=loads[1])
     expected = running_torque(
-        scene.bearing, scene.lubricant, scene.temperature, static, SPEED, form=kind
+        scene.bearing,
+        scene.lubricant,
+        scene.temperature,
+        static,
+        SPEED,
+        resistance=RollingResistance(kind=kind),
     ).rolling
     assert spent / rig.parameters.step / SPEED == pytest.approx(expected, rel=3e-3)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.cli import main as command
 from beardyn_core.config import load_bearing
 from beardyn_core.config.nouns import load_box
@@ -21,7 +20,7 @@ from beardyn_core.structure.table import read_table
 pyuff = pytest.importorskip("pyuff")
 
 BEARING = load_bearing("HS130x230")
-RADIUS = cup_raceway(BEARING)
+RADIUS = BEARING.cup_radius
 TOP = Seat("top", (0.0, 0.0, 0.17), 0.005)
 # of the file seen from the axlebox frame: forward is its z, left its x, up its y
 TURN = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])

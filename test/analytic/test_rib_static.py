@@ -29,8 +29,12 @@ from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
+from beardyn_core.effects import Rib, RibMixedFilm, RibShearedFilm
+from beardyn_core.effects.rib import RibLubrication
+from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model, rib_contacts
 from beardyn_core.physics.statics.static import _rotation, solve
+from beardyn_core.physics.statics.torque import rib_torque
 
 HS = load_bearing("HS130x230")
 
@@ -211,3 +215,40 @@ def test_film_of_the_rib_grows_with_speed_and_hardly_falls_with_load() -> None:
     assert rib_film_thickness(HS, 1000.0, speed, viscosity, alpha) / fast == pytest.approx(
         2.0**-0.067, rel=1e-9
     )
+
+
+@pytest.mark.parametrize("rpm", [60.0, 1165.0])
+@pytest.mark.parametrize("lubrication", [None, RibMixedFilm(), RibShearedFilm()])
+def test_torque_of_the_ribs_is_that_of_the_formulas(lubrication: RibLubrication | None, rpm: float) -> None:
+    """Asperities and film share the load, and the film shears: formula by formula; logarithms of 1e-10."""
+    rib, oil = Rib(lubrication=lubrication), load_lubricant("L055")
+    kelvin, speed = 343.15, rpm * math.pi / 30.0
+    viscosity, alpha = oil.dynamic_viscosity(kelvin), oil.pressure_viscosity_at(kelvin)
+    static = solve(HS, (0.0, 0.0, 80e3), end_play=HS.end_play)
+    slip = roller_cone_spin(HS, speed) * HS.rib_contact_height
+    radius = HS.end_sphere[0] + HS.sphere_radius * math.sin(HS.rib_lean)
+    entrainment = (speed - cage_speed(HS, speed)) * radius - 0.5 * slip + 1e-3
+    friction, mixed = 0.0, 0.0
+    for load in static.rib_load[static.rib_load > 0.0].tolist():
+        if lubrication is None:
+            friction += rib.friction * load
+            continue
+        film = lubrication.starvation * rib_film_thickness(HS, load, entrainment, viscosity, alpha)
+        asperities = math.exp(-1.8 * (film / HS.rib_roughness) ** 1.2)
+        boundary = lubrication.boundary_friction * load
+        if isinstance(lubrication, RibMixedFilm):
+            wet = lubrication.film_friction * load
+        else:
+            area = math.pi * math.prod(rib_contact(HS).semi_axes(load))
+            newtonian = viscosity * math.exp(alpha * load / area) * slip / film
+            limit = lubrication.limiting_shear * load / area
+            # force against the corner of dry friction, which the film has not
+            wet = area * newtonian * limit / math.hypot(newtonian, limit)
+            wet *= math.hypot(slip, rib.regularisation_speed) / slip
+        friction += wet + (boundary - wet) * asperities
+        mixed += boundary
+    expected = friction * slip / math.hypot(slip, rib.regularisation_speed) * slip / speed
+    found = rib_torque(HS, static, speed, rib_params(HS, rib, oil, kelvin))
+    assert found == pytest.approx(expected, rel=1e-7)
+    if isinstance(lubrication, RibShearedFilm) and rpm > 1000.0:
+        assert friction < 0.6 * mixed  # and not as dry as asperities alone

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.ring_bending import cup_raceway
 from beardyn_core.config import load_bearing
 from beardyn_core.structure.box import Block, Box, Disc, Seat
 from beardyn_core.structure.build import Built, load_zone, modes_of
@@ -46,7 +45,7 @@ def thick() -> Elastic:
 
 
 def test_mass_and_inertia_are_those_of_a_hollow_cylinder(thick: Elastic) -> None:
-    inner, outer, width = cup_raceway(BEARING), 0.125, 2.0 * BEARING.effective_length + 4e-3
+    inner, outer, width = BEARING.cup_radius, 0.125, 2.0 * BEARING.effective_length + 4e-3
     mass = np.pi * STEEL.density * width * (outer**2 - inner**2)
     polar = 0.5 * mass * (outer**2 + inner**2)
     across = 0.5 * polar + mass * width**2 / 12.0
@@ -69,7 +68,7 @@ def test_the_surface_encloses_the_ring_and_finds_its_motion(thick: Elastic) -> N
 
 def test_pressure_inside_widens_the_ring_as_lame_says(thick: Elastic) -> None:
     """Lamé (1852), a tube with free ends: u = p a / E ((b^2 + a^2) / (b^2 - a^2) + nu)."""
-    inner, outer = cup_raceway(BEARING), 0.125
+    inner, outer = BEARING.cup_radius, 0.125
     pressure = 1e6
     force = pressure * 2.0 * np.pi * inner * BEARING.effective_length  # on a row
     widened = thick.bent(force * thick.raceway[:, 0, :1].sum(axis=0).T)
@@ -82,7 +81,7 @@ def test_pressure_inside_widens_the_ring_as_lame_says(thick: Elastic) -> None:
 @pytest.mark.slow
 def test_a_ring_bends_in_waves_as_rayleigh_says() -> None:
     """Rayleigh (1894), art. 233, of a wall of a tenth of the radius: between a narrow ring and a plate."""
-    inner, outer = cup_raceway(BEARING), 0.1165
+    inner, outer = BEARING.cup_radius, 0.1165
     thin = ring(2.0 * outer)
     found = elastic_body(thin, BEARING, mesh_of(thin, BEARING, 0.018)).modes(3000.0)[0]
     wall, radius = outer - inner, 0.5 * (inner + outer)

@@ -10,9 +10,10 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.config import load_lubricant
 from beardyn_core.effects import Rib, RibMixedFilm, RingStructure
+from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.ring_modes import rings
 from beardyn_core.physics.statics.static import solve
-from beardyn_core.physics.statics.torque import rib_friction, rib_torque
+from beardyn_core.physics.statics.torque import rib_torque
 
 BEARING = "HS130x230"
 
@@ -77,10 +78,11 @@ def test_torque_rises_with_speed_and_load() -> None:
 
 @pytest.mark.parametrize("rpm", [60.0, 1165.0])
 def test_ribs_rub_as_film_and_asperities_share_the_load(rpm: float) -> None:
-    """As the losses of a scene with the effects `full` have it."""
+    """As in a scene with the effects `full`, but for the corner of dry friction, which only steps need."""
     bearing, oil, speed = bd.bearing(BEARING), load_lubricant("L055"), rpm * np.pi / 30.0
-    friction = rib_friction(Rib(lubrication=RibMixedFilm()), bearing, oil, 343.15, speed)
-    expected = rib_torque(bearing, bd.equilibrium(bearing, speed_rpm=rpm), friction)
+    rib = Rib(lubrication=RibMixedFilm(), drilling=True, regularisation_speed=1e-6)
+    law = rib_params(bearing, rib, oil, 343.15)
+    expected = rib_torque(bearing, bd.equilibrium(bearing, speed_rpm=rpm), speed, law)
     found = bd.torque(bearing, rpm) - bd.torque(bearing, rpm, rib_friction=0.0)
     assert found == pytest.approx(expected, rel=1e-9)
 

@@ -9,10 +9,37 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.oil_layer import layer_couple_shares, layer_thickness
+from beardyn_core.bearing.rolling_resistance import (
+    RollingContact,
+    aihara_line,
+    biboulet_houpert_line,
+    rigid_line,
+    zhou_hoeprich_line,
+)
+from beardyn_core.bearing.starvation import couple_shares
+from beardyn_core.bearing.starved_rolling import OilSupply, flooded_film, rigid_film
 from test.kernels.naive import Motion, Wrench, closed_form_point, cone_normal, raceway_wrench
 from test.kernels.naive_step import signed_entrainment
 
 Float = NDArray[np.float64]
+
+
+_POWER_LAWS = {"aihara": aihara_line, "zhou_hoeprich": zhou_hoeprich_line}
+FORMS = (*_POWER_LAWS, "biboulet_houpert")
+
+
+def rolling_couple(form: str, contact: RollingContact, supply: OilSupply) -> float:
+    """Isothermal couple with the oil it finds, [N m]; elastic laws are limited by rigid surfaces."""
+    if supply.layer is None:
+        rigid, elastic = couple_shares(supply.film_share)
+    else:
+        layer = layer_thickness(supply.layer, contact.viscosity, contact.entrainment_speed)
+        flooded = max(flooded_film(contact, supply.formula), rigid_film(contact))
+        rigid, elastic = layer_couple_shares(flooded / layer)
+    if form == "biboulet_houpert":
+        return biboulet_houpert_line(contact, rigid, elastic)
+    return min(elastic * _POWER_LAWS[form](contact), rigid * rigid_line(contact))
 
 
 def rotary_damper(direction: Float, rate: float, omega: Float) -> Wrench:

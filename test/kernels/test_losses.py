@@ -11,13 +11,17 @@ import pytest
 from numpy.typing import NDArray
 
 from beardyn_core.bearing import rolling_resistance as laws
-from beardyn_core.bearing import starved_rolling
 from beardyn_core.bearing.film_thickness import thermal_loading
+from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.choice.load_cases import circumstances
+from beardyn_core.choice.losses import Losses
+from beardyn_core.choice.statics import Statics
 from beardyn_core.effects import Drag, EffectSet, LineFilm, RollingResistance
 from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_FRICTION, drag_params
 from beardyn_core.physics.lamina_table import equivalent_radius
 from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.scene.scene import Scene
+from test.kernels import naive_losses
 from test.kernels.casting import through
 from test.kernels.loss_entries import couple_matrices, drags, rolling_couples
 from test.scenes import scene_with
@@ -26,7 +30,6 @@ Float = NDArray[np.float64]
 CASES = np.random.default_rng(7)
 LOAD = 10.0 ** CASES.uniform(0.0, 4.5, 200)
 SPEED = 10.0 ** CASES.uniform(-2.0, 1.3, 200)
-FORMS = starved_rolling.FORMS
 
 
 def scene_of(**options: Any) -> Scene:
@@ -34,8 +37,13 @@ def scene_of(**options: Any) -> Scene:
 
 
 def couples(scene: Scene, lanes: Any, ring: int, load: Any, speed: Any) -> Float:
+    effects = scene.effects
+    supply = oil_supply(effects.film)
+    law = rolling_params(
+        scene.bearing, effects.rolling_resistance, scene.lubricant, scene.temperature, supply
+    )
     cases = np.stack(np.broadcast_arrays(load, speed), axis=-1).astype(float)
-    return through(lanes, rolling_couples, cases, 1, ring, rolling_params(scene))[:, 0]
+    return through(lanes, rolling_couples, cases, 1, ring, law)[:, 0]
 
 
 def contact(scene: Scene, ring: int, load: float, speed: float) -> laws.RollingContact:
@@ -63,7 +71,7 @@ def reduction(scene: Scene, speed: float) -> float:
     )
 
 
-@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize("kind", naive_losses.FORMS)
 @pytest.mark.parametrize("ring", [0, 1])
 def test_couple_is_that_of_the_plain_formula(lanes: Any, kind: str, ring: int) -> None:
     """Logarithms of 1e-10, times ten in the tenth power of Biboulet and Houpert."""
@@ -71,7 +79,7 @@ def test_couple_is_that_of_the_plain_formula(lanes: Any, kind: str, ring: int) -
     supply = oil_supply(scene.effects.film)
     exact = [
         0.6
-        * starved_rolling.rolling_couple(kind, contact(scene, ring, q, u + 1e-3), supply)
+        * naive_losses.rolling_couple(kind, contact(scene, ring, q, u + 1e-3), supply)
         * reduction(scene, u + 1e-3)
         for q, u in zip(LOAD, SPEED, strict=True)
     ]
@@ -85,7 +93,7 @@ def test_isothermal_couple_and_hysteresis_add_up(lanes: Any) -> None:
         line = contact(scene, 1, q, u + 1e-3)
         width = laws.hertz_half_width(q / line.length, line.radius, line.contact_modulus)
         exact.append(
-            starved_rolling.rolling_couple("zhou_hoeprich", line, oil_supply(scene.effects.film))
+            naive_losses.rolling_couple("zhou_hoeprich", line, oil_supply(scene.effects.film))
             + laws.hysteresis_line(q, width, 0.007)
         )
     np.testing.assert_allclose(couples(scene, lanes, 1, LOAD, SPEED), exact, rtol=1e-8)
@@ -98,7 +106,7 @@ def test_hysteresis_alone_does_not_ask_for_the_speed(lanes: Any) -> None:
     assert np.all(slow > 0.0)
 
 
-@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize("kind", naive_losses.FORMS)
 def test_an_unloaded_contact_rolls_freely_and_a_light_one_nearly_so(lanes: Any, kind: str) -> None:
     """With enough oil: a starved light contact has little but its hysteresis."""
     scene = scene_of(kind=kind, hysteresis=0.007)
@@ -157,6 +165,31 @@ def test_drag_and_churning_are_those_of_the_plain_formulas(lanes: Any) -> None:
         couple = -1.5 * math.copysign(cylinder + discs, spin) * axis
         np.testing.assert_allclose(wrench[:3], [0.0, force, 0.0], rtol=1e-9, atol=1e-15)
         np.testing.assert_allclose(wrench[3:], couple, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize("speed", [3.0, 122.0])
+def test_rolling_rollers_lose_to_the_medium_what_the_choice_counts(lanes: Any, speed: float) -> None:
+    """A roller in pure rolling turns about the line that touches the cup at rest; one formula, rounding."""
+    scene = scene_with(replace(EffectSet(), drag=Drag(churning=1.5)))
+    bearing, angle = scene.bearing, scene.bearing.contact_angle
+    orbit = cage_speed(bearing, speed)
+    axis = np.array([math.sin(angle), 0.0, math.cos(angle)])
+    line = np.array([math.sin(bearing.cup_angle), 0.0, math.cos(bearing.cup_angle)])
+    apex = np.array([0.0, 0.0, bearing.apex_place])
+    place = apex + (bearing.apex_distance + bearing.roller_mass_offset) * axis
+    # its mass centre has the speed of its orbit
+    about = np.cross(line, place - apex)
+    omega = line * (orbit * place[0] / about[1])
+    velocity = np.cross(omega, place - apex)
+    case = np.array([*place, *axis, *velocity, *omega, *np.zeros(3), 0.0, 0.0, 1.0, *np.zeros(6)])
+    wrench = through(lanes, drags, case[None], 6, drag_params(scene))[0]
+    power = -float(wrench[:3] @ velocity + wrench[3:] @ omega)
+    case_of_load = circumstances(scene).typical
+    turning = replace(case_of_load, speed=speed)
+    static = Statics(scene).at(case_of_load)
+    assert static is not None
+    torque = Losses(scene, turning, static).drag
+    assert torque * speed == pytest.approx(scene.roller_total * power, rel=1e-9)
 
 
 @pytest.mark.parametrize("reynolds", [1e3, 3e3, 1e4, 3e4, 1e5])

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from beardyn_core.bearing.starved_rolling import rolling_couple
 from beardyn_core.effects import Drag, EffectSet, RollingResistance, Seal
 from beardyn_core.physics.bodies.layout import (
     ANGULAR,
@@ -27,7 +26,7 @@ from beardyn_core.physics.drag import AIR_DENSITY, CYLINDER_EXPONENT, CYLINDER_F
 from beardyn_core.physics.rolling_resistance import oil_supply
 from test.kernels import naive_step
 from test.kernels.naive import Motion, Wrench
-from test.kernels.naive_losses import drag_wrench, rolling_wrench
+from test.kernels.naive_losses import drag_wrench, rolling_couple, rolling_wrench
 from test.kernels.naive_traction import lamina_friction
 from test.kernels.rig import Rig
 from test.kernels.states import cartesian, ring_of, shaken

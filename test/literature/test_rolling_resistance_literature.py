@@ -18,7 +18,7 @@ from beardyn_core.bearing.rolling_resistance import (
     zhou_hoeprich_line,
 )
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.effects import Rib
+from beardyn_core.effects import Rib, RollingResistance
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import running_torque
 from evidence.validation.losses import RPM, bearing_32216
@@ -88,7 +88,6 @@ def test_palmgrens_rule_is_of_the_same_size() -> None:
         373.15,
         static,
         2000 * RPM,
-        form="zhou_hoeprich",
         rib=Rib(friction=0.05, drilling=True),
     )
     oil = load_lubricant("L055").kinematic_viscosity(373.15) * 1e6
@@ -103,5 +102,6 @@ def test_palmgrens_rule_is_of_the_same_size() -> None:
 
 def test_unknown_law_is_refused() -> None:
     bearing, static = bearing_32216()
-    with pytest.raises(InputError, match=r"form is 'kugel'; allowed are aihara, zhou_hoeprich"):
-        running_torque(bearing, load_lubricant("FVA3"), 323.15, static, 50.0, form="kugel")
+    spherical = RollingResistance(kind="kugel")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"kind is 'kugel'; allowed are aihara, zhou_hoeprich"):
+        running_torque(bearing, load_lubricant("FVA3"), 323.15, static, 50.0, resistance=spherical)

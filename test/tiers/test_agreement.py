@@ -117,8 +117,7 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
                 roller_phase=2.0 * np.pi * phase / 6 / bearing.roller_count,
             ),
             speed,
-            form=effects.rolling_resistance.kind,
-            thermal=effects.rolling_resistance.thermal,
+            resistance=effects.rolling_resistance,
             supply=oil_supply(effects.film),
         ).rolling
         for phase in range(6)

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.kinematics import cage_speed_ratio
-from beardyn_core.effects import Cage
+from beardyn_core.effects import (
+    Cage,
+    CoulombTraction,
+    LineFilm,
+    LoadSharingTraction,
+    MixedTraction,
+    ShearedFilmTraction,
+    Traction,
+)
+from beardyn_core.physics.tiers.tier_parameters import loose_params
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from test.tiers.runs import scene_of
@@ -94,3 +103,25 @@ def test_slip_spacing_lines_and_torque_are_those_of_the_full_tier() -> None:
 
     heard = (BAND_CENTRES > 30.0) & (BAND_CENTRES < 5_500.0)
     assert np.abs(fast.levels - full.levels)[heard].max() < 4.0
+
+
+@pytest.mark.parametrize(
+    ("traction", "film", "limit"),
+    [
+        (CoulombTraction(0.12), LineFilm(), 0.12),
+        (MixedTraction(boundary_friction=0.11), None, 0.11),
+        (MixedTraction(), LineFilm(), 0.045),
+        (ShearedFilmTraction(limiting_shear=0.06), LineFilm(), 0.06),
+        (LoadSharingTraction(film_traction="bair_winer", limiting_shear=0.03), LineFilm(), 0.03),
+        (LoadSharingTraction(), LineFilm(), 0.045),
+        (None, LineFilm(), 0.045),
+    ],
+)
+def test_both_raceways_drive_a_loose_roller_up_to_the_limit_of_the_scene(
+    traction: Traction | None, film: LineFilm | None, limit: float
+) -> None:
+    scene = healthy("quasistatic")
+    effects = replace(scene.effects, traction=traction, film=film)
+    loose = loose_params(replace(scene, effects=effects), 1.0 / 51_200.0)
+    assert loose is not None
+    assert loose.traction == 2.0 * limit

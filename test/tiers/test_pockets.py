@@ -55,7 +55,7 @@ def test_idle_rollers_rub_in_their_pockets() -> None:
 
 def test_a_kinematic_cage_rubs_nothing() -> None:
     from beardyn_core.effects import KinematicCage
-    from beardyn_core.physics.tiers.tier_parameters import kinematic_params
+    from beardyn_core.physics.pure_rolling import kinematic_params
 
     scene = load_scene("static_80kN", tier="lumped", effects="standard")
     assert kinematic_params(scene).pocket is not None

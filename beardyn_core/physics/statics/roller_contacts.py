@@ -22,7 +22,7 @@ from beardyn_core.bearing.contact_law import (
     rib_contact_factor,
 )
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed, roller_spin
+from beardyn_core.bearing.kinematics import cage_speed, centrifugal_force, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
@@ -119,7 +119,7 @@ def contact_model(
         radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle) + error[:, :, None],
         oversize=error[:, :, None],
         drop=drop,
-        clearance=0.5 * end_play * math.sin(bearing.cup_angle),
+        clearance=bearing.normal_gap(end_play),
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
         rib_factor=rib_contact_factor(bearing),
         inertia_load=_inertia_load(bearing, speed),
@@ -138,8 +138,7 @@ def _inertia_load(bearing: Bearing, speed: float) -> Float:
     """
     cage, spin = cage_speed(bearing, speed), roller_spin(bearing, speed)
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    mass_radius = 0.5 * bearing.pitch_diameter + bearing.roller_mass_offset * sine
-    centrifugal = bearing.roller_mass * cage**2 * mass_radius
+    centrifugal = centrifugal_force(bearing, speed)
     axial, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
     gyroscopic = cage * sine * (axial * spin - (axial - transverse) * cage * cosine)
     return np.array([centrifugal, 0.0, gyroscopic + centrifugal * bearing.roller_mass_offset * cosine])

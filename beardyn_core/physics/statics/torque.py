@@ -6,30 +6,27 @@ No motion is simulated: the static solution gives the load of every contact, pur
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.jit import plain
-from beardyn_core.bearing.contact_law import drilling_lever
-from beardyn_core.bearing.film_thickness import rib_film_thickness, thermal_loading
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
+from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.bearing.rolling_resistance import (
-    RollingContact,
-    hertz_half_width,
-    hysteresis_line,
-    thermal_reduction,
-)
-from beardyn_core.bearing.starved_rolling import FLOODED, FORMS, OilSupply, rolling_couple
-from beardyn_core.effects import Rib, RibMixedFilm
-from beardyn_core.physics.film import asperity_share
-from beardyn_core.physics.lamina_table import equivalent_radius, surface_radius
+from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply
+from beardyn_core.effects import Rib, RollingResistance
+from beardyn_core.effects.rolling_resistance import RollingKind
+from beardyn_core.physics.bodies.layout import CONE, CUP
+from beardyn_core.physics.pure_rolling import pure_rolling
+from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
+from beardyn_core.physics.rolling_resistance import moving_couple, rolling_params, rolling_torque
 from beardyn_core.physics.statics.static import StaticSolution
+
+USUAL_RESISTANCE = RollingResistance()
 
 
 @dataclass(frozen=True)
@@ -50,7 +47,7 @@ class RunningTorque:
 def entrainment_speeds(bearing: Bearing, speed: float) -> tuple[float, float]:
     """Work out entrainment speeds on cup and cone in pure rolling, contact-fixed frame, [m/s]."""
     orbit = cage_speed(bearing, abs(speed))
-    return orbit * surface_radius(bearing, "cup"), (abs(speed) - orbit) * surface_radius(bearing, "cone")
+    return orbit * bearing.cup_radius, (abs(speed) - orbit) * bearing.cone_radius
 
 
 def running_torque(
@@ -60,10 +57,8 @@ def running_torque(
     static: StaticSolution,
     speed: float,
     *,
-    form: str = "aihara",
+    resistance: RollingResistance = USUAL_RESISTANCE,
     supply: OilSupply = FLOODED,
-    thermal: bool = True,
-    hysteresis: float = 0.0,
     rib: Rib | None = None,
 ) -> RunningTorque:
     """Work out the running torque in pure rolling under the loads of a static equilibrium.
@@ -74,21 +69,17 @@ def running_torque(
         Of the lubricant at the inlets, [K].
     speed : float
         Of the shaft, [rad/s].
-    form : str
-        ``aihara``, ``zhou_hoeprich`` or ``biboulet_houpert``.
+    resistance : RollingResistance
+        Options of the rolling resistance.
     supply : OilSupply
         How much oil the contacts find.
-    thermal : bool
-        Reduce the couple by heating of the inlet.
-    hysteresis : float
-        Loss factor of the elastic hysteresis, 0 for none.
     rib : Rib, optional
-        Of the friction on the rib, see `rib_friction`; none by default.
+        Options of the friction on the rib; none by default.
 
     Raises
     ------
     InputError
-        Unknown form.
+        Unknown kind of resistance.
 
     References
     ----------
@@ -96,89 +87,41 @@ def running_torque(
     rib mu Q_f h sqrt(1 + 0.18 (a/h)^2) R_o/Dm. The equivalent radius and the entrainment speed are not
     those printed there: the cup is concave, and surface speeds are taken against the contact.
     """
-    if form not in FORMS:
-        raise InputError([f"form is {form!r}; allowed are {', '.join(FORMS)}."])
-    viscosity = lubricant.dynamic_viscosity(temperature)
-    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
-    modulus, length = bearing.material.contact_modulus, bearing.effective_length
-    couples = []
-    speeds = entrainment_speeds(bearing, speed)
-    for ring, loads, entrainment in zip(
-        ("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True
-    ):
-        radius = float(equivalent_radius(bearing, np.zeros(1), ring)[0])
-        reduction = 1.0
-        if thermal:
-            oil = lubricant.temperature_coefficient, lubricant.thermal_conductivity
-            reduction = thermal_reduction(thermal_loading(viscosity, oil[0], entrainment, oil[1]))
-        couple = np.zeros_like(loads)
-        for index in zip(*np.nonzero(loads > 0.0), strict=True):
-            load = float(loads[index])
-            unit = RollingContact(load, entrainment, radius, length, modulus, viscosity, pressure_viscosity)
-            width = hertz_half_width(load / length, radius, modulus)
-            couple[index] = reduction * rolling_couple(form, unit, supply)
-            couple[index] += hysteresis_line(load, width, hysteresis)
-        couples.append(couple)
-    cup_radius, cone_radius = surface_radius(bearing, "cup"), surface_radius(bearing, "cone")
-    rolling = float(cup_radius * couples[1].sum() + cone_radius * couples[0].sum()) / bearing.roller_diameter
-    sliding = 0.0
-    if rib is not None and speed != 0.0:
-        friction = rib_friction(rib, bearing, lubricant, temperature, speed)
-        sliding = rib_torque(bearing, static, friction, rib.drilling)
-    return RunningTorque(couples[0], couples[1], rolling, sliding)
+    allowed = get_args(RollingKind)
+    if resistance.kind not in allowed:
+        raise InputError([f"kind is {resistance.kind!r}; allowed are {', '.join(allowed)}."])
+    motion, loads = pure_rolling(bearing), (static.cup_load, static.cone_load)
+    speeds = abs(speed), motion.cage_ratio * abs(speed)
+    law = rolling_params(bearing, resistance, lubricant, temperature, supply)
+    cup, cone = (
+        plain(moving_couple)(load, entrainment, ring, law)
+        for ring, load, entrainment in zip(
+            (CUP, CONE), loads, entrainment_speeds(bearing, speed), strict=True
+        )
+    )
+    rolling = float(np.sum(plain(rolling_torque)(loads, speeds, motion, law)))
+    sliding = rib_torque(bearing, static, speed, rib_params(bearing, rib, lubricant, temperature))
+    return RunningTorque(cup, cone, rolling, sliding)
 
 
-def rib_friction(
-    rib: Rib, bearing: Bearing, lubricant: Lubricant, temperature: float, speed: float
-) -> Callable[[float], float]:
-    """Find the coefficient of friction of a rib contact under a load [N], shared by film and asperities.
+def rib_torque(bearing: Bearing, static: StaticSolution, speed: float, rib: RibParams | None) -> float:
+    """Work out the torque on the shaft of all large ends that slide on their ribs in pure rolling, [N m].
 
     Parameters
     ----------
-    rib : Rib
-        Without a lubrication its coefficient holds for every load.
-    temperature : float
-        [K].
     speed : float
         Of the shaft, [rad/s].
+    rib : RibParams, optional
+        As the steps have it, with its film; ``None`` for ribs without friction.
     """
-    film = rib.lubrication
-    if film is None:
-        return lambda _load: rib.friction
-    if not isinstance(film, RibMixedFilm):
-        return lambda _load: film.boundary_friction
-    # roller end and rib pass the contact with the speed of the raceway they stand on
-    entrainment = max(entrainment_speeds(bearing, speed)[1], 1.0e-3)
-    viscosity = lubricant.dynamic_viscosity(temperature)
-    pressure_viscosity = lubricant.pressure_viscosity_at(temperature)
-
-    def found(load: float) -> float:
-        thickness = rib_film_thickness(bearing, load, entrainment, viscosity, pressure_viscosity)
-        asperities = asperity_load(film.starvation * thickness / bearing.rib_roughness)
-        return film.film_friction + (film.boundary_friction - film.film_friction) * asperities
-
-    return found
+    motion, cone = pure_rolling(bearing), _Cone(math.sin(bearing.cone_angle), math.cos(bearing.cone_angle))
+    speeds = abs(speed), motion.cage_ratio * abs(speed)
+    loads = static.rib_load[static.rib_load > 0.0]
+    return float(np.sum(plain(sliding_torque)(loads, speeds, motion, cone, rib)))
 
 
-def asperity_load(film_parameter: float) -> float:
-    """Compute the share of the load on asperities at a film over roughness, by the formula of the kernels."""
-    return float(plain(asperity_share)(math.log2(film_parameter))) if film_parameter > 0.0 else 1.0
+class _Cone(NamedTuple):
+    """What `sliding_torque` reads of the cone."""
 
-
-def rib_torque(
-    bearing: Bearing, static: StaticSolution, friction: Callable[[float], float], drilling: bool = True
-) -> float:
-    """Work out the torque on the shaft of the sliding of all large ends on their ribs, [N m].
-
-    Parameters
-    ----------
-    friction : callable
-        Coefficient of friction of a contact under a load, [N].
-    drilling : bool
-        Whether the spin inside the contact counts too.
-    """
-    torque = 0.0
-    for load in map(float, static.rib_load[static.rib_load > 0.0]):
-        lever = drilling_lever(bearing, load) if drilling else bearing.rib_contact_height
-        torque += friction(load) * load * lever * roller_cone_spin(bearing, 1.0)
-    return torque
+    sine: float
+    cosine: float

@@ -31,7 +31,7 @@ from beardyn_core.physics.lamina_table import coupling_params, lamina_table
 from beardyn_core.physics.pocket import cage_params
 from beardyn_core.physics.rib import rib_params, small_rib_params
 from beardyn_core.physics.ring_modes import body_of, structure_params
-from beardyn_core.physics.rolling_resistance import rolling_params
+from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
 from beardyn_core.physics.seal import seal_params
 from beardyn_core.physics.suspension import mounting_params
@@ -161,9 +161,7 @@ def build_parameters(
             half_length=0.5 * bearing.roller_length,
             mass_offset=offset,
         ),
-        cup=RacewayParams(
-            math.sin(cup_angle), math.cos(cup_angle), 1.0, 0.5 * scene.end_play * math.sin(cup_angle)
-        ),
+        cup=RacewayParams(math.sin(cup_angle), math.cos(cup_angle), 1.0, bearing.normal_gap(scene.end_play)),
         cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
@@ -181,12 +179,18 @@ def build_parameters(
             coupling=coupling_params(bearing, effects.lamina_coupling, scene.numerics.laminae, arrangement),
             coulomb=coulomb,
             mixed=mixed,
-            rolling=rolling_params(scene),
+            rolling=rolling_params(
+                bearing,
+                effects.rolling_resistance,
+                scene.lubricant,
+                scene.temperature,
+                oil_supply(effects.film),
+            ),
             drag=drag_params(scene),
             seal=seal_params(scene),
             cage_drag=cage_drag_params(scene),
             cage=cage_params(scene, step),
-            rib=rib_params(scene),
+            rib=rib_params(bearing, effects.rib, scene.lubricant, scene.temperature),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
             structure=structure_params(body, scene, arrangement, step),

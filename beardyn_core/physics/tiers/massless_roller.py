@@ -260,7 +260,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
         idling = counted * pocket_torque(loads[1], speeds, k, effects.drag, k.pocket)
         rolling, pocket = rolling + idling, pocket + idling
-        sliding = sliding + counted * sliding_torque(loads[2], speeds, p, effects.rib)
+        sliding = sliding + counted * sliding_torque(loads[2], speeds, p.kinematic, p.base.cone, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
         approach = less_opening(lanes, block, PLACE, approach, p.bending, None)

@@ -216,7 +216,9 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             idling = counted * steady_pocket(cone[0], speeds, k, p.base.effects.drag, p.loose)
             rolling, pocket = rolling + idling, pocket + idling
-            sliding = sliding + counted * sliding_torque(rib, speeds, p, p.base.effects.rib)
+            sliding = sliding + counted * sliding_torque(
+                rib, speeds, p.kinematic, p.base.cone, p.base.effects.rib
+            )
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
             slowed = counted * creep_of(cup[0], level, p.slide)

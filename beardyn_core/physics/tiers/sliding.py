@@ -21,16 +21,15 @@ from typing import NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.jit import inline, plain
+from beardyn_core.base.jit import inline
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import store_vector
-from beardyn_core.physics.film import film_params, log2_entrainment, log2_film_thickness
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2
 from beardyn_core.physics.tiers.kinematic_rings import SLIDING, row_times, sum_matrix
 from beardyn_core.physics.tiers.kinematic_rollers import row_totals
-from beardyn_core.physics.traction import LaminaContact, friction_rate, traction_params
+from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
 from beardyn_core.scene.scene import Scene
 
 # Sums of the creep of the rollers, times cosine and sine of the pocket angle.
@@ -57,19 +56,10 @@ class SlideParams(NamedTuple):
     lever: float  # arm of the cup's line of contact about the bearing centre [m]
 
 
-class _Laws(NamedTuple):
-    """What `friction_rate` reads of the effects."""
-
-    film: object
-    coulomb: object
-    mixed: object
-    load_sharing: object
-
-
 def place_on_cup(bearing: Bearing) -> tuple[float, float]:
     """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
-    return distance * math.sin(angle), bearing.apex_place + distance * math.cos(angle)
+    along = bearing.contact_distance * math.cos(bearing.cup_angle)
+    return bearing.cup_radius, bearing.apex_place + along
 
 
 def creep_over_load(scene: Scene, load: float, speed: float) -> float:
@@ -87,22 +77,18 @@ def creep_over_load(scene: Scene, load: float, speed: float) -> float:
     float
         Friction over slip speed and load, of the middle lamina.
     """
-    laws, laminae = _Laws(film_params(scene), *traction_params(scene)), lamina_table(scene)
+    laws, laminae = traction_laws(scene), lamina_table(scene)
     return _creep_over_load(laws, laminae, load / scene.numerics.laminae, speed)
 
 
-def _creep_over_load(laws: _Laws, laminae: Float, load: float, speed: float) -> float:
-    middle = laminae.shape[1] // 2
-    log2_speed = plain(log2_entrainment)(speed, laws.film)
-    film = plain(log2_film_thickness)(math.log2(load), log2_speed, middle, layout.CUP, laminae, laws.film)
-    slip = (_SLIP * speed) ** 2
-    contact = LaminaContact(load, math.log2(load), slip, film, log2_speed[1], middle, layout.CUP, laminae)
-    return float(plain(friction_rate)(contact, laws)) / load
+def _creep_over_load(laws: TractionLaws, laminae: Float, load: float, speed: float) -> float:
+    contact = rolling_lamina(load, speed, _SLIP * speed, layout.CUP, laws, laminae)
+    return float(lamina_friction(contact, laws)) / load
 
 
 def slide_params(scene: Scene) -> SlideParams | None:
     """Fit the creep along the cup of films that shear; ``None`` where nothing resists so little slip."""
-    laws, laminae = _Laws(film_params(scene), *traction_params(scene)), lamina_table(scene)
+    laws, laminae = traction_laws(scene), lamina_table(scene)
     if laws.film is None or scene.effects.traction is None:
         return None
     load, speed = (np.geomspace(*bounds, _POINTS) for bounds in (_LOADS, _SPEEDS))

@@ -9,11 +9,18 @@ import numpy as np
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
-from beardyn_core.effects import Cage, KinematicCage
+from beardyn_core.effects import (
+    Cage,
+    CoulombTraction,
+    EffectSet,
+    KinematicCage,
+    LoadSharingTraction,
+    ShearedFilmTraction,
+)
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_copy
 from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.physics.defect import FaultParams
+from beardyn_core.physics.pure_rolling import KinematicParams, pocket_params
 from beardyn_core.physics.scatter import mean_crown
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.sliding import SlideParams, place_on_cup
@@ -25,36 +32,6 @@ _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
 _LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
-
-
-class PocketParams(NamedTuple):
-    """Friction of the pockets, from what it takes to push a roller round that no cone drives."""
-
-    weight: float  # part of a roller's weight that its bar carries on average over the orbit [N]
-    lever: float  # torque on the shaft over the push: both bars, friction, spin over shaft speed [m]
-    regularisation: float  # shaft speed below which it falls to zero [rad/s]
-
-
-class KinematicParams(NamedTuple):
-    """Motion of the rollers in pure rolling, and what follows from it, per shaft speed w."""
-
-    cage_ratio: float  # cage speed over w
-    spin_ratio: float  # spin of a roller against its orbit frame over cage speed
-    centrifugal: float  # force over squared cage speed [kg m]
-    gyroscopic: float  # moment about the centre of mass, large end outwards, over squared cage speed [kg m^2]
-    radius: float  # nominal centre of mass [m]
-    axial: float
-    axis_radial: float  # roller axis
-    axis_axial: float
-    cup_radius: float  # contacts from the bearing axis [m]
-    cone_radius: float
-    rib_slip: float  # sliding speed of the rib over w [m]
-    rib_spin: float  # rotation of a roller against the cone over w
-    rolling_on_cup: float  # rotation of a roller against the cup over w, of either sign
-    rolling_on_cone: float
-    rolling_weight: float  # of all rollers and cages [N]
-    rolling_count: float  # rollers of all rows
-    pocket: PocketParams | None
 
 
 class RingMotionParams(NamedTuple):
@@ -176,50 +153,19 @@ def flatten_profiles(base: Parameters, scene: Scene) -> Parameters:
     return base._replace(rollers=rollers, effects=base.effects._replace(faults=faults._replace(crowns=None)))
 
 
-def kinematic_params(scene: Scene) -> KinematicParams:
-    """Work out the pure rolling of a scene's bearing."""
-    bearing, effects = scene.bearing, scene.effects
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    offset = bearing.roller_mass_offset
-    radius = 0.5 * bearing.pitch_diameter + offset * sine
-    axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
-    spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
-    distance = bearing.apex_distance / math.cos(bearing.half_angle)
-    fall = effects.gravity.acceleration if effects.gravity else 0.0
-    cages = scene.rows * bearing.cage.mass if effects.cage else 0.0
-    return KinematicParams(
-        cage_ratio=cage_speed_ratio(bearing),
-        spin_ratio=-spin_ratio,
-        centrifugal=bearing.roller_mass * radius,
-        gyroscopic=sine * (axial_inertia * spin_ratio - (axial_inertia - transverse) * cosine),
-        radius=radius,
-        axial=0.5 * bearing.row_spacing + offset * cosine,
-        axis_radial=sine,
-        axis_axial=cosine,
-        cup_radius=distance * math.sin(bearing.cup_angle),
-        cone_radius=distance * math.sin(bearing.cone_angle),
-        rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
-        rib_spin=roller_cone_spin(bearing, 1.0),
-        rolling_on_cup=distance * math.sin(bearing.cone_angle) / bearing.roller_diameter,
-        rolling_on_cone=distance * math.sin(bearing.cup_angle) / bearing.roller_diameter,
-        rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
-        rolling_count=float(scene.roller_total),
-        pocket=_pocket_params(scene),
-    )
-
-
 def loose_params(scene: Scene, step: float) -> LooseParams | None:
     """Work out the pockets in which rollers move; none without a cage, or with a prescribed one.
 
     Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
     ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
 
+    Traction is in proportion to the slip up to a limit, see `_limiting_traction`.
+
     References
     ----------
-    Bair and Winer (1979): limiting shear stress over pressure, the scene's where it names one; it is reached
-    at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
+    Johnson and Tevaarwerk (1977), Fig. 4: a film reaches its limit at slips of some percent.
     """
-    cage, bearing, pocket = scene.effects.cage, scene.bearing, _pocket_params(scene)
+    cage, bearing, pocket = scene.effects.cage, scene.bearing, pocket_params(scene)
     if cage is None or isinstance(cage, KinematicCage) or pocket is None:
         return None
     if step > _LONGEST_LOOSE_STEP:
@@ -233,7 +179,7 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
         bar_sine=math.sin(lean),
         friction=cage.friction,
         regularisation=cage.regularisation_speed,
-        traction=2.0 * _LIMITING_SHEAR,
+        traction=2.0 * _limiting_traction(scene.effects),
         slide=_SLIDE,
         slowest=_SLOWEST,
         mass=bearing.cage.mass,
@@ -244,18 +190,27 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
     )
 
 
-def _pocket_params(scene: Scene) -> PocketParams | None:
-    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
-    cage, bearing = scene.effects.cage, scene.bearing
-    if cage is None or isinstance(cage, KinematicCage):
-        return None
-    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
-    fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
-    return PocketParams(
-        weight=2.0 / math.pi * fall * bearing.roller_mass,
-        lever=2.0 * cage.friction * spin,
-        regularisation=cage.regularisation_speed / spin,
-    )
+def _limiting_traction(effects: EffectSet) -> float:
+    """Take the largest friction of a raceway over its load from the law of friction, if it has such a number.
+
+    The coefficient of dry friction where there is no film, the limiting shear stress over the pressure of a
+    film that shears. The other laws, and rollers that only roll, have the usual limiting shear stress: the
+    limit of a blend depends on the film, and that of fits on speed and load.
+
+    References
+    ----------
+    Bair and Winer (1979) for the limiting shear stress.
+    """
+    law = effects.traction
+    if isinstance(law, CoulombTraction):
+        return law.friction
+    if law is not None and effects.film is None:
+        return law.boundary_friction
+    if isinstance(law, ShearedFilmTraction):
+        return law.limiting_shear
+    if isinstance(law, LoadSharingTraction) and law.film_traction == "bair_winer":
+        return law.limiting_shear
+    return _LIMITING_SHEAR
 
 
 def ring_motion_params(base: Parameters) -> RingMotionParams:

@@ -12,6 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, TILT
+from beardyn_core.physics.pure_rolling import kinematic_params
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import tilt_restraint
@@ -61,7 +62,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
     return tier_parameters.LumpedParameters(
         step=base.step,
         base=tier_parameters.without_surfaces(tier_parameters.without_roller_dynamics(base)),
-        kinematic=tier_parameters.kinematic_params(scene),
+        kinematic=kinematic_params(scene),
         motion=motion,
         response=response,
         spring=spring,
@@ -85,7 +86,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
     return tier_parameters.QuasistaticParameters(
         step=base.step,
         base=tier_parameters.without_roller_dynamics(base),
-        kinematic=tier_parameters.kinematic_params(scene),
+        kinematic=kinematic_params(scene),
         motion=motion,
         response=response,
         tangent=tier_parameters.roller_tangent(scene.bearing),

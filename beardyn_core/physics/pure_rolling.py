@@ -1,0 +1,106 @@
+"""Pure rolling of a bearing: speeds and places of the rollers per shaft speed, and what follows from them."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
+from beardyn_core.effects import KinematicCage
+from beardyn_core.scene.scene import Scene
+
+
+class PocketParams(NamedTuple):
+    """Friction of the pockets, from what it takes to push a roller round that no cone drives."""
+
+    weight: float  # part of a roller's weight that its bar carries on average over the orbit [N]
+    lever: float  # torque on the shaft over the push: both bars, friction, spin over shaft speed [m]
+    regularisation: float  # shaft speed below which it falls to zero [rad/s]
+
+
+class KinematicParams(NamedTuple):
+    """Motion of the rollers in pure rolling, and what follows from it, per shaft speed w."""
+
+    cage_ratio: float  # cage speed over w
+    spin_ratio: float  # spin of a roller against its orbit frame over cage speed
+    centrifugal: float  # force over squared cage speed [kg m]
+    gyroscopic: float  # moment about the centre of mass, large end outwards, over squared cage speed [kg m^2]
+    radius: float  # nominal centre of mass [m]
+    axial: float
+    axis_radial: float  # roller axis
+    axis_axial: float
+    cup_radius: float  # contacts from the bearing axis [m]
+    cone_radius: float
+    rib_slip: float  # sliding speed of the rib over w [m]
+    rib_spin: float  # rotation of a roller against the cone over w
+    rolling_on_cup: float  # rotation of a roller against the cup over w, of either sign
+    rolling_on_cone: float
+    rolling_weight: float  # of all rollers and cages [N]
+    rolling_count: float  # rollers of all rows
+    pocket: PocketParams | None
+
+
+def pure_rolling(bearing: Bearing) -> KinematicParams:
+    """Work out the pure rolling of one roller of a bearing, without weight and without pockets."""
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    offset = bearing.roller_mass_offset
+    radius = bearing.roller_orbit_radius
+    axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
+    spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    return KinematicParams(
+        cage_ratio=cage_speed_ratio(bearing),
+        spin_ratio=-spin_ratio,
+        centrifugal=bearing.roller_mass * radius,
+        gyroscopic=sine * (axial_inertia * spin_ratio - (axial_inertia - transverse) * cosine),
+        radius=radius,
+        axial=0.5 * bearing.row_spacing + offset * cosine,
+        axis_radial=sine,
+        axis_axial=cosine,
+        cup_radius=bearing.cup_radius,
+        cone_radius=bearing.cone_radius,
+        rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
+        rib_spin=roller_cone_spin(bearing, 1.0),
+        rolling_on_cup=bearing.cone_radius / bearing.roller_diameter,
+        rolling_on_cone=bearing.cup_radius / bearing.roller_diameter,
+        rolling_weight=0.0,
+        rolling_count=1.0,
+        pocket=None,
+    )
+
+
+def kinematic_params(scene: Scene) -> KinematicParams:
+    """Work out the pure rolling of all rollers of a scene."""
+    bearing, effects = scene.bearing, scene.effects
+    fall = effects.gravity.acceleration if effects.gravity else 0.0
+    cages = scene.rows * bearing.cage.mass if effects.cage else 0.0
+    return pure_rolling(bearing)._replace(
+        rolling_weight=fall * (scene.roller_total * bearing.roller_mass + cages),
+        rolling_count=float(scene.roller_total),
+        pocket=pocket_params(scene),
+    )
+
+
+def pocket_params(scene: Scene) -> PocketParams | None:
+    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
+    cage, bearing = scene.effects.cage, scene.bearing
+    if cage is None or isinstance(cage, KinematicCage):
+        return None
+    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
+    fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
+    return PocketParams(
+        weight=bar_weight(bearing, fall),
+        lever=2.0 * cage.friction * spin,
+        regularisation=cage.regularisation_speed / spin,
+    )
+
+
+def bar_weight(bearing: Bearing, gravity: float) -> float:
+    """Work out what a roller that no cone drives lays on its bar, on average over the orbit, [N].
+
+    Parameters
+    ----------
+    gravity : float
+        [m/s^2].
+    """
+    return 2.0 / math.pi * gravity * bearing.roller_mass
