@@ -17,7 +17,8 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import EFFECTS, Free, LeftOpen, Scene
 
 if TYPE_CHECKING:
-    from beardyn_core.choice.rule import Choice
+    from beardyn_core.choice.choice_cache import kept, typical
+from beardyn_core.choice.rule import Choice
 
 CHOOSING = "choosing effects for the accuracy asked for: a few seconds, once for a scene"
 
@@ -164,8 +165,6 @@ def choice_for(found: OpenScene) -> Choice:
 
 
 def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
-    from beardyn_core.choice.choice_cache import kept, typical  # brings the compiler along
-
     def work_out() -> Choice:
         from beardyn_core.choice.choose import choose
 

@@ -29,7 +29,6 @@ from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
 SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"
-HEALTHS = (WAITING, SOUND, SPALLED, TAKE_OUT, UNEXPLAINED)
 NORMAL_50 = 0.6745
 _MINUTE, _HOUR, _YEAR = 60.0, 3600.0, 3.2e7
 # how long a number takes to wander over the range learnt from, [s]; a spall grows by its law alone
@@ -59,7 +58,7 @@ class Followed:
     surprise: A[float, "mean square of the misses of late, in variances of what was expected; 1 is usual"]
     changed: A[tuple[str, ...], "numbers that have made a step"]
     remains: A[Forecast | None, "of a whole bearing; none of a name plate"]
-    health: A[str, "one of `HEALTHS`"]
+    health: A[str, "waiting, sound, spalled, take_out or unexplained"]
     doubts: A[tuple[str, ...], "what the model does not explain, in sentences"]
 
     @property

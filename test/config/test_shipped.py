@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -45,16 +45,6 @@ LOADERS: dict[str, Callable[[str], Any]] = {
     "effects": load_effects,
     "scenes": load_scene,
 }
-
-
-def approximately(given: EffectSet) -> dict[str, object]:
-    """Options of the effects; degrees cost the last digit of an angle."""
-    return {
-        name: {key: value if value is None else pytest.approx(value) for key, value in options.items()}
-        if isinstance(options, dict)
-        else options
-        for name, options in asdict(given).items()
-    }
 
 
 @pytest.mark.parametrize("kind", LOADERS)

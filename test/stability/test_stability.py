@@ -20,7 +20,6 @@ from test.kernels.rig import Rig
 from test.runs import Record, constant_load, record_under, started, stepped_load
 from test.scenes import LOAD_80_KN, SPEED, scene_with, standard_scene
 
-NO_LOAD = (0.0, 0.0, 0.0)
 FREE_FALL = 9.80665
 
 

@@ -216,8 +216,8 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
 
     References
     ----------
-    Bair and Winer (1979): limiting shear stress over pressure, the scene's where it names one; it is reached
-    at slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
+    Bair and Winer (1979): limiting shear stress over pressure, one value for every scene; it is reached at
+    slips of some percent, Johnson and Tevaarwerk (1977), Fig. 4.
     """
     cage, bearing, pocket = scene.effects.cage, scene.bearing, _pocket_params(scene)
     if cage is None or isinstance(cage, KinematicCage) or pocket is None:
