@@ -17,8 +17,8 @@ effects     the catalogue of effects and sets of them
 scene       one bearing under one operation: loads, mounting, defects, sensors
 structure   modes of axleboxes: meshes, finite elements, tables of modes
 rail        wheel-rail scenario to load on the journal
-config      YAML files to bearings and scenes, all mistakes at once
 physics     contacts, bodies, statics and the steps of every tier: an idea a file
+config      YAML files to bearings and scenes, all mistakes at once
 sensors     from the motion of bodies to the readings of sensors
 monitor     from vibration and speed to a verdict
 choice      tier, effects, laminae and step for an accuracy, with reasons

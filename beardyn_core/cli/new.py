@@ -97,8 +97,8 @@ def kind_of(name: str) -> str:
     InputError
         When there is none, with the name that was probably meant.
     """
+    from beardyn_core.base.spelling import closest
     from beardyn_core.config import shipped_names
-    from beardyn_core.config.folders import closest
 
     names = {kind: shipped_names(kind) for kind in KINDS}
     if found := [kind for kind in KINDS if name in names[kind]]:

@@ -7,13 +7,13 @@ from typing import Annotated as A
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ContactDamping, ModalStructure
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer
 from beardyn_core.scene.surface import SHORTEST_WAVE
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 
 BOX = "high_speed"
 EFFECTS = "full"
