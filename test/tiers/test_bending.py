@@ -25,13 +25,13 @@ from beardyn_core.physics.bodies.layout import (
     TURN,
 )
 from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.roller_spring import lever_of_cup
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import load_of_approach, solve_rollers
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import FORCE
 from beardyn_core.physics.tiers.state import Output, State
 from beardyn_core.physics.tiers.tier_bending import step_body
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions

@@ -22,12 +22,12 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline, plain
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import store_vector
 from beardyn_core.physics.film import film_params, log2_entrainment, log2_film_thickness
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2
+from beardyn_core.physics.roller_spring import place_on_cup
 from beardyn_core.physics.tiers.kinematic_rings import SLIDING, row_times, sum_matrix
 from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 from beardyn_core.physics.traction import LaminaContact, friction_rate, traction_params
@@ -64,12 +64,6 @@ class _Laws(NamedTuple):
     coulomb: object
     mixed: object
     load_sharing: object
-
-
-def place_on_cup(bearing: Bearing) -> tuple[float, float]:
-    """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    angle, distance = bearing.cup_angle, bearing.apex_distance / math.cos(bearing.half_angle)
-    return distance * math.sin(angle), bearing.apex_place + distance * math.cos(angle)
 
 
 def creep_over_load(scene: Scene, load: float, speed: float) -> float:
