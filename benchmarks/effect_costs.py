@@ -58,7 +58,7 @@ from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from beardyn_core.twin import Twin
 
 SETTLING_TURNS = 3
-STANDARD, FULL = load_effects("standard"), load_effects("full")
+STANDARD, FULL = load_effects("standard"), load_effects("all")
 
 
 def _sets() -> dict[str, EffectSet]:

@@ -29,7 +29,7 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     files : Path or sequence of Path
         In the order of time.
     bearing : NamePlate, str or mapping, optional
-        What the name plate says; of several bearings on the shaft a mapping of names for them.
+        What the bearing data say; of several bearings on the shaft a mapping of names for them.
     **options
         How the files are to be read, in the units of the names: ``channels``, ``unit``, ``rate_Hz``,
         ``speed_rpm``, ... (docs/measured.md lists them).

@@ -54,10 +54,10 @@ def monitor(
     algorithm : function, optional
         In place of the reference chain: a `Chain`, or a function like it.
     bearing : Bearing, NamePlate or str, optional
-        What the name plate says, or the name or file of one; by default that of the scene, of a measured
+        What the bearing data say, or the name or file of one; by default that of the scene, of a measured
         run the one it was read with.
     sensor : str, optional
-        Accelerometer to listen to; by default the first, or the one that hears the bearing of a measured run.
+        Accelerometer to take; by default the first, or the one that measures the bearing of a measured run.
     settings : MonitorSettings, optional
 
     Returns

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
+from beardyn_core.choice.choice_cache import kept, typical
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
@@ -17,8 +18,7 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import EFFECTS, Free, LeftOpen, Scene
 
 if TYPE_CHECKING:
-    from beardyn_core.choice.choice_cache import kept, typical
-from beardyn_core.choice.rule import Choice
+    from beardyn_core.choice.rule import Choice
 
 CHOOSING = "choosing effects for the accuracy asked for: a few seconds, once for a scene"
 

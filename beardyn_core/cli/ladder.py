@@ -66,7 +66,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument(
-        "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
+        "--each-effect", action="store_true", help="also `all` less each of its effects in turn"
     )
     add_force(parser)
     add_json(parser)

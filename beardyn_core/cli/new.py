@@ -30,7 +30,7 @@ _HOW = {
 POSSIBLE = {
     "end_play_mm": "end_play_mm: 0.1   # total axial travel, negative: preload; else that of the bearing",
     "tier": "tier: quasistatic   # full (default), quasistatic or lumped: which bodies move by themselves",
-    "effects": "effects: full   # one of `beardyn scenes effects`; else those that 5 % of accuracy need",
+    "effects": "effects: all    # one of `beardyn scenes effects`; else those that 5 % of accuracy need",
     "background": "background: {name: mine, knocks: {rate_Hz: 3, impulse_N_s: 0.1}}   "
     "# or one of `beardyn scenes backgrounds`",
     "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',

@@ -24,6 +24,7 @@ KINDS = (
 )
 _SUFFIXES = (".yaml", ".yml")
 _AUTO = "auto"  # in place of a set of effects
+_FORMER = {("effects", "full"): "all"}  # names of before, in scenes and recordings that are kept
 
 
 def shipped_names(kind: str) -> tuple[str, ...]:
@@ -63,9 +64,10 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
         searched = " and ".join(str(path.absolute()) for path in dict.fromkeys(places))
         raise InputError(f"the {singular} file {name!r} was not found; searched {searched}")
     folder = config_folder() / kind
-    for suffix in _SUFFIXES:
-        if (path := folder / f"{name}{suffix}").is_file():
-            return path
+    for called in (name, _FORMER.get((kind, name), name)):
+        for suffix in _SUFFIXES:
+            if (path := folder / f"{called}{suffix}").is_file():
+                return path
     if Path(name).is_dir():
         raise InputError(f"{name}: is a folder; give the path of a {singular} file, ending in .yaml")
     names = shipped_names(kind)

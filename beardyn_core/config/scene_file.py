@@ -239,8 +239,9 @@ class SceneFile(FileModel):
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (
-                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors hear to {hearing:g} Hz: ask for "
-                f"less, or give one rate_kHz {RATES[-1] / 1e3:g}, which hears to {PASSBAND * RATES[-1]:g} Hz"
+                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors measure to {hearing:g} Hz: ask "
+                f"for less, or give one rate_kHz {RATES[-1] / 1e3:g}, which measures to "
+                f"{PASSBAND * RATES[-1]:g} Hz"
             )
         yield from _rough_twice(given["background"], given["operation"])
 

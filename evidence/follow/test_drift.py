@@ -17,7 +17,7 @@ from evidence.follow import drift
 from evidence.follow.drift import DRIFTS, Piece
 
 
-def step(low: float, high: float, health: str = "sound", rate: float = 1e-10) -> Any:
+def step(low: float, high: float, health: str = "healthy", rate: float = 1e-10) -> Any:
     """Make what following came to: an interval of the lateral load [kN]."""
     ends = ((1e3 * low, 1e3 * high),) * 2
     told = SimpleNamespace(

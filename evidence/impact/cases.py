@@ -92,11 +92,11 @@ def over_width(speed: float) -> tuple[Case, ...]:
 
 
 def healthy(speed: float, load: float = 8e4) -> Case:
-    """Give the run of a sound bearing beside those at a speed [km/h] and load [N]."""
+    """Give the run of a healthy bearing beside those at a speed [km/h] and load [N]."""
     return Case(0.0, speed, load)
 
 
-# what makes strikes of a sound bearing, taken away one by one
+# what makes strikes of a healthy bearing, taken away one by one
 LEFT_OUT: dict[str, Case] = {
     "sound": healthy(90.0),
     "waves to 1 mm": replace(healthy(90.0), shortest_wave=1e-3),
@@ -158,7 +158,7 @@ LOADED: dict[str, tuple[Case, ...]] = {
 
 
 def ranged() -> list[Case]:
-    """List all runs of `GROWING`, `LOADED` and a sound bearing over `SPEED_RANGE`, each once."""
+    """List all runs of `GROWING`, `LOADED` and a healthy bearing over `SPEED_RANGE`, each once."""
     kinds = [case for series in (GROWING, LOADED) for cases in series.values() for case in cases]
     return list(dict.fromkeys(each for case in [Case(0.0), *kinds] for each in over_range(case)))
 

@@ -179,14 +179,14 @@ def test_only_a_level_that_is_surely_within_is_the_cheapest_within(comparison: C
 
 def test_the_choices_of_the_automatic_level_stand_below_the_table(comparison: Comparison) -> None:
     """By what it holds when that is less, else by what it leaves out of the reference."""
-    every = load_effects("full")
-    levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="full", effects=every))
+    every = load_effects("all")
+    levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="all", effects=every))
     less = replace(every, drag=None, seal=None)
     auto = Level("auto 5 %", "full", "auto", less, 6, 7)
     own = Level("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
     ladder = climb(comparison, replace(levels, levels=(auto, own)), 0.05, ASKED, runner=FakeRuns())
     text = table(ladder)
-    assert "auto 5 %: full tier, 6 laminae x 7, effects: full less drag, seal" in text
+    assert "auto 5 %: full tier, 6 laminae x 7, effects: all less drag, seal" in text
     assert f"own: full tier, 6 laminae x 8, effects: {', '.join(own.effects.names())}" in text
     found = json.loads(json_text("ladder", json_object(ladder)))["levels"][0]
     assert found["less_than_reference"] == ["drag", "seal"]
@@ -357,7 +357,7 @@ def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
         (level.tier, level.effects, level.laminae, level.steps_per_sample) for level in levels.levels
     ]
     assert {level.tier for level in levels.levels} == {"lumped", "quasistatic", "full"}
-    assert {"dry", "standard", "full"} <= {level.effects_name for level in levels.levels}
+    assert {"dry", "standard", "all"} <= {level.effects_name for level in levels.levels}
 
 
 def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None:
@@ -367,7 +367,7 @@ def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None
     # the scene's own choice may be the neighbour itself
     usual = levels.neighbour.applied(comparison.scene)
     assert len(levels_of(usual).levels) == len(levels_of(comparison.scene).levels)
-    assert level_of(usual, "full") == levels.neighbour
+    assert level_of(usual, "all") == levels.neighbour
     assert level_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
 
 
