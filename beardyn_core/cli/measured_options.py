@@ -34,7 +34,7 @@ def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
     """Declare the bearings on the shaft."""
     from beardyn_core.bearing.name_plate import NamePlate
 
-    group = parser.add_argument_group("bearings", "what their bearing data")
+    group = parser.add_argument_group("bearings", "their data")
     group.add_argument(
         "--bearing",
         metavar="[LABEL=]NAME[@SENSOR]",
