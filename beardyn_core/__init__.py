@@ -48,6 +48,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, train
+    from beardyn_core.api.exporting import export
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
@@ -98,7 +99,7 @@ __all__ += [
     "blocks",
     "calibrate",
 ]
-__all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "follow"]
+__all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
@@ -107,6 +108,7 @@ __all__ += ["torque", "train", "trend"]
 _MODULES = {
     "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
+    "api.exporting": ("export",),
     "api.following": ("Following",),
     "api.heat": ("steady_heat",),
     "api.making": ("lubricant", "name_plate"),
