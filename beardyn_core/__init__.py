@@ -11,32 +11,32 @@ What a Python program uses is here and explained in docs/python.md::
 module      responsibility
 =========== =====================================================================
 base        errors, units, files, arrays, and how kernels are compiled and kept
-effects     the catalogue of effects and sets of them
+experiments a set of runs: one plan, one engine, one store, one loop
 bearing     geometry, kinematics, materials, lubricants
+effects     the catalogue of effects and sets of them
 scene       one bearing under one operation: loads, mounting, defects, sensors
 structure   modes of axleboxes: meshes, finite elements, tables of modes
 rail        wheel-rail scenario to load on the journal
+physics     contacts, bodies, statics and the steps of every tier: an idea a file
 config      YAML files to bearings and scenes, all mistakes at once
 sensors     from the motion of bodies to the readings of sensors
 monitor     from vibration and speed to a verdict
 choice      tier, effects, laminae and step for an accuracy, with reasons
-laboratory  general contact search against closed forms: `beardyn contacts`
 twin        a scene that advances block by block
-run         the one loop: load, kernels, equilibrium, blocks to the end
 record      the topic table, MCAP files, runs as arrays, the rerun view
+run         the one loop: load, kernels, equilibrium, blocks to the end
 measured    files of measuring programs as recordings and runs
 study       desk runs, ladders, trials, summaries, pictures
+laboratory  general contact search against closed forms: `beardyn contacts`
 population  sweeps: sets of labelled runs, and a learner to compare with
 follow      load, end play and spall from vibration, with intervals
 calibration the scene of one measured axlebox
 api         the functions of this module
 cli         the beardyn command, a module a subcommand
-physics     contacts, bodies, statics and the steps of every tier: an idea a file
-experiments a set of runs: one plan, one engine, one store, one loop
 =========== =====================================================================
 
-Imports run upwards only, from `cli` to `effects`; `pyproject.toml` holds the contract. This module imports
-nothing before it is asked for.
+The order is that of imports: a module takes only from rows above it; `pyproject.toml` holds the contract.
+This module imports nothing before it is asked for.
 """
 
 from __future__ import annotations
@@ -48,6 +48,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, train
+    from beardyn_core.api.exporting import export
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import heat_interval, steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
@@ -98,7 +99,7 @@ __all__ += [
     "blocks",
     "calibrate",
 ]
-__all__ += ["equilibrium", "estimate", "fault_frequencies", "film", "follow"]
+__all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
@@ -107,6 +108,7 @@ __all__ += ["torque", "train", "trend"]
 _MODULES = {
     "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
+    "api.exporting": ("export",),
     "api.following": ("Following",),
     "api.heat": ("heat_interval", "steady_heat"),
     "api.making": ("lubricant", "name_plate"),

@@ -24,7 +24,7 @@ from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.estimator import Estimates
-from beardyn_core.follow.following import SOUND, WAITING, Followed
+from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.residual import Residual
 from beardyn_core.follow.run_stretches import follower_of
@@ -37,6 +37,7 @@ from beardyn_core.record.messages import (
 )
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
+from beardyn_core.sensors.labels import HEALTHY
 from beardyn_ros.diagnostics import FOLLOWER, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
 from beardyn_ros.node_parameters import PARAMETERS
@@ -158,7 +159,7 @@ class FollowerNode(Node):
         self._rows = [*self._rows, row][-KEPT_ROWS:]
         self._publish(step)
         if step.health != earlier:
-            say = self.get_logger().info if step.health in (WAITING, SOUND) else self.get_logger().warning
+            say = self.get_logger().info if step.health in (WAITING, HEALTHY) else self.get_logger().warning
             say(step.sentence)
         due = end - self._compared_at >= self._values.twin_period
         if self._twin is not None and due and self._comparing is None and step.health != WAITING:
@@ -200,7 +201,7 @@ class FollowerNode(Node):
         told = "; ".join([*doubts, *unexplained, *troubles])
         status = Diagnostic(
             diagnostic_name(namespace, FOLLOWER),
-            OK if health in (WAITING, SOUND) and not told and not self._signals.guard.total else WARN,
+            OK if health in (WAITING, HEALTHY) and not told and not self._signals.guard.total else WARN,
             f"{health}{': ' if told else ''}{told}",
             (
                 ("connected", "true" if self._signals.connected else "false"),

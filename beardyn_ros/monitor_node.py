@@ -1,4 +1,4 @@
-"""A monitoring algorithm as a node: it reads what a train has, and knows the bearing's name plate.
+"""A monitoring algorithm as a node: it reads what a train has, and knows the data of the bearing.
 
 Inputs are ``vibration``, ``shaft``, the load (``load/blocks`` or ``load/wrench``) and ``temperature`` of
 the axlebox. It never reads ``truth``, ``contacts``, ``bodies`` or ``joint_states``. The fault orders come

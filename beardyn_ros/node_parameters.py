@@ -210,7 +210,7 @@ RECORDER = (
 )
 
 BEARING = NodeParameter(
-    "bearing", "HS130x230", "name plate: shipped bearing by name, or path of a bearing file"
+    "bearing", "HS130x230", "bearing data: shipped bearing by name, or path of a bearing file"
 )
 EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
 MONITOR = (
@@ -230,7 +230,7 @@ FOLLOWER = (
     NodeParameter(
         "wheel_diameter", 920.0, "running diameter of the wheel", "mm", minimum=300.0, maximum=1500.0
     ),
-    NodeParameter("twin", "", "sound scene of this axlebox on its track, a twin beside; empty: none"),
+    NodeParameter("twin", "", "healthy scene of this axlebox on its track, a twin next to it; empty: none"),
     NodeParameter("twin_tier", "quasistatic", "of the twin beside", choices=("lumped", "quasistatic")),
     NodeParameter(
         "twin_period",

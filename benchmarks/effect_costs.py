@@ -26,7 +26,6 @@ from typing import Any
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.config import load_effects
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import (
     Cage,
     CoulombTraction,
@@ -55,10 +54,11 @@ from beardyn_core.physics.cage_drag import CAGE_DRAGS
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from beardyn_core.twin import Twin
 
 SETTLING_TURNS = 3
-STANDARD, FULL = load_effects("standard"), load_effects("full")
+STANDARD, FULL = load_effects("standard"), load_effects("all")
 
 
 def _sets() -> dict[str, EffectSet]:

@@ -37,14 +37,14 @@ ASKED = {
     "full, spall, vibration to 10 kHz": Asked(1.2, 2.5),
     "quasistatic, vibration to 5 kHz": Asked(15.0, 40.0),
     "lumped, vibration to 1 kHz": Asked(150.0, 500.0),
-    "full, preset full, converged step": Asked(1.5, 2.5),
+    "full, preset all, converged step": Asked(1.5, 2.5),
 }
 TRAIN = Asked(64.0, 128.0)
 
 
 def _scenes() -> dict[str, Scene]:
     """Make the scene of each row of `ASKED`."""
-    preset = load_scene("static_80kN", effects="full")
+    preset = load_scene("static_80kN", effects="all")
     steps = replace(preset.numerics, steps_per_sample=chosen_steps(preset))
     found = (
         load_scene("smooth_run", tier="full", effects="auto"),

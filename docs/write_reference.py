@@ -25,10 +25,10 @@ HEAD = """# Reference of the files
 Written by `python docs/write_reference.py` from the declarations in the code.
 
 Every key of scenes, bearings, lubricants, vehicles, effects, trials, sweeps, boxes, sensors, backgrounds and
-name plates: what it means, in which unit, what is allowed, and what it is when it is not given (**required**:
-it must be given; *none*: then there is none).
+bearing data: what it means, in which unit, what is allowed, and what it is when it is not given
+(**required**: it must be given; *none*: then there is none).
 The unit of a number is the end of its key. A key with a mapping leads to its own table. Where a file of a
-bearing, lubricant, vehicle, sensor, background or name plate has a number it may as well have
+bearing, lubricant, vehicle, sensor, background or set of bearing data has a number it may as well have
 `{value: 17, source: catalogue}`.
 
 `beardyn schema KIND` prints the same as a JSON schema for editors.
@@ -46,7 +46,7 @@ TITLES = {
     "modes": "Structure by modes of another program",
     "sensor": "Sensor",
     "background": "Background",
-    "plate": "Name plate",
+    "plate": "Bearing data",
 }
 _SIGNS = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<"}
 _LIMITS = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}

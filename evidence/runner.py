@@ -49,6 +49,11 @@ def kept_arrays(path: Path | None, make: Callable[[], Arrays]) -> Arrays:
 class KeptResults:
     """Results of many cases in one file, by key; each is written as it comes.
 
+    No `experiments.Store`: that takes a result for today's only if a digest of the code says so, and the
+    records here are measured ones, whose hours of analysis a page may keep through edits that do not touch
+    the monitor. Who wants them anew deletes the file. Cases are a few hundred, one process makes them in
+    turn, and the file stays readable as a whole.
+
     Parameters
     ----------
     path : Path or None

@@ -25,7 +25,7 @@ ARGUMENTS = (
     ("recorder", "false", "start the recorder too"),
     ("output", "", "file of the recorder; empty: <scene>_<date>.mcap"),
     ("monitor", "false", "start the monitor too"),
-    ("bearing", "HS130x230", "name plate that the monitor reads"),
+    ("bearing", "HS130x230", "bearing data that the monitor reads"),
     ("viewer", "false", "open a rerun window too"),
 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import tomllib
 from collections import Counter
 from pathlib import Path
 
@@ -69,6 +70,20 @@ def test_every_kind_of_mistake_is_found(tmp_path: Path) -> None:
     ]
     (tmp_path / "__init__.py").write_text('"""A package without a table."""\n')
     assert len(problems(tmp_path)) == 1
+
+
+def test_the_table_of_the_core_is_in_the_order_of_imports() -> None:
+    core = REPOSITORY / "beardyn_core" / "__init__.py"
+    docstring = ast.get_docstring(ast.parse(core.read_text(encoding="utf-8"))) or ""
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))
+    layers = project["tool"]["importlinter"]["contracts"][0]["layers"]
+    height = {
+        name.removeprefix("beardyn_core."): -number
+        for number, layer in enumerate(layers)
+        for name in re.split(r" [|:] ", layer)
+    }
+    heights = [height[name] for name, _ in rows_of(docstring)]
+    assert heights == sorted(heights)
 
 
 FOLDERS = sorted(path.parent for path in (REPOSITORY / "evidence").glob("*/__init__.py"))

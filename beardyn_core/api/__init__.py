@@ -6,6 +6,7 @@ module        responsibility
 making        bearings, lubricants and scenes from a handful of arguments
 simulating    simulate a scene
 reading       read a recording, let a monitor judge a run
+exporting     signals of a recording for other programs
 measuring     read measured files, make recordings of them
 statics       stiffness, torque, life, film and load distribution, no run needed
 sweeping      sets of labelled runs over a population of bearings

@@ -37,16 +37,16 @@ def calibrate(
     """Fit a scene to healthy recordings of one axlebox, write the scene of that axlebox.
 
     Fit what no drawing tells of an axlebox (natural frequencies and damping of the box, background, noise of
-    the accelerometer, end play) to recordings with a sound bearing: twins run at the speed of the recordings,
-    and their spectra are compared. Writes the scene with the values that the recordings determine; what they
-    do not is said and left. Needs ``pip install beardyn[calibrate]``.
+    the accelerometer, end play) to recordings with a healthy bearing: twins run at the speed of the
+    recordings, and their spectra are compared. Writes the scene with the values that the recordings
+    determine; what they do not is said and left. Needs ``pip install beardyn[calibrate]``.
 
     Parameters
     ----------
     runs : Run, Path or sequence of them
         Healthy recordings of one axlebox. Or runs.
     scene : Scene or Path
-        Sound scene of such an axlebox: what is fitted begins there, the rest stays.
+        Healthy scene of such an axlebox: what is fitted begins there, the rest stays.
     output : Path, optional
         Scene to write; default none, it is told only. It is a YAML file.
     fit : sequence of str, optional

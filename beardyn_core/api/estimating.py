@@ -41,7 +41,7 @@ def estimate(
     estimator : Estimator or Path, optional
         That `train` has made; default a shipped one for the bearing.
     bearing : Bearing, NamePlate or str, optional
-        Name plate of the bearing; default that of the recording.
+        Data of the bearing; default that of the recording.
     sensor : str, optional
         Accelerometer; default the first. See `beardyn_core.monitor`.
 
@@ -91,14 +91,14 @@ def forecast(
     law : GrowthLaw, optional
         Of spalls; its rates are assumed, so give those of the fleet.
     bearing : Bearing or str, optional
-        A whole one: a name plate has no rating life.
+        A whole one: bearing data alone have no rating life.
     lubricant : Lubricant or str
         Of the rating life.
 
     Raises
     ------
     InputError
-        Only the name plate of the bearing is known, or there is no such lubricant.
+        Only the data of the bearing is known, or there is no such lubricant.
     """
     from beardyn_core.api.reading import heard_of
     from beardyn_core.bearing.geometry import Bearing
@@ -106,7 +106,7 @@ def forecast(
     from beardyn_core.follow import forecast as forecasting
 
     known: Bearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
-    if not isinstance(known, Bearing):  # a name plate alone has no raceways
+    if not isinstance(known, Bearing):  # bearing data alone have no raceways
         known = load_bearing(known if isinstance(known, str) else known.name)
     grease = load_lubricant(lubricant) if isinstance(lubricant, str) else lubricant
     return forecasting.forecast(found, known, grease, service, law)

@@ -81,7 +81,7 @@ def follow(
     lubricant : Lubricant or str
         Of the rating life.
     twin : Scene or Path, optional
-        Sound scene of this axlebox on its track: runs at the state that is known at the end, and its third
+        Healthy scene of this axlebox on its track: runs at the state that is known at the end, and its third
         octaves are compared with the measured ones; default no twin.
     tier : str
         Of the twin. ``lumped`` or ``quasistatic``.

@@ -21,7 +21,7 @@ def steady_heat(source: str | Path | Mapping[str, Any] | Scene, **options: Any) 
     ----------
     source : str, Path, mapping or Scene
         As of `beardyn_core.scene`. Options of its effect ``thermal`` are those of the axlebox in the air, or
-        the usual ones; ``effects="full"`` has every loss.
+        the usual ones; ``effects="all"`` has every loss.
     **options
         Other arguments of `beardyn_core.scene`.
 

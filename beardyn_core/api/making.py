@@ -150,12 +150,12 @@ def _ring(inner_mm: float, outer_mm: float, width_mm: float) -> tuple[float, flo
 
 
 def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
-    """Give a shipped name plate, one of a file, that of a bearing, or one made in code.
+    """Give shipped bearing data, one of a file, that of a bearing, or one made in code.
 
     Parameters
     ----------
     name : str or Path, optional
-        Shipped name plate or bearing, or YAML file.
+        Shipped bearing data or bearing, or YAML file.
     **keys
         ``roller_count``, ``roller_diameter_mm``, ``pitch_diameter_mm``, ``contact_angle_deg``: without a name
         all but the angle, with one in place of what the file gives.
@@ -172,7 +172,7 @@ def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
     """
     known = {} if name is None else write_noun(load_plate(name))
     known.pop("sources", None)
-    made: NamePlate = read_noun(NamePlate, {**known, **_plain(keys)}, "name plate")
+    made: NamePlate = read_noun(NamePlate, {**known, **_plain(keys)}, "bearing data")
     return made
 
 

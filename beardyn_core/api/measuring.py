@@ -29,7 +29,7 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     files : Path or sequence of Path
         In the order of time.
     bearing : NamePlate, str or mapping, optional
-        What the name plate says; of several bearings on the shaft a mapping of names for them.
+        What the bearing data say; of several bearings on the shaft a mapping of names for them.
     **options
         How the files are to be read, in the units of the names: ``channels``, ``unit``, ``rate_Hz``,
         ``speed_rpm``, ... (docs/measured.md lists them).
@@ -98,13 +98,15 @@ def import_measured(
     return made.path
 
 
-def trend(files: Files, **options: Any) -> list[TrendPoint]:
+def trend(files: Files, *, memory: Path | str | None = None, **options: Any) -> list[TrendPoint]:
     """Watch the levels of many records against the baseline of the first, as ``beardyn monitor --trend``.
 
     Parameters
     ----------
     files, options
         See `read_measured`; neither speed nor bearing is needed, and records of a tenth of a second do.
+    memory : Path, optional
+        Go on from this JSON file if it is there, and write it for the records to come.
 
     Returns
     -------
@@ -116,9 +118,9 @@ def trend(files: Files, **options: Any) -> list[TrendPoint]:
     InputError
         With every mistake in options and files.
     """
-    from beardyn_core.measured.trending import trend_of
+    from beardyn_core.measured.trending import trend_with_memory
 
-    return list(trend_of(_survey_files(files, options)))
+    return trend_with_memory(_survey_files(files, options), None if memory is None else Path(memory))[0]
 
 
 def _survey_files(files: Files, options: Mapping[str, Any]) -> Survey:

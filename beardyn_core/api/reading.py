@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.choice import scene_from_text
-from beardyn_core.config import load_plate
-from beardyn_core.measured.about import mounted_in
-from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorSettings
-from beardyn_core.monitor.severity import Severity
-from beardyn_core.record.reading import read_run
-from beardyn_core.record.run import Run
-from beardyn_core.study.measured_severity import severity_in
-from beardyn_core.study.monitored_recording import Conclusion, conclude, findings_of
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.monitor.chain import Algorithm, MonitorSettings
+    from beardyn_core.monitor.severity import Severity
+    from beardyn_core.record.run import Run
+    from beardyn_core.study.monitored_recording import Conclusion
 
 
 def read(path: Path | str, namespace: str | None = None) -> Run:
@@ -33,31 +31,38 @@ def read(path: Path | str, namespace: str | None = None) -> Run:
     InputError
         The file is absent, not MCAP, or holds not one usable message.
     """
+    from beardyn_core.record.reading import read_run
+
     return read_run(path, namespace)
 
 
 def monitor(
     run: Run | Path | str,
-    algorithm: Algorithm = REFERENCE,
+    algorithm: Algorithm | None = None,
     *,
     bearing: Bearing | NamePlate | str | None = None,
     sensor: str = "",
     settings: MonitorSettings | None = None,
 ) -> Conclusion:
-    """Let a monitor judge a run, as ``beardyn monitor`` does.
+    """Run a monitor, ours or yours, over a recording or measured files.
+
+    Pass vibration, shaft and load of a recording, or of measured files as `import` reads them, to a monitor,
+    and give its verdicts; one for each bearing on the shaft.
 
     Parameters
     ----------
     run : Run or Path
-        A run or a recording: vibration of one accelerometer, shaft, load and temperature are used,
-        and nothing else.
+        Recording to analyse, or measured files in the order of time. A run does as well; of measured files
+        Python takes what `read_measured` gives. Vibration of one accelerometer, shaft, load and temperature
+        are used, and nothing else.
     algorithm : function, optional
-        In place of the reference chain: a `Chain`, or a function like it.
+        Your algorithm, its module may be in this folder; default the reference chain. In Python a `Chain`,
+        or a function like it.
     bearing : Bearing, NamePlate or str, optional
-        What the name plate says, or the name or file of one; by default that of the scene, of a measured
+        What the bearing data say, or the name or file of one; by default that of the scene, of a measured
         run the one it was read with.
     sensor : str, optional
-        Accelerometer to listen to; by default the first, or the one that hears the bearing of a measured run.
+        Accelerometer to take; by default the first, or the one that measures the bearing of a measured run.
     settings : MonitorSettings, optional
 
     Returns
@@ -70,8 +75,11 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not say which bearing it is of.
     """
+    from beardyn_core.monitor.chain import REFERENCE
+    from beardyn_core.study.monitored_recording import conclude, findings_of
+
     heard, plate, sensor = heard_of(run, bearing, sensor)
-    return conclude(findings_of(heard, plate, algorithm, settings, sensor))
+    return conclude(findings_of(heard, plate, algorithm or REFERENCE, settings, sensor))
 
 
 def severity(
@@ -96,6 +104,9 @@ def severity(
         ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
         rollers are not two clear events.
     """
+    from beardyn_core.study.measured_severity import severity_in
+    from beardyn_core.study.monitored_recording import conclude, findings_of
+
     heard, plate, sensor = heard_of(run, bearing, sensor)
     found = conclusion or conclude(findings_of(heard, plate, sensor=sensor))
     return severity_in(heard, found, plate, sensor)
@@ -105,6 +116,12 @@ def heard_of(
     run: Run | Path | str, bearing: Bearing | NamePlate | str | None, sensor: str
 ) -> tuple[Run, Bearing | NamePlate, str]:
     """Find run, bearing and accelerometer."""
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.config import load_plate
+    from beardyn_core.measured.about import mounted_in
+    from beardyn_core.record.reading import read_run
+    from beardyn_core.record.run import Run
+
     run = run if isinstance(run, Run) else read_run(run)
     if isinstance(bearing, str):
         bearing = load_plate(bearing)

@@ -155,7 +155,7 @@ def torque(
     Returns
     -------
     float or float64 array, shape [speed]
-        [N m]. Seals, churning and cages are not in it: simulate a scene with ``effects="full"`` for those.
+        [N m]. Seals, churning and cages are not in it: simulate a scene with ``effects="all"`` for those.
 
     References
     ----------

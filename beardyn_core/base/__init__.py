@@ -6,6 +6,7 @@ module          responsibility
 announcements   lines on standard error about what takes long
 arrays          names of array types in signatures
 cache_root      where everything lies that is kept from run to run
+config_folder   where the shipped configuration lies
 edge            unit, limits and words of a number, on the field that holds it
 errors          errors a user sees
 inputs          files that are read: no pipe, no device
@@ -18,6 +19,7 @@ outputs         files that a command writes: nothing is replaced unasked
 packed          a small file as one word of text, in a recorded scene
 plain_json      what strict JSON can hold
 shipped_kernels kernels that came with an installation
+spelling        the word that a misspelt one was meant to be
 units           units of numbers in files, and the way to SI
 versions        versions of what computed a run
 low_pass        symmetric low-pass filters

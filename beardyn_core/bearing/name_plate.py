@@ -1,4 +1,4 @@
-"""The name plate of any rolling bearing: all that its fault frequencies need."""
+"""Data of any rolling bearing, as on its name plate: all that its fault frequencies need."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class NamePlate:
     Of a bearing with several rows they are those of one row.
     """
 
-    name: A[str, At(longest=80), "of the bearing"] = "name plate"
+    name: A[str, At(longest=80), "of the bearing"] = "bearing data"
     description: A[str, "what it is, in a few words"] = ""
     roller_count: A[int, At(ge=3, le=200), "balls or rollers of one row"]
     roller_diameter: A[float, At("mm", gt=0.0), "of a ball, or of a roller at mid-length"]
@@ -35,7 +35,7 @@ class NamePlate:
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
-        refuse(self, "name plate")
+        refuse(self, "bearing data")
 
     def rules(self) -> Iterator[str]:
         """Check that the rolling elements fit on their circle."""
@@ -54,7 +54,7 @@ class NamePlate:
 
     @classmethod
     def of(cls, bearing: Bearing) -> NamePlate:
-        """Take what a name plate says of a whole bearing."""
+        """Take from a whole bearing what its fault frequencies need."""
         return cls(
             name=bearing.name,
             description=bearing.description,

@@ -20,7 +20,7 @@ class Calibration:
 
     scene: A[Scene, "of the axlebox"]
     text: A[str, "of its file"]
-    found: A[Fitted, "values with intervals, heard less twin in each band before and after"]
+    found: A[Fitted, "values with intervals, measured minus twin in each band before and after"]
     absent: A[tuple[str, ...], "what is not fitted as the scene has none of it, in sentences"]
     hearing: A[Hearing, "axes, sampling rate, and the bands compared"]
     speeds: A[tuple[float, ...], "of the shaft at which twins ran, [Hz]"]
@@ -37,7 +37,7 @@ class Calibration:
 
     @property
     def residuals(self) -> tuple[float, float]:
-        """Root mean square of heard less twin before and after, [dB]."""
+        """Root mean square of measured minus twin before and after, [dB]."""
         return rms(self.found.before), rms(self.found.after)
 
     @property
@@ -48,7 +48,7 @@ class Calibration:
         return [
             *(each.sentence for each in self.fits),
             *self.absent,
-            f"heard less twin in twelfths of an octave, root mean square: {before:.1f} dB before, "
+            f"measured minus twin in twelfths of an octave, root mean square: {before:.1f} dB before, "
             f"{after:.1f} dB after; {100 * within:.0f} % of the bands within {_WITHIN:g} tolerances",
             *(["the search was interrupted: these are the best values so far"] * self.found.interrupted),
         ]

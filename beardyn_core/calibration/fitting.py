@@ -61,7 +61,7 @@ class Fitted(NamedTuple):
     """A fit."""
 
     fits: tuple[Fit, ...]
-    before: Float  # heard less twin at the base values, shape [ride, axis, band], [dB]
+    before: Float  # measured minus twin at the base values, shape [ride, axis, band], [dB]
     after: Float  # the same at the fitted ones
     tolerance: Float  # of each band, of the same shape, [dB]
     runs: int  # of twins

@@ -30,7 +30,7 @@ def sensor_number(scene: Scene, name: str, asked: bool) -> int:
     names = [each.name for each in scene.sensors]
     if scene.faults:
         raise InputError(
-            f"scene {scene.name}: has a fault ({scene.fault_sentences[0]}); calibrate with the sound scene"
+            f"scene {scene.name}: has a fault ({scene.fault_sentences[0]}); calibrate with the healthy scene"
         )
     if scene.axleboxes is not None:
         raise InputError(f"scene {scene.name}: has several axleboxes; give the scene of one")
@@ -94,7 +94,7 @@ def rides_heard(
         if verdict.finding is not None and (verdict.finding.is_fault or verdict.verdict == HOT_BOX):
             problems.append(
                 f"{run.label}: the monitor hears a fault ({verdict.finding.reason}); a calibration is by "
-                "sound bearings"
+                "healthy bearings"
             )
     stretch = max(_SHORTEST, _TURNS / max(float(np.median(speeds)), 1e-3))
     hearing = Hearing(tuple(axis for axis in AXES if axis in axes), rate, min(stretch, _LONGEST))

@@ -21,13 +21,13 @@ usual_step            the step of a scene that names none
 sampling              the rate that holds the third octaves that are asked for
 discretisation_error  what a tier or a lamina count leaves out; the step
 choose                scene in, the cheapest alternatives within the limits out
-choice_cache          choices made before, beside the compiled kernels
+choice_cache          choices made before, next to the compiled kernels
 source_hash           hash of the sources that a choice may come from
 load                  scenes ready to run: read by `config`, what they leave open closed
 trial                 the scenes of a trial
 ===================== ===================================================================================
 
-Importing `choose` or `kept` brings the compiler along; the room itself, and a scene without `auto`, do not.
+Importing `choose` brings the compiler along; the room itself, and a scene without `auto`, do not.
 """
 
 from beardyn_core.choice.load import (

@@ -101,7 +101,7 @@ def rates_told(evidence: Evidence) -> Iterator[str]:
     last = _last(body.modes)
     for index, sensor in enumerate(evidence.scene.sensors):
         hears = PASSBAND * sensor.rate
-        said = f"sensor {sensor.name} at {sensor.rate / 1e3:g} kHz hears to {_kilohertz(hears)}"
+        said = f"sensor {sensor.name} at {sensor.rate / 1e3:g} kHz measures to {_kilohertz(hears)}"
         if hears > last:
             end = f"the modes of the box end at {_kilohertz(last)}"
             yield f"{said}, {end}: beyond, its signal has no resonances"

@@ -23,9 +23,9 @@ from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.choice.costs import COST_FILE
 from beardyn_core.choice.rule import Choice
 from beardyn_core.choice.source_hash import source_hash
-from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.scene import Free, Scene
+from beardyn_core.structure.mounted_box import is_path, table_path
 
 _RULES = Path(__file__).with_name("choose.py")
 _NUMBERS = ("numpy", "scipy")

@@ -314,7 +314,9 @@ def _choice_of(
         seconds=costs.seconds(total, step.steps_per_sample, stage.tier),
         within=within,
         vibration_to=evidence.band,
-        told=() if sampling is not None and sampling.rate < RATES[0] else tuple(bending.rates_told(evidence)),
+        notes=()
+        if sampling is not None and sampling.rate < RATES[0]
+        else tuple(bending.rates_told(evidence)),
         rate=None if sampling is None else sampling.rate,
         rate_reason="" if sampling is None else sampling.reason,
     )

@@ -37,8 +37,8 @@ _QUASISTATIC_SHARE = 0.005
 # Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
 # every effect: see evidence/automatic/torque.py.
 _POCKETS = {"quasistatic": 0.7, "lumped": 2.0}
-# What third octaves of a tier are off by at most beside `full`, [dB]: to 400 Hz of a sound bearing, to 5 kHz
-# and above. See evidence/automatic/bands.py, whose table is held against them.
+# What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz of a healthy bearing, to
+# 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
 QUIET_BAND, IN_QUIET_BAND = 400.0, 1.1
 MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 3.5, "lumped": 7.5}
 BEYOND = {"quasistatic": 20.5, "lumped": 19.5}

@@ -11,9 +11,9 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import static_rating
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.journal import bending_give
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.suspension import box_coupling
 from beardyn_core.physics.tiers.friction_steps import StepChoice
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.scene import Scene

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from typing import Annotated as A
 
+from beardyn_core.choice.choice_cache import kept, typical
 from beardyn_core.choice.usual_step import usual_step
 from beardyn_core.config.automatic import AUTO, REFERENCE
 from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
@@ -164,8 +165,6 @@ def choice_for(found: OpenScene) -> Choice:
 
 
 def _choice(scene: Scene, free: Free, given: EffectSet | None) -> Choice:
-    from beardyn_core.choice.choice_cache import kept, typical  # brings the compiler along
-
     def work_out() -> Choice:
         from beardyn_core.choice.choose import choose
 

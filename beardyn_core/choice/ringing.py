@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.config.structure import seat_of
 from beardyn_core.physics.journal import journal_shapes, modes_of
 from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import box_coupling, cross_matrix, spatial_mass
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene
+from beardyn_core.structure.mounted_box import seat_of
 
 _BAND_RATIO = 10.0**0.1  # third octaves of IEC 61260-1, base ten
 _LOWEST_BAND = 200.0  # below, the suspension counts and a box of some tens of kilograms is rigid [Hz]

@@ -139,7 +139,7 @@ class Choice:
     seconds: A[float, "wall time of a simulated second on the machine of the cost file, [s]"]
     within: A[bool, "whether these bounds are within the accuracy"]
     vibration_to: A[float, "highest third octave asked for, [Hz]; NaN where nothing is known"] = math.nan
-    told: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
+    notes: A[tuple[str, ...], "where sensors and the modes of the box do not reach equally far"] = ()
     rate: A[float | None, "of all sensors and the force waveform, [Hz]; ``None``: as the scene has them"] = (
         None
     )
@@ -228,7 +228,7 @@ class Choice:
             "expected_error": _errors(self.expected),
             "real_time_factor": self.real_time_factor,
             "step_cost": self.step_cost,
-            "told": self.told,
+            "notes": self.notes,
             "reasons": {
                 "tier": self.tier_reason,
                 "laminae": self.laminae_reason,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.physics.tiers.friction_steps import StepChoice, usual_steps
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
+from beardyn_core.structure.mounted_box import modes_of_effects
 
 # Free motion of a mode is exact with four; where contacts shift it by 5 %, five leave 0.8 % of its frequency
 STEPS_PER_TURN = 5

@@ -15,7 +15,7 @@ new              a copy of a shipped file to start from
 simulate         a desk run
 simulate_train   the same of several axleboxes at once
 import_          a recording of measured files
-measured_options options of measured files and name plates, from their declarations
+measured_options options of measured files and bearing data, from their declarations
 explain          which effects a scene is computed with, why, and what each costs
 ladder           what accuracy costs
 warmup           kernels compiled ahead

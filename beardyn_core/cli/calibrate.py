@@ -75,7 +75,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
             if scene.faults:
                 problems.append(
                     f"--scene {args.scene}: has a fault ({scene.fault_sentences[0]}); calibrate with the "
-                    "sound scene"
+                    "healthy scene"
                 )
             if scene.axleboxes is not None:
                 problems.append(f"--scene {args.scene}: has several axleboxes; give the scene of one")

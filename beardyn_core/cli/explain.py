@@ -81,7 +81,7 @@ def _heard(explanation: Explanation) -> list[str]:
     """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
     from beardyn_core.base.edge import write_noun
 
-    scene, found = explanation.scene, list(explanation.current.told)
+    scene, found = explanation.scene, list(explanation.current.notes)
     if scene.background is not None:
         parts = [
             part for part in write_noun(scene.background) if part not in ("name", "description", "sources")

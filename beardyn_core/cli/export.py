@@ -6,11 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.api import exporting
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import last_words
-from beardyn_core.cli.generated_parser import names
+from beardyn_core.cli.generated_parser import add_command, add_parameter, names
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_box, add_force, add_json
+from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run
@@ -20,30 +21,20 @@ _VIBRATION_ALONE = (".parquet", ".csv", ".wav")  # what these hold without being
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "export",
-        help="write signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV",
-        description="Write signals of a recording to a file of another format, SI units. Parquet, NPZ "
-        "and HDF5 carry the truth of the run; CSV and WAV get a JSON file with it beside them. Parquet, CSV "
-        "and WAV hold one table: with several signals each goes to NAME_SIGNAL.ENDING. A set of runs that "
-        "`beardyn sweep` has made goes to one file, .h5, .npz or .parquet, with signals and labels.",
-    )
-    parser.add_argument("recording", metavar="run.mcap", help="recording to read, or folder of a set")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        required=True,
-        help="file to write; its ending is the format: .parquet, .csv, .npz, .h5 or .wav; no default",
-    )
-    parser.add_argument(
-        "--signals",
+    parser = add_command(subparsers, "export", exporting.export)
+    add_parameter(parser, exporting.export, "recording", "recording", metavar="run.mcap")
+    add_parameter(parser, exporting.export, "output", "-o", "--output", metavar="FILE", required=True)
+    add_parameter(
+        parser,
+        exporting.export,
+        "signals",
         metavar="NAMES",
-        help="signals, with commas between: vibration, force, force_waveform, shaft, torque, cages, "
-        "rollers, bodies, contacts, load, temperature, ...; default every vibration, for .npz and .h5 all",
+        type=str,
+        default=None,
+        suffix="; with commas between",
     )
-    add_box(parser)
-    add_force(parser)
+    add_parameter(parser, exporting.export, "box", metavar="NAME")
+    add_parameter(parser, exporting.export, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -53,9 +44,11 @@ def run(args: argparse.Namespace) -> int:
     import sys
 
     signals = _signals_of(args)
-    if Path(args.recording).is_dir() and (Path(args.recording) / "set.json").is_file():
-        return _export_set(args, signals)
-    from beardyn_core.record.exporting import export
+    if exporting.is_set(args.recording):
+        with last_words(lambda: "nothing has been written"):
+            return _tell(
+                args, exporting.export(args.recording, args.output, signals=signals, force=args.force)
+            )
     from beardyn_core.record.reading import read_run
 
     with last_words(lambda: "nothing has been written"):
@@ -65,7 +58,12 @@ def run(args: argparse.Namespace) -> int:
     if problem := _lacking(recording, signals, args.output):
         raise InputError(problem)
     with last_words(lambda: "files that are written are whole, the others are as they were"):
-        written = export(recording, args.output, signals=signals, force=args.force)
+        written = exporting.export(recording, args.output, signals=signals, force=args.force)
+    return _tell(args, written)
+
+
+def _tell(args: argparse.Namespace, written: list[Path]) -> int:
+    """Print what has been written; gives the exit code."""
     if args.json:
         print(json_text("export", {"recording": args.recording, "files": written}))
         return 0
@@ -109,18 +107,3 @@ def _lacking(recording: Run, signals: list[str], output: str) -> str:
     if not lacking:
         return ""
     return f"{told}; it has {', '.join(filter(is_there, known)) or 'nothing'}"
-
-
-def _export_set(args: argparse.Namespace, signals: list[str]) -> int:
-    """Write a set of runs to one file."""
-    from beardyn_core.population.exporting import export_set
-    from beardyn_core.population.labelled_set import LabelledSet
-
-    with last_words(lambda: "nothing has been written"):
-        written = export_set(LabelledSet(args.recording), args.output, signals, args.force)
-    if args.json:
-        print(json_text("export", {"recording": args.recording, "files": written}))
-        return 0
-    for path in written:
-        print(f"{path}: {path.stat().st_size / 1e6:.2f} MB")
-    return 0

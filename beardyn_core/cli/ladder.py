@@ -39,7 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         description="Run a scene over tiers, effects, laminae and steps, and compare each level with a "
         "converged reference of the same scene: wall time per simulated second, and errors with their "
         "run-to-run band. Takes some minutes, and a minute more for every set of effects that is not "
-        "compiled yet. Ctrl-C keeps the levels done so far.",
+        "compiled yet. Ctrl-C keeps the levels done so far; with -o the same command goes on from there.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(
@@ -66,9 +66,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("--quick", action="store_true", help="few levels")
     parser.add_argument(
-        "--each-effect", action="store_true", help="also `full` less each of its effects in turn"
+        "--each-effect", action="store_true", help="also `all` less each of its effects in turn"
     )
-    add_force(parser)
+    add_force(parser, "start over in a folder that holds a study, and lose it")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -79,6 +79,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.ladder import climb, comparison_of, compile_levels, expected_wall
     from beardyn_core.study.ladder_levels import automatic, levels_of
     from beardyn_core.study.ladder_report import json_object, table
+    from beardyn_core.study.ladder_store import RUNS_FILE, store_of
 
     with check_inputs(lambda inputs: option_problems(args, inputs)):
         scene = scene_with_all(args.scene)
@@ -90,12 +91,19 @@ def run(args: argparse.Namespace) -> int:
     levels = levels_of(scene, quick=args.quick, each_effect=args.each_effect)
     levels = levels.including(automatic(scene, accuracy, asked))
     expected = expected_wall(levels, plan)
+    goes_on = _goes_on(args.output)
+    again = "the same command goes on from here" if args.output else "with -o a study can be taken up again"
     print(
         f"beardyn: {scene.name}, {len(levels.levels)} levels and the reference, "
         f"some {expected / 60.0:.1f} minutes once all kernels are compiled",
         file=sys.stderr,
     )
     tell_doubts(scene)
+    store = store_of(plan, args.output)
+    if args.output is not None:
+        with made_folder(args.output):
+            if args.force:
+                (args.output / RUNS_FILE).unlink(missing_ok=True)
     with _quiet():
         with (
             last_words(lambda: "no level has been run; what is compiled is kept for the next time"),
@@ -103,16 +111,20 @@ def run(args: argparse.Namespace) -> int:
         ):
             compile_levels(plan, levels, bar)
         with (
-            last_words(lambda: "the reference was not done, so nothing has been written"),
+            last_words(lambda: f"the reference was not done, so no result has been written; {again}"),
             _bar("run", "{percentage:.0f} %", expected) as bar,
         ):
-            ladder = climb(plan, levels, accuracy, asked, bar)
+            ladder = climb(plan, levels, accuracy, asked, bar, store=store)
     found = json_object(ladder)
     print(json_text("ladder", found) if args.json else table(ladder), flush=True)
     if args.output is not None:
-        write(ladder, found, args.output, replace=args.force)
+        write(ladder, found, args.output, replace=args.force or goes_on)
+        if not ladder.interrupted:  # times of a later go are those of another state of the machine
+            (args.output / RUNS_FILE).unlink(missing_ok=True)
     if ladder.interrupted:
-        kept = f"are in {args.output}" if args.output else "are printed; with -o they are written too"
+        kept = (
+            f"are in {args.output}; {again}" if args.output else "are printed; with -o they are written too"
+        )
         print(f"beardyn: interrupted; the {len(ladder.rows)} levels done so far {kept}", file=sys.stderr)
     return INTERRUPTED if ladder.interrupted else DONE
 
@@ -150,7 +162,15 @@ def option_problems(args: argparse.Namespace, inputs: Sequence[Path] = ()) -> li
     problems += missing("distributed", "a ladder", "sweep")
     if args.output is not None:
         problems += missing("matplotlib", "--output", "plot")
-    return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=args.force)
+    force = args.force or _goes_on(args.output)  # the results of fewer levels are replaced
+    return problems + folder_problems("--output", args.output, FILES, inputs=inputs, force=force)
+
+
+def _goes_on(folder: Path | None) -> bool:
+    """Tell whether a folder holds an interrupted study."""
+    from beardyn_core.study.ladder_store import RUNS_FILE
+
+    return folder is not None and (folder / RUNS_FILE).is_file()
 
 
 def write(ladder: Ladder, found: dict[str, Any], folder: Path, *, replace: bool) -> None:

@@ -1,4 +1,4 @@
-"""Options of commands that read measured files, made from their declaration; name plates of bearings."""
+"""Options of commands that read measured files, made from their declaration; bearing data."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
     """Declare the bearings on the shaft."""
     from beardyn_core.bearing.name_plate import NamePlate
 
-    group = parser.add_argument_group("bearings", "what their name plates say")
+    group = parser.add_argument_group("bearings", "their data")
     group.add_argument(
         "--bearing",
         metavar="[LABEL=]NAME[@SENSOR]",
         action="append",
         default=[],
-        help="name plate: shipped (`beardyn scenes plates`, `beardyn scenes bearings`) or a YAML file; "
-        "again for each bearing on the shaft, with a label, and with the accelerometer that hears it; "
+        help="bearing data: shipped (`beardyn scenes plates`, `beardyn scenes bearings`) or a YAML file; "
+        "again for each bearing on the shaft, with a label, and with the accelerometer that measures it; "
         f"{default}",
     )
     for place in places(NamePlate):
@@ -65,7 +65,7 @@ def reading_options(args: argparse.Namespace) -> list[str]:
 
 
 def plate_options(args: argparse.Namespace) -> list[str]:
-    """List the numbers of a name plate that were given."""
+    """List the numbers of the bearing data that were given."""
     return [flag(key) for key in _PLATE if _is_given(args, key)]
 
 

@@ -9,11 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from beardyn_core.api.reading import monitor
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import (
     USUAL_LABEL,
@@ -23,7 +25,7 @@ from beardyn_core.cli.measured_options import (
     reading_of,
     reading_options,
 )
-from beardyn_core.cli.options import add_box, add_force, add_json, add_monitor
+from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
 
 if TYPE_CHECKING:
@@ -39,20 +41,10 @@ _LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "monitor",
-        help="run a monitor, ours or yours, over a recording or measured files",
-        description="Pass vibration, shaft and load of a recording, or of measured files as `beardyn "
-        "import` reads them, to a monitor, and print its verdicts; one for each bearing on the shaft.",
-    )
-    parser.add_argument(
-        "files",
-        nargs="+",
-        metavar="FILE",
-        help="recording to analyse, or measured files in the order of time",
-    )
+    parser = add_command(subparsers, "monitor", monitor)
+    add_parameter(parser, monitor, "run", "files", nargs="+", metavar="FILE")
     add_box(parser, "every one")
-    add_monitor(parser)
+    add_parameter(parser, monitor, "algorithm", "--monitor", metavar="MODULE:FUNCTION", default="")
     parser.add_argument(
         "--picture",
         type=Path,

@@ -30,7 +30,7 @@ _HOW = {
 POSSIBLE = {
     "end_play_mm": "end_play_mm: 0.1   # total axial travel, negative: preload; else that of the bearing",
     "tier": "tier: quasistatic   # full (default), quasistatic or lumped: which bodies move by themselves",
-    "effects": "effects: full   # one of `beardyn scenes effects`; else those that 5 % of accuracy need",
+    "effects": "effects: all    # one of `beardyn scenes effects`; else those that 5 % of accuracy need",
     "background": "background: {name: mine, knocks: {rate_Hz: 3, impulse_N_s: 0.1}}   "
     "# or one of `beardyn scenes backgrounds`",
     "defects": 'defects:\n  - {kind: spall, "on": cup, row: 0, azimuth_deg: 0, width_mm: 6, depth_um: 100}',
@@ -97,8 +97,8 @@ def kind_of(name: str) -> str:
     InputError
         When there is none, with the name that was probably meant.
     """
+    from beardyn_core.base.spelling import closest
     from beardyn_core.config import shipped_names
-    from beardyn_core.config.folders import closest
 
     names = {kind: shipped_names(kind) for kind in KINDS}
     if found := [kind for kind in KINDS if name in names[kind]]:

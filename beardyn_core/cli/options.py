@@ -31,7 +31,7 @@ def add_choice(parser: ArgumentParser) -> None:
         "--vibration-to",
         metavar="HZ",
         type=float,
-        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors hear",
+        help="highest third octave of the vibration, Hz; default the scene's, or what its sensors measure",
     )
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from beardyn_core.api.measuring import trend
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.plain_json import keyed_fields
+from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import plate_options, reading_of
 
@@ -25,32 +26,20 @@ def add_trend(parser: argparse.ArgumentParser) -> None:
         help="watch the levels of many records against the baseline of the first ones, and alarm; needs "
         "neither speed nor bearing",
     )
-    group.add_argument(
-        "--memory",
-        metavar="FILE",
-        type=Path,
-        help="of --trend: go on from this JSON file if it is there, and write it for the records to come; "
-        "default none",
-    )
+    add_parameter(group, trend, "memory", metavar="FILE", suffix="; of --trend")
 
 
 def run_trend(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.measured.survey import survey
-    from beardyn_core.measured.trending import read_memory, remember, trend_of
-    from beardyn_core.monitor.trend import Trend
+    from beardyn_core.measured.trending import trend_with_memory
 
     if problems := option_problems(args):
         raise InputError(problems)
     measured = survey(args.files, reading_of(args))
-    trend = (read_memory(args.memory) if args.memory else None) or Trend(
-        tuple(sorted(measured.files[0].chosen.sensors[0].axes))
-    )
     for sentence in measured.warnings:
         print(f"beardyn: warning: {sentence}", file=sys.stderr)
-    points = list(trend_of(measured, trend=trend))
-    if args.memory:
-        remember(trend, args.memory)
+    points, watched = trend_with_memory(measured, args.memory)
     if args.json:
         found = [keyed_fields(each) for each in points]
         print(json_text("monitor", {"files": args.files, "trend": found}))
@@ -60,7 +49,7 @@ def run_trend(args: argparse.Namespace) -> int:
         if each.state != earlier:
             print(f"{each.time:10.1f} s  {each.state:8} {_sentence(each)}")
         earlier = each.state
-    print(_ending(points, trend.records, trend.settings.baseline))
+    print(_ending(points, watched.records, watched.settings.baseline))
     return 0
 
 

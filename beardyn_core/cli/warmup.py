@@ -58,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _of_one_box(scene: Scene) -> list[Scene]:
-    """Give the scene, or of one with axleboxes those of a sound and of a faulty box: the others are alike."""
+    """Give the scene, or of one with axleboxes those of a healthy and a faulty box: the others are alike."""
     from beardyn_core.config.boxes import scene_of_box
 
     if scene.axleboxes is None:

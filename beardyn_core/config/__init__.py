@@ -3,10 +3,9 @@
 ============ ==================================================================
 module       responsibility, in the order of the data
 ============ ==================================================================
-folders      where configuration lies; a name becomes a file
+folders      how a name becomes a file
 yaml_text    YAML text to a mapping, and a scene back to YAML
 file_model   base of the models: unknown keys explained, all mistakes kept
-structure    modes of a box by name, and the mounting that goes with them
 content      files that a scene is computed from, put into the scene
 keys         from an annotated noun to the model of its file
 part_files   what the files of parts say otherwise than their nouns
@@ -17,7 +16,7 @@ missing      rows and rollers that are not there
 boxes        the scene of one axlebox of several; a scene mirrored
 nouns        files of one noun: bearings, lubricants, boxes, effects, trials
 load         scenes: references resolved, every mistake found
-plates       name plates by name
+plates       bearing data by name
 schema       JSON schema for editors
 ============ ==================================================================
 

@@ -8,7 +8,7 @@ from typing import Any
 from beardyn_core.scene.scene import EFFECTS, NOTHING, Free
 
 AUTO = "auto"
-REFERENCE = "full"
+REFERENCE = "all"
 UNNAMED = AUTO  # what a scene has that names no effects
 
 

@@ -8,13 +8,13 @@ import numpy as np
 
 from beardyn_core.base.edge import Vector
 from beardyn_core.base.packed import pack_file
-from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.axleboxes import Box
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.modes import FIELDS, Modes
+from beardyn_core.structure.mounted_box import modes_of_effects
 from beardyn_core.structure.table import table_text
 
 _SEEDS = 2**32

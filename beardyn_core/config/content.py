@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.base.packed import pack_file
-from beardyn_core.config.structure import is_path, table_path
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.rail.transfer_path import content_of, read_transfer_path
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer, MeasuredPath
+from beardyn_core.structure.mounted_box import is_path, table_path
 from beardyn_core.structure.table import table_text_of
 
 

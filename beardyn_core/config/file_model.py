@@ -18,8 +18,8 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from beardyn_core.base.edge import NounError, Place, Problem, alternatives, rules_of
+from beardyn_core.base.spelling import closest
 from beardyn_core.base.units import Unit, stem_of, unit_of
-from beardyn_core.config.folders import closest
 
 
 class FileModel(BaseModel):

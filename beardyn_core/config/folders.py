@@ -1,15 +1,13 @@
-"""Where configuration lies, and how a name becomes a file."""
+"""How the name of a thing in the configuration becomes a file."""
 
 from __future__ import annotations
 
-import difflib
 import os
-import site
-import sys
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from beardyn_core.base.config_folder import config_folder
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.spelling import closest
 
 KINDS = (
     "bearings",
@@ -26,52 +24,13 @@ KINDS = (
 )
 _SUFFIXES = (".yaml", ".yml")
 _AUTO = "auto"  # in place of a set of effects
-
-
-def _candidates() -> Iterator[Path]:
-    if chosen := os.environ.get("BEARDYN_CONFIG"):
-        yield Path(chosen)
-        return
-    yield Path(__file__).resolve().parents[2] / "config"  # a source checkout
-    prefixes = [sys.prefix, site.getuserbase(), *os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)]
-    for prefix in prefixes:
-        if prefix:
-            yield Path(prefix) / "share" / "beardyn" / "config"
-
-
-def config_folder() -> Path:
-    """Find the folder of the shipped configuration.
-
-    It is ``$BEARDYN_CONFIG`` when that is set; else the checkout's own, else ``share/beardyn/config`` of the
-    environment, of the user's packages or of a sourced ROS 2 workspace, whichever is there first.
-
-    Raises
-    ------
-    InputError
-        With every place searched, when there is none.
-    """
-    candidates = list(dict.fromkeys(_candidates()))
-    for folder in candidates:
-        if (folder / "scenes").is_dir() or (folder / "bearings").is_dir():
-            return folder
-    searched = ", ".join(str(folder) for folder in candidates)
-    raise InputError(
-        f"the configuration folder was not found; searched {searched}; "
-        "install with `pip install .` or set BEARDYN_CONFIG to the folder that holds bearings and scenes"
-    )
+_FORMER = {("effects", "full"): "all"}  # names of before, in scenes and recordings that are kept
 
 
 def shipped_names(kind: str) -> tuple[str, ...]:
     """List the names of what is shipped of one of `KINDS`, sorted."""
     folder = config_folder() / kind
     return tuple(sorted(path.stem for path in folder.glob("*") if path.suffix in _SUFFIXES))
-
-
-def closest(word: str, words: Iterable[str]) -> str | None:
-    """Find the one of ``words`` that ``word`` was probably meant to be."""
-    by_fold = {candidate.casefold(): candidate for candidate in words}
-    found = difflib.get_close_matches(word.casefold(), by_fold, n=1, cutoff=0.6)
-    return by_fold[found[0]] if found else None
 
 
 def find(kind: str, name: str, beside: Path | None = None) -> Path:
@@ -105,9 +64,10 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
         searched = " and ".join(str(path.absolute()) for path in dict.fromkeys(places))
         raise InputError(f"the {singular} file {name!r} was not found; searched {searched}")
     folder = config_folder() / kind
-    for suffix in _SUFFIXES:
-        if (path := folder / f"{name}{suffix}").is_file():
-            return path
+    for called in (name, _FORMER.get((kind, name), name)):
+        for suffix in _SUFFIXES:
+            if (path := folder / f"{called}{suffix}").is_file():
+                return path
     if Path(name).is_dir():
         raise InputError(f"{name}: is a folder; give the path of a {singular} file, ending in .yaml")
     names = shipped_names(kind)

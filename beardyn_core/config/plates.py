@@ -1,4 +1,4 @@
-"""Name plates by name: shipped ones, those of files, those of whole bearings."""
+"""Bearing data by name: shipped ones, those of files, those of whole bearings."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from beardyn_core.config.yaml_text import read_file
 
 
 def load_plate(name: str | Path) -> NamePlate:
-    """Load a shipped name plate or that of a file, or take that of a whole bearing.
+    """Load shipped bearing data or that of a file, or take that of a whole bearing.
 
     Raises
     ------

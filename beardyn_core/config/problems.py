@@ -11,8 +11,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from beardyn_core.base.edge import LIMIT_WORDS
+from beardyn_core.base.spelling import closest
 from beardyn_core.base.units import unit_of
-from beardyn_core.config.folders import closest
 
 Place = tuple[str | int, ...]
 

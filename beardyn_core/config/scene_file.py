@@ -6,17 +6,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import BeforeValidator, Field, Tag, WithJsonSchema, field_validator
 from pydantic_core import PydanticKnownError
 
-from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, places
+from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, places, written_value
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import choose_form
-from beardyn_core.config.structure import box_problems, modes_of_effects, mounting_of, seat_of
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.mounting import Mounting
@@ -24,8 +24,10 @@ from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Numerics, Scene
 from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, rates_do_not_fit, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of, seat_of
 
 _AUTO = {"const": "auto"}
+_BOX_KEYS = ("box_mass_kg", "box_centre_mm", "box_inertia_kg_m2")
 
 
 def _number_of_steps(value: Any) -> Any:
@@ -188,7 +190,7 @@ class SceneFile(FileModel):
         except InputError as error:
             problems = [Problem(each, ("effects", "structure")) for each in error.problems]
             raise NounError("structure", problems) from error
-        problems += box_problems(self.mounting.model_fields_set, mounting, taken, modes.name)  # type: ignore[attr-defined]
+        problems += _box_problems(self.mounting.model_fields_set, mounting, taken, modes.name)  # type: ignore[attr-defined]
         for index, sensor in enumerate(given["sensors"]):
             if sensor.measured_paths:
                 twice = (
@@ -237,8 +239,9 @@ class SceneFile(FileModel):
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (
-                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors hear to {hearing:g} Hz: ask for "
-                f"less, or give one rate_kHz {RATES[-1] / 1e3:g}, which hears to {PASSBAND * RATES[-1]:g} Hz"
+                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors measure to {hearing:g} Hz: ask "
+                f"for less, or give one rate_kHz {RATES[-1] / 1e3:g}, which measures to "
+                f"{PASSBAND * RATES[-1]:g} Hz"
             )
         yield from _rough_twice(given["background"], given["operation"])
 
@@ -263,6 +266,20 @@ def _play_out_of_range(given: dict[str, Any], bearing: Bearing) -> Iterator[Prob
             f"{mm.to_edge(MOST_END_PLAY):g} mm",
             ("temperatures",),
         )
+
+
+def _box_problems(given: set[str], stated: Mounting, taken: Mounting, name: str) -> Iterator[Problem]:
+    """Find keys of a mounting that say something else of the box than its table."""
+    for place in places(Mounting):
+        if place.key in _BOX_KEYS and place.key in given:
+            said, meant = getattr(stated, place.field), getattr(taken, place.field)
+            if not np.allclose(said, meant, rtol=1e-3, atol=1e-4):
+                shown = written_value(meant, place.at)
+                yield Problem(
+                    f"{place.key} is {written_value(said, place.at)}; the box {name} of effects.structure "
+                    f"has {shown} without the cup: leave the key out",
+                    ("mounting",),
+                )
 
 
 def _axle_held_twice(operation: Any, mounting: Any) -> Iterator[str]:

@@ -20,7 +20,6 @@ from beardyn_core.base.optional import missing
 
 MOST_WORKERS = 1024
 _SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
-_STARTING_S = 120.0
 
 
 def core_count() -> int:

@@ -58,7 +58,7 @@ class Store(Generic[Kept]):
     def __init__(
         self, path: Path | None, layout: Layout[Kept], about: Mapping[str, Any] | None = None
     ) -> None:
-        self.path, self._layout, self._about = path, layout, about
+        self.path, self._layout, self.about = path, layout, about
         self._count = 0
         self._file: BinaryIO | None = None
 
@@ -105,8 +105,8 @@ class Store(Generic[Kept]):
             if self.path is not None:
                 with self._sentences():
                     self._file = open_to_append(self.path, empty=plan.fresh)
-                    if self._about is not None and (self._file.tell() == 0 or self.described is None):
-                        self._write({_ABOUT: self._about})
+                    if self.about is not None and (self._file.tell() == 0 or self.described is None):
+                        self._write({_ABOUT: self.about})
             yield
         finally:
             if self._file is not None:
@@ -147,7 +147,7 @@ class Store(Generic[Kept]):
         """Write the file anew without some runs; what cannot be read any more stays as it is."""
         assert self.path is not None
         assert not self._layout.group
-        rows = [{_ABOUT: self._about}] if self._about is not None else []
+        rows = [{_ABOUT: self.about}] if self.about is not None else []
         rows += [self._layout.to_json(each) for each in first]
         rows += [row for row in self._rows() if _ABOUT not in row and self._key_of(row) not in gone]
         with self._sentences():

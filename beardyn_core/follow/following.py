@@ -28,8 +28,7 @@ from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
-SOUND, SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "sound", "spalled", "take_out", "unexplained", "waiting"
-HEALTHS = (WAITING, SOUND, SPALLED, TAKE_OUT, UNEXPLAINED)
+SPALLED, TAKE_OUT, UNEXPLAINED, WAITING = "spalled", "take_out", "unexplained", "waiting"
 NORMAL_50 = 0.6745
 _MINUTE, _HOUR, _YEAR = 60.0, 3600.0, 3.2e7
 # how long a number takes to wander over the range learnt from, [s]; a spall grows by its law alone
@@ -58,8 +57,8 @@ class Followed:
     rate: A[tuple[float, float], "growth of the spall: median, and factor that holds 90 %, [m^2/m]; NaN"]
     surprise: A[float, "mean square of the misses of late, in variances of what was expected; 1 is usual"]
     changed: A[tuple[str, ...], "numbers that have made a step"]
-    remains: A[Forecast | None, "of a whole bearing; none of a name plate"]
-    health: A[str, "one of `HEALTHS`"]
+    remains: A[Forecast | None, "of a whole bearing; none of bearing data alone"]
+    health: A[str, "waiting, healthy, spalled, take_out or unexplained"]
     doubts: A[tuple[str, ...], "what the model does not explain, in sentences"]
 
     @property
@@ -95,7 +94,7 @@ class Follower:
     """
 
     estimator: Estimator
-    bearing: A[Bearing | None, "for what remains; none of a name plate"] = None
+    bearing: A[Bearing | None, "for what remains; none of bearing data alone"] = None
     lubricant: A[Lubricant | None, "of the rating life"] = None
     service: A[Service, "mileage at the first stretch, wheel"] = field(default_factory=Service)
     law: A[GrowthLaw, "of spalls"] = field(default_factory=GrowthLaw)
@@ -314,4 +313,4 @@ class Follower:
             return TAKE_OUT
         if doubts:
             return UNEXPLAINED
-        return SOUND if known.part is None or known.part.condition == HEALTHY else SPALLED
+        return HEALTHY if known.part is None or known.part.condition == HEALTHY else SPALLED

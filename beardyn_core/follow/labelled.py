@@ -66,7 +66,7 @@ def describe_runs(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = A
 
 
 def plate_of(runs: LabelledSet) -> NamePlate:
-    """Take the name plate of the bearings of a set.
+    """Take the data of the bearings of a set.
 
     Raises
     ------

@@ -50,7 +50,7 @@ def follower_of(
 
 
 def _whole(name: str) -> Bearing | None:
-    """Find the bearing of a name plate; none where only the plate is known."""
+    """Find the bearing of bearing data; none where only these are known."""
     try:
         return load_bearing(name)
     except InputError:

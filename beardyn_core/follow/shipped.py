@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from beardyn_core.base.config_folder import config_folder
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.config.folders import config_folder
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.inference import doubt_of
 

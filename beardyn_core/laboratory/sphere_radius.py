@@ -1,6 +1,6 @@
 """The roller end whose sphere is too large for its rib: where the general search puts the contact.
 
-The rib face stays that of the sound bearing; only the radius of the roller end grows, and the roller moves
+The rib face stays that of the healthy bearing; only the radius of the roller end grows, and the roller moves
 along its axis until the sphere it is drawn with touches the face. The search knows neither the edges of the
 rib face nor the rim of the roller end, so its contact wanders off both. The kernel of the twin bounds both.
 """
@@ -90,7 +90,7 @@ def _end(bearing: Bearing, case: Bearing) -> RibEndParams:
 
 
 def sphere_case(bearing: Bearing, ratio: float) -> SphereCase:
-    """Compare what both methods find for one sphere on the rib of a sound bearing.
+    """Compare what both methods find for one sphere on the rib of a healthy bearing.
 
     The roller, skewed by `SKEW`, is moved along its axis until the bounded roller end just touches, then
     pushed in by `PUSH`.

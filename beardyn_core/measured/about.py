@@ -1,4 +1,4 @@
-"""What a measured recording says about itself: files, channels, units, speed, name plates."""
+"""What a measured recording says about itself: files, channels, units, speed, bearing data."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from beardyn_core.monitor.chain import MonitorSettings
 
 @dataclass(frozen=True)
 class Mounted:
-    """A bearing on the shaft, and the accelerometer that hears it."""
+    """A bearing on the shaft, and the accelerometer that measures it."""
 
     label: A[str, "such as ``drive_end``"]
     plate: NamePlate

@@ -76,3 +76,14 @@ def read_memory(path: Path) -> Trend | None:
 def remember(trend: Trend, path: Path) -> None:
     """Write the memory of a trend, for the records to come."""
     write_whole(path, json.dumps(trend.memory(), indent=1) + "\n")
+
+
+def trend_with_memory(survey: Survey, memory: Path | None) -> tuple[list[TrendPoint], Trend]:
+    """Give what the trend says after every record, and the trend, which a file keeps for the next time."""
+    measured = next(s.axes for s in survey.files[0].chosen.sensors if s.name == survey.sensors[0])
+    axes = tuple(axis for axis in AXES if axis in measured)
+    trend = (read_memory(memory) if memory else None) or Trend(axes)
+    points = list(trend_of(survey, trend=trend))
+    if memory:
+        remember(trend, memory)
+    return points, trend

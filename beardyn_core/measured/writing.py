@@ -44,7 +44,7 @@ def write_measured(
     path : Path
         MCAP file.
     bearings : sequence of Mounted
-        Name plates, stored with it.
+        Bearing data, stored with it.
     force : bool
         Whether an existing file is replaced; one of those that are read never is.
     progress : callable, optional

@@ -45,6 +45,7 @@ rib                ribs at both roller ends: spheres on a cone, their film and f
 pocket             pockets of the cage, and its simplified forms
 defect             patches, waviness, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way
+roller_spring      a roller as one spring along the cup's normal
 spall_cover        share of each lamina that counts as lost over a patch, from the half-space
 journal            bending of the axle at the journal
 ring_modes         bending of the axlebox: rings or modes of a table

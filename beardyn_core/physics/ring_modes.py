@@ -29,7 +29,6 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.jit import FASTMATH, entry, inline
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
-from beardyn_core.config.structure import modes_of_effects, require_cup, seat_of
 from beardyn_core.effects import RingStructure, Structure
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.physics.bodies.contact_output import accumulate
@@ -48,6 +47,7 @@ from beardyn_core.physics.suspension import DAMPERS, SEAT_PLACE, SEAT_SPEED, SUS
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.modes import FIELDS, Modes
+from beardyn_core.structure.mounted_box import modes_of_effects, require_cup, seat_of
 
 RINGS = ("elastic", "rigid")  # of a bearing that is asked about without a scene
 WAVES_SEEN = 6  # of a table: those with 7 and 8 waves change what yields to one roller by up to 0.2 % of it
@@ -129,7 +129,7 @@ def _body(
     if abs(here - modes.mass) > 1e-3 * modes.mass:
         raise InputError(
             f"the mounting's box has {here:g} kg with the cup, the box {modes.name} has {modes.mass:g} kg: "
-            "take its mass, centre of mass and inertia (beardyn_core.config.structure.mounting_of)"
+            "take its mass, centre of mass and inertia (beardyn_core.structure.mounted_box.mounting_of)"
         )
     raceway = modes.raceway[:, :rows].copy()
     raceway[:, 0, _AXIAL] *= -1.0  # row 0 is the mirror image: its outer side lies towards -y

@@ -1,6 +1,6 @@
 """Features of a run that a learner without deep layers takes: what the monitor works out, and band levels.
 
-All of them can be had of a measured axlebox too: one accelerometer, the shaft, a name plate.
+All of them can be had of a measured axlebox too: one accelerometer, the shaft, data of the bearing.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
     run : Run
         Simulated, recorded or measured.
     orders : FaultFrequencies
-        What the name plate gives, per shaft revolution.
+        What the bearing data give, per shaft revolution.
     roller_count : int
         Rolling elements of one row.
     sensor : str

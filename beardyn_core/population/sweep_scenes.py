@@ -69,7 +69,7 @@ class SweepScenes:
                 continue
             try:
                 data = with_value(data, place_of(key), value, self.folder)
-            except AbsentError:  # a sound bearing has no defects[0]
+            except AbsentError:  # a healthy bearing has no defects[0]
                 continue
             values[key] = value
         data = {**data, _NAME: f"{self.sweep.name}, run {row.run}"[:80]}

@@ -115,14 +115,6 @@ def _alike(values: list[Any]) -> list[Any]:
     ]
 
 
-def read_rows(path: Path) -> list[dict[str, Any]]:
-    """Read the rows of a table."""
-    found: list[dict[str, Any]] = (
-        library("pyarrow.parquet", "a set of runs", "sweep").read_table(path).to_pylist()
-    )
-    return found
-
-
 def units_of(path: Path) -> dict[str, str]:
     """Read the units of the columns of a table; '' without."""
     schema = library("pyarrow.parquet", "a set of runs", "sweep").read_schema(path)

@@ -117,7 +117,7 @@ class Diagnostic:
     """One status of a diagnostics message."""
 
     name: str
-    level: A[int, "index into `DIAGNOSTIC_LEVELS`"]
+    level: A[int, "0 OK, 1 warning, 2 error, 3 stale, as in diagnostic_msgs/DiagnosticStatus"]
     message: A[str, "a sentence"]
     values: A[tuple[tuple[str, str], ...], "(key, value)"] = ()
 

@@ -55,7 +55,7 @@ class Run:
     malformed : mapping of str to int, optional
         Messages of a file that were left out because they are not what their topic promises, by topic.
     measured : mapping, optional
-        Of a run that was measured and not simulated: files, channels, units, speed, name plates; see
+        Of a run that was measured and not simulated: files, channels, units, speed, bearing data; see
         docs/measured.md. Empty for a simulated one.
     boxes : mapping, optional
         Of a run of several axleboxes: every one by its name.
@@ -305,7 +305,7 @@ class Run:
         Parameters
         ----------
         sensor : str
-            Accelerometer to listen to; by default the first.
+            Accelerometer to take; by default the first.
 
         Raises
         ------

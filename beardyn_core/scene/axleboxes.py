@@ -41,7 +41,7 @@ class Axleboxes:
     faulty: A[
         tuple[str, ...],
         "boxes that have the defects and missing rollers of the scene and, on their wheels, the "
-        "wheel_defects; the others are sound",
+        "wheel_defects; the others are healthy",
     ] = ("axle_1_left",)
     pictures: A[
         bool, "record bodies and contacts of every box, which ``view`` draws: about half of the file"

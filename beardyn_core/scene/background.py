@@ -1,4 +1,4 @@
-"""What a sensor on a real axlebox hears besides its bearing: forces on the journal, and electrical pickup."""
+"""What sensors on real axleboxes receive besides the bearing: forces on the journal, and pickup."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class OtherBearing:
         At(size=(1, 10)),
         "amplitude of the rollers' passing and its harmonics, as it comes to this journal",
     ]
-    fault: A[str | None, At(one_of=FAULTS), "which of its parts is spalled; sound when left out"] = None
+    fault: A[str | None, At(one_of=FAULTS), "which of its parts is spalled; healthy when left out"] = None
     impulse: A[float, At("N_s", ge=0.0, le=10.0), "of each stroke of that fault, as it comes here"] = 0.0
     pulse: A[float, At("us", ge=100.0, le=5000.0), "length of a stroke, half a sine"] = 300.0e-6
     slip: A[
@@ -136,7 +136,7 @@ class Pickup:
 
 @dataclass(frozen=True)
 class Background:
-    """What a sensor on an axlebox in service hears besides its bearing; each part is absent when left out."""
+    """What a sensor in service receives besides its bearing; each part is absent when left out."""
 
     name: A[str, At(longest=80), "of the background"]
     description: A[str, At(usual=""), "what it is, in a few words"]

@@ -76,7 +76,7 @@ class Patch:
         "from +z (the top) towards +x, in the body's own frame at the start of the run",
     ]
     width: A[float, At("mm", gt=0.0, le=200.0), "in rolling direction"]
-    depth: A[float, At("um", gt=0.0, le=5000.0), "below the sound surface"]
+    depth: A[float, At("um", gt=0.0, le=5000.0), "below the undamaged surface"]
     length: A[float, At("mm", gt=0.0, optional=True), "along the roller; the whole contact when left out"]
     offset: A[float, At("mm"), "centre from mid-length, positive towards the large end"] = 0.0
     roller: A[int, At(ge=0), "which roller, with `on: roller`"] = 0

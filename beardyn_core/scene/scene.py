@@ -84,13 +84,13 @@ class Scene:
         float | None,
         At("Hz", gt=0.0, ge=200.0, le=20_000.0),
         "highest third octave of the vibration that is asked for, when something is auto; as far as the "
-        "sensors hear when left out. Sensors without rate_kHz are then sampled no faster than that needs",
+        "sensors measure when left out. Sensors without rate_kHz are then sampled no faster than that needs",
     ] = None
     operation: A[Operation, "where load and speed come from"]
     background: A[
         Background | None,
         At(reference=True),
-        "what the sensors hear besides the bearing: a shipped one, a path, or the keys of one",
+        "what the sensors measure besides the bearing: a shipped one, a path, or the keys of one",
     ] = None
     mounting: A[Mounting, "axlebox on its suspension, and the journal in it"] = Mounting()
     rows: A[Literal[1, 2], "2, or 1 for row 0 (inboard) alone"] = 2

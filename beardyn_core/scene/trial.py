@@ -129,7 +129,7 @@ class Trial:
     faults: A[
         tuple[str, ...],
         At(one_of=(*FAULTS, CAGE)),
-        "parts that are spalled, or cage: a worn pocket; none: sound bearings only",
+        "parts that are spalled, or cage: a worn pocket; none: healthy bearings only",
     ] = FAULTS
     sizes: A[
         tuple[float, ...], At("mm", gt=0.0, le=100.0), "widths of the spalls, or wear of the pocket"

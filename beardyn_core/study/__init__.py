@@ -19,6 +19,8 @@ trial_picture       a trial in one picture
 measures            signals of a run in one piece, and the numbers by which runs are compared
 ladder_levels       the levels of a ladder: tier, effects, laminae, step; their expected cost
 ladder              all levels of a scene against a converged reference
+level_run           load and windows of an accuracy study, and one run of a level
+ladder_store        runs of an interrupted study, from which it goes on
 ladder_result       errors of a level with the scatter between runs; levels that meet an accuracy
 ladder_report       a ladder as table and JSON
 ladder_picture      accuracy against wall time in one picture

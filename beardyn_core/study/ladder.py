@@ -1,8 +1,8 @@
 """The ladder: a scene over tiers, effects, laminae and steps against a converged reference of itself.
 
 All levels get the same load history and sensor noise, one after the other in one process of the engine, for
-they are timed; nothing is kept, for times of another go are those of another state of the machine. Repeated
-runs begin a hair apart: `vary_start`.
+they are timed. Runs are kept in the store that is given, from which an interrupted study goes on; the runs of
+one level are all of one go. Repeated runs begin a hair apart: `vary_start`.
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from typing import Annotated as A
 from typing import Any
 
 import numpy as np
@@ -24,14 +23,16 @@ from beardyn_core.bearing.kinematics import cage_speed_ratio
 from beardyn_core.effects import KinematicCage
 from beardyn_core.experiments import Cluster, Engine, ThisProcess, loop
 from beardyn_core.experiments.plan import Plan
+from beardyn_core.experiments.store import Store
 from beardyn_core.physics.tiers.status import describe
 from beardyn_core.rail.build import load_history, load_of_run
 from beardyn_core.run import start
-from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import USUAL_QUANTITIES, Scene
 from beardyn_core.study.ladder_levels import Level, LevelList, expected_cost
 from beardyn_core.study.ladder_result import Cost, Ladder, LevelResult, errors
-from beardyn_core.study.measures import FaultLine, Outcome, SignalCollector, fault_line_of, outcome
+from beardyn_core.study.ladder_store import digests_of, resume
+from beardyn_core.study.level_run import Attempt, Comparison, Run
+from beardyn_core.study.measures import SignalCollector, fault_line_of, outcome
 from beardyn_core.twin import Twin
 
 COMPLETE = "complete"
@@ -44,37 +45,6 @@ CHEAP = 1.5
 # the filters' delay: the trends of a run end this much before its last block does, rounded up, [s]
 _DELAY = 0.04
 _VARIED_END_PLAY, _VARIED_SPEED = 1.0e-9, 1.0e-4
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Load of every run of a ladder, and the windows in which runs are compared."""
-
-    scene: Scene
-    load: A[LoadHistory, "made once, felt by all levels"]
-    settling: A[float, "[s]"]
-    edges: A[tuple[float, ...], "ends of the windows, [s]"]
-    revolutions: A[int, "whole cage revolutions that the windows cover; 0 when there is none"]
-    block_count: int
-    fault_line: FaultLine | None
-
-
-@dataclass(frozen=True)
-class Run:
-    """One run of a level."""
-
-    outcome: A[Outcome | None, "``None`` when it left the model's validity"]
-    walls: A[Float, "shape [block], wall time per simulated second of each block after settling, [-]"]
-    status: str
-
-
-@dataclass(frozen=True)
-class Attempt:
-    """One of the runs of a level."""
-
-    place: A[int, "of the level in the ladder; 0 is the reference"]
-    level: Level
-    number: A[int, "0 is the scene itself, see `vary_start`"]
 
 
 Progress = Callable[[str, float], None]
@@ -225,6 +195,7 @@ def climb(
     runner: Runner | None = None,
     reference_runs: int = REFERENCE_RUNS,
     least_runs: int = 1,
+    store: Store[Run] | None = None,
 ) -> Ladder:
     """Run all levels, the reference first, then the cheapest first.
 
@@ -244,6 +215,9 @@ def climb(
         Two or more.
     least_runs : int
         Of every other level; usual are two of those that are cheap, and one of the others.
+    store : Store, optional
+        That of `ladder_store.store_of`. It keeps each run as it ends, and levels that are whole in it are not
+        run again.
 
     Returns
     -------
@@ -265,21 +239,32 @@ def climb(
         lost=lambda _, killed: Run(None, np.empty(0), f"{killed} processes died of it"),
         has_failed=lambda run: run.outcome is None,
     )
+    if store is not None and store.path is not None:
+        plan = resume(replace(plan, digests=digests_of(plan.items, comparison)), store)
     done: list[list[Run]] = [[] for _ in (levels.reference, *levels.levels)]
     interrupted = False
+    waiting = [plan.items[key] for key in plan.missing]
+
+    def take(key: str, run: Run) -> None:
+        attempt = plan.items[key]
+        if attempt.place == 0 and run.outcome is None:
+            raise ValidityError(f"the reference cannot be computed: {run.status}")
+        done[attempt.place].append(run)
 
     def report(now: loop.Progress[Run]) -> None:
         for key, run in now.latest.items():
-            attempt = plan.items[key]
-            if attempt.place == 0 and run.outcome is None:
-                raise ValidityError(f"the reference cannot be computed: {run.status}")
-            done[attempt.place].append(run)
+            take(key, run)
         before = sum((_expected_seconds(plan.items[key], comparison) for key in now.latest), 0.0)
-        progress(todo[min(now.here, len(todo) - 1)].level.name, before)
+        if waiting:
+            progress(waiting[min(now.here, len(waiting) - 1)].level.name, before)
 
+    for key, run in plan.kept.items():
+        take(key, run)
+    opened = nullcontext() if store is None else store.opened(plan)
+    here = runner is not None or not waiting
     try:
-        with Engine(Cluster(workers=1)) if runner is None else nullcontext(ThisProcess()) as engine:
-            loop.run_plan(plan, engine, report=report)
+        with opened, nullcontext(ThisProcess()) if here else Engine(Cluster(workers=1)) as engine:
+            loop.run_plan(plan, engine, store, report)
     except KeyboardInterrupt:
         if len(done[0]) < 2:
             raise

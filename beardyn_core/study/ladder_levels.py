@@ -72,18 +72,18 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
     quick : bool
         Few levels, and none with effects that the shipped presets do not have.
     each_effect : bool
-        Also `full` less each of its effects in turn.
+        Also `all` less each of its effects in turn.
     """
-    full, standard, dry = (load_effects(name) for name in ("full", "standard", "dry"))
-    full = in_box_of(full, scene.effects)
-    reference = replace(_level("full", "full", full, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
-    neighbour = _level("full", "full", full, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
+    every, standard, dry = (load_effects(name) for name in ("all", "standard", "dry"))
+    every = in_box_of(every, scene.effects)
+    reference = replace(_level("full", "all", every, REFERENCE_LAMINAE, REFERENCE_STEPS), name="reference")
+    neighbour = _level("full", "all", every, REFERENCE_LAMINAE // 2, REFERENCE_STEPS // 2)
     lumped, balanced, usual = (TIERS[name].steps_per_sample for name in ("lumped", "quasistatic", "full"))
     fast: dict[str, list[tuple[int, int]]] = {"lumped": [(6, lumped)], "quasistatic": [(6, balanced)]}
     steps: dict[str, tuple[EffectSet, list[tuple[int, int]]]] = {
         "dry": (dry, [(6, usual_steps(dry, 6))]),
         "standard": (standard, [(6, usual)]),
-        "full": (full, [(6, usual)]),
+        "all": (every, [(6, usual)]),
     }
     if not quick:
         fast = {
@@ -91,22 +91,22 @@ def levels_of(scene: Scene, quick: bool = False, each_effect: bool = False) -> L
             "quasistatic": [(3, balanced), *((6, count * balanced) for count in (1, 2, 4)), (20, balanced)],
         }
         lossy = replace(
-            standard, **{name: getattr(full, name) for name in ("rolling_resistance", "drag", "seal")}
+            standard, **{name: getattr(every, name) for name in ("rolling_resistance", "drag", "seal")}
         )
-        flexible = replace(lossy, structure=full.structure)
+        flexible = replace(lossy, structure=every.structure)
         six = [(3, usual), (6, 2), (6, 3), (6, usual), (6, 2 * usual)]
         steps |= {
             "standard": (standard, [*six, (20, usual)]),
             "standard + losses": (lossy, [(6, usual)]),
             "standard + losses + structure": (flexible, [(6, usual)]),
-            "full - lamina_coupling": (replace(full, lamina_coupling=None), [(6, usual)]),
-            "full": (full, [*six, (6, 4 * usual), (10, usual)]),
+            "all - lamina_coupling": (replace(every, lamina_coupling=None), [(6, usual)]),
+            "all": (every, [*six, (6, 4 * usual), (10, usual)]),
         }
     if each_effect:
-        steps |= {f"full - {name}": (less, [(6, usual)]) for name, less in _one_less(full)}
+        steps |= {f"all - {name}": (less, [(6, usual)]) for name, less in _one_less(every)}
     rows: list[tuple[str, str, EffectSet, list[tuple[int, int]]]] = []
     rows += [(tier, "standard", standard, choices) for tier, choices in fast.items()]
-    rows += [(tier, "full", full, [(6, TIERS[tier].steps_per_sample)]) for tier in fast]
+    rows += [(tier, "all", every, [(6, TIERS[tier].steps_per_sample)]) for tier in fast]
     rows += [("full", name, effects, choices) for name, (effects, choices) in steps.items()]
     found = [
         _level(tier, name, effects, *choice) for tier, name, effects, choices in rows for choice in choices
@@ -134,7 +134,7 @@ def chosen_for(scene: Scene, accuracy: float, asked: tuple[str, ...], to: float 
     """
     wanted = {_CHOSEN_AS.get(name, name) for name in asked}
     quantities = tuple(name for name in QUANTITIES if name in wanted)
-    every = in_box_of(load_effects("full"), scene.effects)
+    every = in_box_of(load_effects("all"), scene.effects)
     return choose(replace(scene, effects=every, accuracy=accuracy, quantities=quantities, vibration_to=to))
 
 

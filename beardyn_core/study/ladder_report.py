@@ -128,10 +128,10 @@ def choices(ladder: Ladder) -> list[str]:
 def _effects_text(ladder: Ladder, level: Level) -> str:
     """Name the effects, or their differences from those of the reference."""
     held, absent, other = _against_reference(ladder, level)
-    text = "full" + (f" less {', '.join(absent)}" if absent else "")
+    text = "all" + (f" less {', '.join(absent)}" if absent else "")
     if len(absent) > len(held):
         text = ", ".join(held)
-    return text + (f"; with other parameters than in full: {', '.join(other)}" if other else "")
+    return text + (f"; with other parameters than in the reference: {', '.join(other)}" if other else "")
 
 
 def _against_reference(ladder: Ladder, level: Level) -> tuple[list[str], list[str], list[str]]:

@@ -190,7 +190,7 @@ class MonitoredRecording(McapSink):
     ----------
     path : Path
     bearing : Bearing
-        What the name plate says; the monitor gets nothing else of the scene.
+        What the bearing data say; the monitor gets nothing else of the scene.
     on_finding : callable, optional
         Told of every result.
     replace : bool
@@ -240,7 +240,7 @@ def results_of(
 ) -> Iterator[MonitorResult]:
     """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
 
-    The bearing is what the name plate says; the sensor is the first one by default. By default the speed is
+    The bearing is what the bearing data say; the sensor is the first one by default. By default the speed is
     as uncertain as a measured run says.
 
     Raises

@@ -72,7 +72,7 @@ plt.show()
 # %% [markdown]
 # ## What the monitor says
 #
-# It gets vibration, shaft angle and load, and the name plate of the bearing. `run.truth` has what it cannot
+# It gets vibration, shaft angle and load, and the data of the bearing. `run.truth` has what it cannot
 # know.
 
 # %%

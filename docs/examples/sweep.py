@@ -1,7 +1,7 @@
 # %% [markdown]
 # # A set of labelled runs, and a first learner on it
 #
-# Fifty runs of fifty bearings, sound or with one spall. It takes a few minutes on two cores, and goes on
+# Fifty runs of fifty bearings, healthy or with one spall. It takes a few minutes on two cores, and goes on
 # where it was when it is stopped. `pip install 'beardyn[sweep]'`.
 
 # %%

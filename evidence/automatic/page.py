@@ -174,7 +174,7 @@ def _expected_of(choice: Choice) -> dict[str, str]:
 def row(case: dict[str, Any]) -> str:
     """Write a case as a row of the page."""
     few = len(case["effects"]) < len(case["missing"])
-    effects = ", ".join(case["effects"]) if few else "full less " + (", ".join(case["missing"]) or "nothing")
+    effects = ", ".join(case["effects"]) if few else "all less " + (", ".join(case["missing"]) or "nothing")
     effects += f"; simpler {', '.join(case['simpler'])}" if case["simpler"] else ""
     asked = ", ".join(case["asked"])
     asked += f" to {1e-3 * case['to']:g} kHz" if case["to"] else ""

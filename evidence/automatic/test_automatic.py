@@ -39,11 +39,11 @@ def test_a_row_shows_what_was_found_beside_what_was_expected() -> None:
         "longer": 1,
     }
     assert row(case) == (
-        "| `static_80kN` | torque at 5 % | full, 6 laminae x 4: full less drag | torque 1.2 % (*2*) | yes |"
+        "| `static_80kN` | torque at 5 % | full, 6 laminae x 4: all less drag | torque 1.2 % (*2*) | yes |"
     )
     assert "| torque to 1 kHz at 5 % |" in row({**case, "to": 1000.0})
     assert "torque 1.2 % (*2*); it stopped | yes |" in row({**case, "status": "it stopped"})
-    assert "full less drag; simpler rib | torque" in row({**case, "simpler": ["rib"]})
+    assert "all less drag; simpler rib | torque" in row({**case, "simpler": ["rib"]})
     undecided = {**case, "asked": ["vibration"], "verdict": "open", "longer": 3}
     undecided |= {name: {"vibration": "1"} for name in ("found", "expected")}
     undecided["doubt"] = {"vibration": "40 Hz: +1 ± 2 dB"}
@@ -55,7 +55,7 @@ def test_a_kept_result_is_of_all_that_was_chosen_and_asked(monkeypatch: pytest.M
     choice = chosen_for(scene, 0.05, ("force", "torque"))
     kept = page.digest_of(scene, [choice])
     assert kept == page.digest_of(scene, [choice])
-    cage: Any = load_effects("full").cage
+    cage: Any = load_effects("all").cage
     cage = replace(cage, lubrication=None)
     for other in (
         replace(choice, laminae=20),

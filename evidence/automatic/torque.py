@@ -59,11 +59,11 @@ def _creep(summary: RunSummary) -> float:
 def found(name: str) -> Found:
     """Run a scene in every tier."""
     every = {
-        tier: bd.simulate(name, effects="full", tier=tier, duration=SECONDS).summary
+        tier: bd.simulate(name, effects="all", tier=tier, duration=SECONDS).summary
         for tier in ("full", "quasistatic", "lumped")
     }
     dry = bd.simulate(name, effects={"preset": "dry", "audit": {}}, tier="full", duration=SECONDS).summary
-    losses = Evidence(bd.scene(name, effects=load_effects("full"), tier="full")).losses
+    losses = Evidence(bd.scene(name, effects=load_effects("all"), tier="full")).losses
     return Found(
         -every["full"].shaft_torque,
         _creep(every["full"]),

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.config.folders import config_folder
+from beardyn_core.base.config_folder import config_folder
 from beardyn_core.follow.estimate_json import Estimates
 from beardyn_core.follow.estimator import read_estimator
 from beardyn_core.follow.labelled import Described, describe_runs

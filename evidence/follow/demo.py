@@ -21,7 +21,7 @@ from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.quantities import BY_NAME
 
 TRAIN = "service_high_speed_cup"  # a spalled cup, full tier, a box that rings, drive, track and knocks
-BESIDE = "service_high_speed"  # what the follower knows of the axlebox: a sound bearing in it
+BESIDE = "service_high_speed"  # what the follower knows of the axlebox: a healthy bearing in it
 LATERAL_LOAD_KN, END_PLAY_MM, SECONDS = 8.0, 0.15, 15.2
 WIDTH_MM, LENGTH_MM, DEPTH_UM = 6.0, 25.0, 100.0
 TRUTH = {

@@ -1,4 +1,4 @@
-"""Follow drifts of axleboxes in the tier `full`: a load that steps, a spall that grows, warming, sound ones.
+"""Follow drifts of axleboxes in the tier `full`: a load that steps, a spall that grows, warming, none.
 
 ``python -m evidence.follow.drift --keep FOLDER`` simulates every drift, follows it by the estimator that is
 shipped, prints a table with the lag of each and writes it into docs/estimate.md. What a stretch sounded like
@@ -24,7 +24,7 @@ from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.following import SOUND, WAITING, Followed
+from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.run_stretches import follower_of
@@ -79,7 +79,7 @@ def growing_spall() -> list[Piece]:
 
 
 def warming() -> list[Piece]:
-    """Make a sound bearing that warms from 30 to 90 degrees Celsius within an hour."""
+    """Make a healthy bearing that warms from 30 to 90 degrees Celsius within an hour."""
     truth = {"lateral_load": 5e3, "end_play": 1e-4}
     return [
         Piece(1, {"lateral_kN": 5.0, "temperature_C": warm, "seed": k + 1}, truth, time=900.0 * k)
@@ -88,7 +88,7 @@ def warming() -> list[Piece]:
 
 
 def sound_mileage() -> list[Piece]:
-    """Make a sound bearing over 200 000 km, on another track each time."""
+    """Make a healthy bearing over 200 000 km, on another track each time."""
     return [Piece(2, {"seed": k + 1}, {"end_play": 1e-4}, 4e7 * k, 10.0 * k, anew=k > 0) for k in range(6)]
 
 
@@ -96,7 +96,7 @@ DRIFTS = {
     "load step": load_step,
     "growing spall": growing_spall,
     "warming": warming,
-    "sound over mileage": sound_mileage,
+    "healthy over mileage": sound_mileage,
 }
 
 
@@ -192,12 +192,12 @@ def told(
 
 
 def false_growth(found: Sequence[Sequence[Followed]]) -> str:
-    """Say whether a sound bearing was said to be spalled, and whether its rate of growth moved."""
+    """Say whether a healthy bearing was said to be spalled, and whether its rate of growth moved."""
     every = [step for steps in found for step in steps]
     rates = np.array([step.rate[0] for step in every])
-    wrong = sum(step.health not in (WAITING, SOUND) for step in every)
+    wrong = sum(step.health not in (WAITING, HEALTHY) for step in every)
     return (
-        f"Sound over mileage: {wrong} of {len(every)} stretches have another health than `sound` or "
+        f"Healthy over mileage: {wrong} of {len(every)} stretches have another health than `healthy` or "
         f"`waiting`, and the rate of growth is {rates[-1] / rates[0]:.2f} times what it was at first."
     )
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.stats import binom
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.config.folders import config_folder
+from beardyn_core.base.config_folder import config_folder
 from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.judging import CROSSWISE, Guessed, judged_crosswise, score_of

@@ -17,7 +17,7 @@ from evidence.follow import drift
 from evidence.follow.drift import DRIFTS, Piece
 
 
-def step(low: float, high: float, health: str = "sound", rate: float = 1e-10) -> Any:
+def step(low: float, high: float, health: str = "healthy", rate: float = 1e-10) -> Any:
     """Make what following came to: an interval of the lateral load [kN]."""
     ends = ((1e3 * low, 1e3 * high),) * 2
     told = SimpleNamespace(
@@ -40,7 +40,7 @@ def test_the_lag_is_counted_from_the_step_until_the_truth_stays_inside(pieces: l
     assert drift.lag(pieces, [before, [step(8.0, 14.0)]], "lateral_load", 1) == 0
     assert drift.lag(pieces, [before, [step(8.0, 14.0), step(0.0, 1.0)]], "lateral_load", 1) is None
     row = drift.told("load step", pieces, late, 1.5)[0]
-    assert "| -5 kN to 12 kN | 11 kN, 8 kN to 14 kN | 3 stretches, 4.5 s | 2 of 2 | sound |" in row
+    assert "| -5 kN to 12 kN | 11 kN, 8 kN to 14 kN | 3 stretches, 4.5 s | 2 of 2 | healthy |" in row
     missed = drift.told("load step", pieces, [before, [step(0.0, 1.0)]], 1.5)[0]
     assert "| never |" in missed
 

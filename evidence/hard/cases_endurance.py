@@ -42,7 +42,7 @@ def _restart(name: str, fast: bool = False, **changes: object) -> HardCase:
 
 CASES = (
     _restart("standard", fast=True),
-    _restart("full", effects="full"),
+    _restart("full", effects="all"),
     _restart("dry", effects="dry"),
     _restart("lumped", fast=True, tier="lumped"),
     _restart("quasistatic", fast=True, tier="quasistatic"),

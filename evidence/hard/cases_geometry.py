@@ -11,7 +11,6 @@ from evidence.hard.case import HardCase, Limit, Point, steady, through
 SPEED = 122.0
 RADIAL = (0.0, 0.0, 8.0e4)
 CARRIED = (Limit("mean_force", 0.98 * 8e4, 1.01 * 8e4),)
-SEIZED = {"polar_inertia_kg_m2": 1e4, "mass_kg": 0.4}
 
 
 def _rollers(count: int) -> dict[str, Any]:

@@ -80,7 +80,7 @@ def scene_of(
     **thermal: Any,
 ) -> Scene:
     """Build the scene of a state at a speed of the train, with every effect on."""
-    scene = load_scene("static_80kN", effects="full")
+    scene = load_scene("static_80kN", effects="all")
     options = Thermal(**{"ambient": AMBIENT, "wheel_diameter": WHEEL, **dict(state.thermal), **thermal})
     fill = Drag().fill if state.fill is None else state.fill
     torque = Seal().torque if state.seal_torque is None else state.seal_torque

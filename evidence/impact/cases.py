@@ -7,13 +7,13 @@ from typing import Annotated as A
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ContactDamping, ModalStructure
 from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import RATES, Accelerometer
 from beardyn_core.scene.surface import SHORTEST_WAVE
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 
 BOX = "high_speed"
 EFFECTS = "full"
@@ -92,11 +92,11 @@ def over_width(speed: float) -> tuple[Case, ...]:
 
 
 def healthy(speed: float, load: float = 8e4) -> Case:
-    """Give the run of a sound bearing beside those at a speed [km/h] and load [N]."""
+    """Give the run of a healthy bearing beside those at a speed [km/h] and load [N]."""
     return Case(0.0, speed, load)
 
 
-# what makes strikes of a sound bearing, taken away one by one
+# what makes strikes of a healthy bearing, taken away one by one
 LEFT_OUT: dict[str, Case] = {
     "sound": healthy(90.0),
     "waves to 1 mm": replace(healthy(90.0), shortest_wave=1e-3),
@@ -158,7 +158,7 @@ LOADED: dict[str, tuple[Case, ...]] = {
 
 
 def ranged() -> list[Case]:
-    """List all runs of `GROWING`, `LOADED` and a sound bearing over `SPEED_RANGE`, each once."""
+    """List all runs of `GROWING`, `LOADED` and a healthy bearing over `SPEED_RANGE`, each once."""
     kinds = [case for series in (GROWING, LOADED) for cases in series.values() for case in cases]
     return list(dict.fromkeys(each for case in [Case(0.0), *kinds] for each in over_range(case)))
 

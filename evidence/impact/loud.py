@@ -14,7 +14,7 @@ from evidence.impact.study import heard, loudness
 from evidence.pages import render
 
 HEAVIEST = 1e4  # load of the roller in the middle of the load zone under 80 kN, about [N]
-CLEARLY = 1.05  # times the kurtosis of a sound bearing
+CLEARLY = 1.05  # times the kurtosis of a healthy bearing
 
 
 def loud_row(name: str, cases: tuple[Case, ...], sound: tuple[Case, ...]) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ def front(ladder: str) -> str:
     rows = [f"| {row}" for row in _ROW.findall(ladder)]
     return "\n".join(
         [
-            f"What accuracy costs in [`{SCENE}`](docs/ladder.md), a sound bearing of a driven axle at 200 "
+            f"What accuracy costs in [`{SCENE}`](docs/ladder.md), a healthy bearing of a driven axle at 200 "
             f"km/h in a box that rings, on one core of {machine[1]}: errors against tier `full` with "
             "every effect, 40 laminae and 8 steps. *6 laminae x 3*: contacts in 6 slices, 3 time steps for "
             "each sample of 25.6 kHz; rows without a tier are of `full`. Brackets: no larger than what two "

@@ -120,7 +120,7 @@ def lessons(ladder: Ladder) -> list[str]:
     for quantity in ("torque", "deflection"):
         title = f"Effects (full tier, 6 laminae x {USUAL_STEPS})"
         found += _along(usual, lambda row: row.level.effects_name, title, quantity)
-    every = [row for row in full if row.level.effects_name == "full"]
+    every = [row for row in full if row.level.effects_name == "all"]
     found += _along(
         [row for row in every if row.level.steps_per_sample == USUAL_STEPS],
         lambda row: f"{row.level.laminae}",

@@ -69,7 +69,7 @@ def scene_of(effects: str, load_kn: float, speed_rpm: float) -> Scene:
         )
     if effects == FAST:
         turning = max(LISTENED, FAST_TURNS * 60.0 / speed_rpm)
-        scene = load_scene("static_5kN", effects="full", tier=FAST)
+        scene = load_scene("static_5kN", effects="all", tier=FAST)
         return replace(scene, operation=operation, duration=DURATION - LISTENED + turning)
     return replace(load_scene("static_5kN", effects=effects), operation=operation, duration=DURATION)
 

@@ -34,7 +34,7 @@ COLOURS = 32
 
 def write(points: list[Point], chosen: list[Point]) -> None:
     """Write page and picture."""
-    scene = load_scene("static_5kN", effects="full")
+    scene = load_scene("static_5kN", effects="all")
     rating = dynamic_rating(scene.bearing).radial
     minimum = MINIMUM_SHARE * rating * 1e-3
     draw(points, minimum, PICTURE)

@@ -140,7 +140,7 @@ def ours_over_load(depth: float = DEEP) -> float:
 
 
 def ratio(thousandths: int, waves: bool = True) -> float:
-    """Compute rms with a spall like one of CWRU over that of a sound bearing, races with waves or without."""
+    """Compute rms with a spall like one of CWRU over that of a healthy one, races with waves or without."""
     return ours(alike(thousandths, waves=waves)).rms / ours(alike(0, waves=waves)).rms
 
 
@@ -167,7 +167,7 @@ spall of known size was found, and papers on them were at hand as abstracts. The
 motor and of rigs: what can be compared are ratios, powers and kurtosis. Ours are of [impact.md](impact.md),
 tier `full` in the box `high_speed`, 80 kN.
 
-## Sound bearings
+## Healthy bearings
 
 Rms from 0.1 to 5.6 kHz; kurtosis of everything, then from 5 to 16 kHz or to 0.47 of the rate. *To 1 mm*:
 the waves of raceways and rollers end there (`scatter: {{shortest_wave_mm: 1}}`); in shipped scenes they go on
@@ -180,13 +180,13 @@ FAULTS = """
 **Measured healthy bearings are Gaussian from 5 kHz on; ours of tier `full` are not at low speed where their
 waves end at 1 mm.**
 
-## Faults of the outer race over sound bearings
+## Faults of the outer race over healthy bearings
 
 CWRU cut round faults of 0.18, 0.36 and 0.53 mm. Under {ball:g} N, which is assumed, a ball's contact is
 {width:.2f} by {length:.2f} mm (Hamrock and Brewe), under 10 kN our roller's {ours_width:.2f} by
 {whole:.0f} mm; ours are as wide and as long beside that, 400 um deep, in the middle of the load zone, the
 shaft turns with {shaft:g} Hz. *Smooth*: ours with raceways and rollers without waves. Rms from 0.1 to 5.6
-kHz over that of the sound bearing at the same end; least, middle and most of all records of that size, at
+kHz over that of the healthy bearing at the same end; least, middle and most of all records of that size, at
 every place on the clock.
 
 | fault mm | records | measured | kurtosis | ours mm | ours | kurtosis | within | smooth |

@@ -69,7 +69,7 @@ def text(heard: Sequence[Heard], absent: str) -> str:
         "grades": list(_grade_rows(faulty)),
         "sound": [
             ("beside a faulty one", *_alarms(beside, BEFORE_BESIDE)),
-            ("in a sound machine", *_alarms(sound, BEFORE_SOUND)),
+            ("in a healthy machine", *_alarms(sound, BEFORE_SOUND)),
         ],
         "records": [
             _row(record, list(group_of)) for record, group_of in groupby(heard, key=lambda each: each.record)
@@ -152,7 +152,7 @@ def absent_of(found: Sequence[Record]) -> str:
     missing = Counter(group for number, (group, *_) in cwru_known().items() if number not in have)
     told = [f"{missing[group]} of {group}" for group in SETS if missing[group]]
     if not any(each.group == "MFPT" and not each.part for each in found):
-        told.append("the sound baselines of MFPT")
+        told.append("the healthy baselines of MFPT")
     return ", ".join(told) if told else "nothing"
 
 

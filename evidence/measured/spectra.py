@@ -1,6 +1,6 @@
 """Other spectra than the chain's, on the part for choosing: ``python -m evidence.measured.spectra``.
 
-What each finds in the first analyses of the records of Y1 and Y2, 12 kHz, drive end, and of the sound
+What each finds in the first analyses of the records of Y1 and Y2, 12 kHz, drive end, and of the healthy
 bearings beside. Thresholds of sums of exponentials do not hold for spectra that are averages over carriers,
 so all are judged alike, without one: a part is called when its lines stand out of the same pattern laid at
 orders where no fault is, by more than `OUT` standard deviations and further than any of these.

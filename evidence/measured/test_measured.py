@@ -48,7 +48,7 @@ def struck(order: float, rate: float, turns: float, seconds: float, seed: int = 
 
 @pytest.fixture(scope="module")
 def folders(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    """Files as those of the two public sets: a spalled cup, a sound machine, a spalled cone."""
+    """Files as those of the two public sets: a spalled cup, a healthy machine, a spalled cone."""
     cwru, mfpt = tmp_path_factory.mktemp("cwru"), tmp_path_factory.mktemp("mfpt")
     turns = RPM / 60.0
     (cwru / "OR").mkdir()

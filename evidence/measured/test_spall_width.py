@@ -1,4 +1,4 @@
-"""The page of widths counts what was measured, what was not, and sound bearings that were given a width."""
+"""The page of widths counts what was measured, what was not, and healthy bearings that were given a width."""
 
 from math import nan
 
@@ -17,7 +17,7 @@ def test_page_counts_hits_misses_and_false_widths():
     )
     assert "Of 2 measured widths 1 lie within their interval" in text
     assert "0.60 mm in the median and 1.00 mm at most" in text
-    assert "of sound bearings 1 were given a width" in text
+    assert "of healthy bearings 1 were given a width" in text
     assert "| cup | 6 | 6.2 (5.7 to 6.7) | 7.0 (6.5 to 7.5) |" in text
 
 

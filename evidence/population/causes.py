@@ -42,7 +42,7 @@ def _by_size(runs: LabelledSet) -> dict[str, float]:
 
 
 def _by_width(runs: LabelledSet) -> list[dict[str, float]]:
-    """Share of the runs with a spall that are named right, by its width; and of the sound ones."""
+    """Share of the runs with a spall that are named right, by its width; and of the healthy ones."""
     chosen = runs.runs_of(TEST)
     known = runs.labels_of(chosen, ["condition", *NAMES])
     right = Learner().fit(runs).conditions(known) == known["condition"].astype(str)

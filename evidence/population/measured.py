@@ -31,7 +31,7 @@ class Record:
 
     path: Path
     condition: A[str, "in the words of an axlebox: cup for outer ring, cone for inner ring"]
-    plate: A[str, "name plate of the bearing"]
+    plate: A[str, "data of the bearing"]
     options: A[dict[str, Any], "how it is read"]
 
 

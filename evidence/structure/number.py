@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.config.structure import modes_of_effects, mounting_of, table_path
 from beardyn_core.effects import ModalStructure
 from beardyn_core.experiments import core_count
 from beardyn_core.experiments.loop import all_of
@@ -21,6 +20,7 @@ from beardyn_core.rail.build import load_history
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.build import load_zone
 from beardyn_core.structure.modes import Modes
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of, table_path
 from beardyn_core.structure.table import read_table, table_text
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from beardyn_core.twin import Twin

@@ -13,11 +13,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import kurtosis
 
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
 from beardyn_core.experiments.loop import all_of
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from beardyn_core.study.measures import BAND_CENTRES, third_octave_levels
 from evidence.standard import standard_scene
 

@@ -1,9 +1,9 @@
 """Rollers in their pockets in two tiers: ``python -m evidence.trial.pockets``.
 
 Slip of the cages, scatter of the rollers' spacing in the load zone, torque, and the lines of the rollers'
-passing over their surroundings, of sound bearings of the trial `healthy` on a round wheel; next to no noise.
-Means of some runs: from one to the next the track, and how rollers lie in their pockets, differ by chance,
-and a line by up to 4 dB (one standard deviation).
+passing over their surroundings, of healthy bearings of the trial `healthy` on a round wheel; next to no
+noise. Means of some runs: from one to the next the track, and how rollers lie in their pockets, differ by
+chance, and a line by up to 4 dB (one standard deviation).
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Moved:
 
 
 def scene_of(trial: Trial, tier: str, speed: float) -> Scene:
-    """Make the scene of a sound bearing at a speed [km/h]; next to no noise."""
+    """Make the scene of a healthy bearing at a speed [km/h]; next to no noise."""
     cell = next(
         cell
         for cell in trial.cells()

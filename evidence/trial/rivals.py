@@ -35,7 +35,7 @@ class Judged:
 
     method: str
     run: A[str, "key of its cell"]
-    fault: A[str, "``none`` of a sound bearing"]
+    fault: A[str, "``none`` of a healthy bearing"]
     verdict: A[str, "of most analyses"]
     alarms: A[int, "analyses that call a part"]
     analyses: int
@@ -59,7 +59,7 @@ def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
 def table(judged: Sequence[Judged]) -> str:
     """Write what each monitor found, named wrongly and missed, and its false alarms, as a table."""
     lines = [
-        "| monitor | right | another part | missed | sound runs with a false alarm | analyses of them |",
+        "| monitor | right | another part | missed | healthy runs with a false alarm | analyses of them |",
         "|---|---|--:|--:|---|---|",
     ]
     for method in METHODS:

@@ -1,6 +1,6 @@
 """A spall in service in two tiers, and what it has to stand out of: ``python -m evidence.trial.tiers``.
 
-Third octaves of a sound bearing, of the difference in power that a spall of 4 mm on the cup makes, and line
+Third octaves of a healthy bearing, of the difference in power that a spall of 4 mm on the cup makes, and line
 and noise of the squared envelope in three bands, on a round wheel with the background of the trial `default`.
 """
 
@@ -80,7 +80,7 @@ def hear(scene: Scene, speed: float) -> Heard:
 
 
 def added(spalled: Float, sound: Float) -> Float:
-    """Take the power of a sound bearing off that of a spalled one, [dB]; NaN where nothing is left."""
+    """Take the power of a healthy bearing off that of a spalled one, [dB]; NaN where nothing is left."""
     more = 10.0 ** (0.1 * spalled) - 10.0 ** (0.1 * sound)
     return np.asarray(10.0 * np.log10(np.where(more > 0.0, more, np.nan)))
 

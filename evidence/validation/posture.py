@@ -67,7 +67,7 @@ def closure_per_kelvin() -> float:
     From the steady state in which the bearing heats itself at the source's mean load and highest speed. An
     oven would heat cup and cone alike and close nothing.
     """
-    scene = _with_load(load_scene("static_80kN", effects="full"), Condition())
+    scene = _with_load(load_scene("static_80kN", effects="all"), Condition())
     effects = replace(scene.effects, thermal=Thermal(ambient=ROOM))
     warm = steady_heat(replace(scene, effects=effects, end_play=MOUNTED_PLAY, temperature=ROOM))
     return (MOUNTED_PLAY - warm.end_play) / (film_temperature(warm.temperature) - ROOM)
@@ -81,7 +81,7 @@ def end_play(condition: Condition) -> float:
 
 def scene_of(condition: Condition) -> Scene:
     """Put the condition on a bearing of grade G1 in a rig or an axlebox, with every effect on."""
-    scene = _with_load(load_scene("static_80kN", effects="full"), condition)
+    scene = _with_load(load_scene("static_80kN", effects="all"), condition)
     mounting = replace(
         scene.mounting,
         cup="suspended",

@@ -62,7 +62,7 @@ class Rig:
 
 def scene_of(rig: Rig, speed_rpm: float) -> Scene:
     """Put one row on its rig, with the effects of the reference that it has."""
-    scene = load_scene("static_80kN", effects="full")
+    scene = load_scene("static_80kN", effects="all")
     film = replace(scene.effects.film or LineFilm(), supply=rig.supply)
     rib = scene.effects.rib or Rib()
     assert isinstance(rib.lubrication, RibMixedFilm)

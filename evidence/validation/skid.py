@@ -65,7 +65,7 @@ RIG_CELSIUS = (40.0, 70.0, 100.0)
 
 def scene_of(load: float, filling: Filling, start: float = ROLLING) -> Scene:
     """Put a radial load in kN on the bearing, its cages at a part of the rolling speed."""
-    scene = load_scene("static_80kN", effects="full")
+    scene = load_scene("static_80kN", effects="all")
     old = scene.effects
     assert isinstance(old.cage, Cage)
     effects = replace(

@@ -45,10 +45,10 @@ MBA = (
     "Al-Ghamd and Mba 2006, Mech. Syst. Signal Process. 20, 1537, acoustic emission of seeded defects of a "
     "roller bearing's outer race, the duration from memory"
 )
-DYER = "Dyer and Stewart 1978, J. Mech. Des. 100, 229, from memory: 3 for any sound bearing"
+DYER = "Dyer and Stewart 1978, J. Mech. Des. 100, 229, from memory: 3 for any healthy bearing"
 CREST = (
-    "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of sound ball bearings of "
-    "a motor at four speeds, as quoted in github.com/bersamin12/nebulax (rail_phm.md)"
+    "Jain and Bhosle 2022, Int. J. Adv. Technol. Eng. Explor. 9(90): 4.22 to 5.59 of healthy ball bearings "
+    "of a motor at four speeds, as quoted in github.com/bersamin12/nebulax (rail_phm.md)"
 )
 TARAWNEH = (
     "Tarawneh and others, University of Texas: rms against spall area of freight axlebox bearings on a rig, "
@@ -69,8 +69,8 @@ UNCOVERED = (
     "load zone (docs/impact.md)"
 )
 CWRU = (
-    "CWRU, 12 kHz, outer races of 6205 and 6203 over the sound bearing at the same end, least to largest of "
-    "all records of the size (docs/levels.md)"
+    "CWRU, 12 kHz, outer races of 6205 and 6203 over the healthy bearing at the same end, least to largest "
+    "of all records of the size (docs/levels.md)"
 )
 OUR_WAVES = "the waves of our raceways, whose height is assumed: over smooth ones it is 3.4"
 MFPT_LOADS = "MFPT, fault of the outer and of the inner race, 0 to 300 lbf: 0.07 and 0.28 (docs/levels.md)"
@@ -78,7 +78,7 @@ DEEP_ONES = (
     "the depth, 400 um by assumption: on floors of 3 and 5 um, on which rollers rest, it is 0.06 and 0.29; "
     "the source tells none"
 )
-# least and largest rms of a fault of so many thousandths of an inch, over that of a sound bearing
+# least and largest rms of a fault of so many thousandths of an inch, over that of a healthy bearing
 FAULTS_OF_CWRU = {7: (1.3, 12.7), 14: (1.4, 12.7), 21: (1.8, 11.4)}
 SATURATES = (
     "from about 2 mm on a roller carries nothing over the length of the spall, whose growth is the row "
@@ -94,7 +94,7 @@ AS_SHARP = (
     "200 km/h twice as fast at the exit"
 )
 WIDE = 4e-3  # from here on the two events of a crossing are apart [m]
-IMPULSIVE = 3e-3  # from here on a spall must be more impulsive than a sound bearing [m]
+IMPULSIVE = 3e-3  # from here on a spall must be more impulsive than a healthy bearing [m]
 
 
 def way_per_width(speed: float) -> float:
@@ -104,17 +104,17 @@ def way_per_width(speed: float) -> float:
 
 
 def sound_kurtosis(speed: float) -> float:
-    """Return the kurtosis of a sound bearing at a speed [km/h]."""
+    """Return the kurtosis of a healthy bearing at a speed [km/h]."""
     return heard(healthy(speed)).kurtosis
 
 
 def sound_ringing(speed: float, shortest_wave: float = SHORTEST_WAVE) -> float:
-    """Return the kurtosis of a sound bearing from 5 to 16 kHz at a speed [km/h]."""
+    """Return the kurtosis of a healthy bearing from 5 to 16 kHz at a speed [km/h]."""
     return heard(replace(healthy(speed), shortest_wave=shortest_wave)).ringing
 
 
 def sound_crest(speed: float) -> float:
-    """Return the crest factor of a sound bearing at a speed [km/h]."""
+    """Return the crest factor of a healthy bearing at a speed [km/h]."""
     signal = run(healthy(speed)).signal
     return float(np.abs(signal).max() / np.sqrt(np.mean(signal**2)))
 
@@ -182,7 +182,7 @@ def burst_grows() -> Finding:
 
 
 def more_impulsive(part: str) -> Finding:
-    """Compare the kurtosis of spalls and sound bearings, of the whole signal or of its ringing band."""
+    """Compare the kurtosis of spalls and healthy bearings, of the whole signal or of its ringing band."""
     found, holds = {}, True
     for speed in BOTH:
         sound = getattr(heard(healthy(speed)), part)
@@ -190,7 +190,7 @@ def more_impulsive(part: str) -> Finding:
         values = [getattr(heard(case), part) for case in cases]
         holds = holds and all(value > (1.0 + HOLDS_FROM) * sound for value in values)
         found[speed] = [sound, *values]
-    return at_both(f"Kurtosis of a sound bearing, then of spalls of {widths(cases)}", found, holds)
+    return at_both(f"Kurtosis of a healthy bearing, then of spalls of {widths(cases)}", found, holds)
 
 
 def grows(over: str, cases: Mapping[float, Sequence[Case]]) -> Finding:
@@ -219,7 +219,7 @@ ANCHORS = (
     *(
         Anchor(
             MEASURED_LEVELS,
-            f"kurtosis of a sound bearing from 5 kHz on, {speed:g} km/h{words}",
+            f"kurtosis of a healthy bearing from 5 kHz on, {speed:g} km/h{words}",
             3.1,
             "",
             PRONOSTIA,
@@ -238,7 +238,7 @@ ANCHORS = (
     *(
         Anchor(
             MEASURED_LEVELS,
-            f"rms of a fault of {1e3 * size * INCH:.2f} mm in the outer race over that of a sound bearing",
+            f"rms of a fault of {1e3 * size * INCH:.2f} mm in the outer race over that of a healthy bearing",
             0.5 * (least + most),
             "",
             CWRU,
@@ -278,7 +278,7 @@ ANCHORS = (
     *(
         Anchor(
             TOPIC,
-            f"kurtosis of a sound bearing, {speed:g} km/h",
+            f"kurtosis of a healthy bearing, {speed:g} km/h",
             3.0,
             "",
             DYER,
@@ -292,7 +292,7 @@ ANCHORS = (
     *(
         Anchor(
             TOPIC,
-            f"crest factor of a sound bearing, {speed:g} km/h",
+            f"crest factor of a healthy bearing, {speed:g} km/h",
             4.9,
             "",
             CREST,
@@ -312,7 +312,7 @@ TRENDS = (
     Trend(TOPIC, "the entry is a soft step, the exit sharper", SAWALHI, exit_is_sharper, misses=AS_SHARP),
     Trend(TOPIC, "bursts last longer from wider spalls", MBA, burst_grows, misses=SHORTEST),
     Trend(
-        TOPIC, "a spall from 3 mm is more impulsive than a sound bearing", DYER,
+        TOPIC, "a spall from 3 mm is more impulsive than a healthy bearing", DYER,
         partial(more_impulsive, "kurtosis"),
     ),
     Trend(TOPIC, "and so it is from 5 to 16 kHz", DYER, partial(more_impulsive, "ringing")),

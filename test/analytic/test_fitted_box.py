@@ -13,12 +13,12 @@ from beardyn_core.cli import main as command
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.load import read_scene_mapping
 from beardyn_core.config.nouns import box_for, load_bearing, load_box
-from beardyn_core.config.structure import mounting_of, require_cup, table_path
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import modes_of
 from beardyn_core.structure.fitting import fit_box
+from beardyn_core.structure.mounted_box import mounting_of, require_cup, table_path
 from beardyn_core.structure.table import read_table
 from test.finite_elements import need_finite_elements
 

@@ -26,7 +26,7 @@ NAMES = ("HS130x230", "FR130x230x150", "AARK_6.5x9", "METRO120x220")
 
 
 def bearings() -> st.SearchStrategy[Bearing]:
-    """Sound bearings around the shipped ones, angle and diameter varied."""
+    """Healthy bearings around the shipped ones, angle and diameter varied."""
     return st.builds(
         lambda name, angle, diameter, ratio, height: dataclasses.replace(
             load_bearing(name),

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
 from beardyn_core.measured.trending import read_memory, remember
@@ -105,6 +106,9 @@ def test_command_watches_short_records_and_remembers(tmp_path, capsys):
     memory = ["--memory", str(tmp_path / "memory.json")]
     assert main(["monitor", *map(str, files[:55]), *options, *memory]) == 0
     assert "steady" in capsys.readouterr().out.splitlines()[-1]
+    keys = {"channels": "x=1,z=2", "unit": "g", "rate_Hz": 12_800, "file_interval_s": 10}
+    assert len(bd.trend(files[:55], memory=tmp_path / "python.json", **keys)) == 55
+    assert (tmp_path / "python.json").read_bytes() == (tmp_path / "memory.json").read_bytes()
     assert main(["monitor", *map(str, files[55:]), *options, *memory, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["trend"]
     assert found[0]["state"] == "steady"

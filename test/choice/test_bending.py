@@ -15,11 +15,11 @@ from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.ringing import levels
 from beardyn_core.effects import ModalStructure
 from beardyn_core.physics.ring_modes import body_of
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene
 from test.choice.scenes import reasons, variant
 
-IN_BOX: dict[str, Any] = {"preset": "full", "structure": {"kind": "modes", "table": "high_speed"}}
+IN_BOX: dict[str, Any] = {"preset": "all", "structure": {"kind": "modes", "table": "high_speed"}}
 AUTO = {**IN_BOX, "preset": "auto"}
 FAST_SENSOR = [{"name": "top", "position_mm": [0, 0, 170], "rate_kHz": 51.2}]
 
@@ -73,7 +73,7 @@ def test_fewer_modes_bend_as_much_under_a_load_and_cost_less(evidence: Evidence)
 
 def test_a_rigid_box_far_above_its_bounce_is_pushed_by_the_springs_alone() -> None:
     """Neither ring moves as far as the gap changes: each force is stiffness times gap."""
-    there = Evidence(variant(effects={"preset": "full", "structure": False, "contact_damping": False}))
+    there = Evidence(variant(effects={"preset": "all", "structure": False, "contact_damping": False}))
     scene, static, bearing = there.scene, there.typical, there.scene.bearing
     loads = static.cup_load
     stiffness = np.where(static.cone_load > 0.0, roller_tangent(bearing) * loads**0.1, 0.0)
@@ -129,11 +129,11 @@ def test_auto_of_the_command_line_leaves_the_bearing_in_its_box(scene: str) -> N
 
 def test_a_sensor_is_told_what_rings_beyond_its_band(evidence: Evidence) -> None:
     (usual,) = rates_told(evidence)
-    assert "at 25.6 kHz hears to 10.2 kHz, and 22 modes of the box ring above" in usual
+    assert "at 25.6 kHz measures to 10.2 kHz, and 22 modes of the box ring above" in usual
     assert "rate_kHz 51.2 hears it" in usual
     (fast,) = rates_told(Evidence(boxed(sensors=FAST_SENSOR)))
     assert "the modes of the box end at 12.8 kHz" in fast
-    assert list(rates_told(Evidence(variant(effects="full")))) == []
+    assert list(rates_told(Evidence(variant(effects="all")))) == []
 
 
 def test_a_fast_sensor_asks_for_its_whole_band() -> None:
@@ -153,6 +153,6 @@ def test_a_lower_band_needs_fewer_modes_and_longer_steps() -> None:
 
 
 def test_no_band_is_asked_for_that_no_sensor_hears() -> None:
-    with pytest.raises(InputError, match="vibration_to_Hz is 15000; the sensors hear to 10240 Hz"):
+    with pytest.raises(InputError, match="vibration_to_Hz is 15000; the sensors measure to 10240 Hz"):
         boxed(vibration_to_Hz=15000)
     assert boxed(vibration_to_Hz=15000, sensors=FAST_SENSOR).vibration_to == 15000.0

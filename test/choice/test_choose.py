@@ -304,7 +304,7 @@ def test_the_recorded_scene_reads_back_as_it_was_chosen() -> None:
 @pytest.mark.parametrize("name", ["smooth_run", "static_5kN"])
 @pytest.mark.parametrize("quantity", fast_ones(["deflection", "torque", "vibration"], 2))
 def test_a_tighter_accuracy_never_gives_a_cheaper_choice(name: str, quantity: str) -> None:
-    scene = load_scene(name, effects="full", duration=1.0)
+    scene = load_scene(name, effects="all", duration=1.0)
     costs = [
         choose(replace(scene, accuracy=accuracy, quantities=(quantity,))).seconds
         for accuracy in (0.2, 0.05, 0.02, 0.001)
@@ -320,7 +320,7 @@ def test_one_percent_costs_more_than_ten() -> None:
 
 
 def test_every_expected_error_is_within_what_was_asked_for() -> None:
-    scene = replace(load_scene("cup_spall", effects="full", duration=1.0), accuracy=0.05)
+    scene = replace(load_scene("cup_spall", effects="all", duration=1.0), accuracy=0.05)
     chosen = choose(scene)
     assert chosen.within
     assert max(error for name, error in chosen.expected.items() if name != "vibration") <= 0.05
@@ -330,7 +330,7 @@ def test_every_expected_error_is_within_what_was_asked_for() -> None:
 def test_the_reference_itself_is_expected_to_have_no_error() -> None:
     from beardyn_core.scene.scene import NOTHING
 
-    scene = load_scene("smooth_run", effects="full", duration=1.0)
+    scene = load_scene("smooth_run", effects="all", duration=1.0)
     found = choose(replace(scene, numerics=replace(scene.numerics, laminae=40)), NOTHING)
     assert found.expected == pytest.approx(dict.fromkeys(scene.quantities, 0.0), abs=2e-3)
 
@@ -349,6 +349,6 @@ def test_a_light_axlebox_gets_the_step_of_its_mode(tier: str) -> None:
     [("smooth_run", 400.0, False), ("smooth_run", 1000.0, True), ("cup_spall", 400.0, True)],
 )
 def test_third_octaves_that_fast_tiers_miss_need_the_full_one(name: str, to: float, full: bool) -> None:
-    """Within 1.5 dB a fast tier has those of a sound bearing to 400 Hz."""
+    """Within 1.5 dB a fast tier has those of a healthy bearing to 400 Hz."""
     scene = load_scene(name, tier="auto", effects="auto", vibration_to=to)
     assert (scene.tier == "full") == full

@@ -162,7 +162,7 @@ def test_a_trial_with_effects_chooses_nothing(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_together_every_effect_is_on_that_one_needs_and_of_the_kind_that_leaves_out_least() -> None:
-    full, dry = load_effects("full"), load_effects("dry")
+    full, dry = load_effects("all"), load_effects("dry")
     less = replace(full, seal=None, small_rib=None, audit=None)
     both = together([less, replace(dry, seal=full.seal)], full)
     assert both.seal == full.seal

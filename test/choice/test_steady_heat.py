@@ -27,7 +27,7 @@ RPM = math.pi / 30.0
 
 
 def at(speed_rpm: float, end_play: float = 1e-4, thermal: Thermal | None = None) -> Scene:
-    scene = load_scene("static_80kN", effects="full")
+    scene = load_scene("static_80kN", effects="all")
     operation = ConstantOperation(force=(0.0, 0.0, 80e3), speed=speed_rpm * RPM)
     effects = replace(scene.effects, thermal=thermal or Thermal())
     return replace(scene, effects=effects, end_play=end_play, temperature=293.15, operation=operation)
@@ -71,7 +71,7 @@ def test_a_bearing_that_closes_up_runs_away_and_is_told() -> None:
 @pytest.mark.slow
 def test_python_asks_for_it_by_the_name_of_a_scene() -> None:
     """The scene's end play is that at its 70 °C, and all parts start from there."""
-    found = bd.steady_heat("static_80kN", effects="full")
+    found = bd.steady_heat("static_80kN", effects="all")
     assert found.rise("axlebox") == pytest.approx(steady_heat(at(1165.0, 0.0)).rise("axlebox"), rel=1e-6)
     assert found.power == pytest.approx(sum(found.torque.values()) * 1165.0 * RPM)
 
@@ -86,7 +86,7 @@ def test_a_load_without_equilibrium_is_an_error() -> None:
 
 @pytest.mark.slow
 def test_torque_by_source_is_that_of_a_run() -> None:
-    scene = replace(load_scene("static_80kN", effects="full"), duration=0.4)
+    scene = replace(load_scene("static_80kN", effects="all"), duration=0.4)
     ours = torque_by_source(scene, circumstances(scene).typical)
     budget = desk_run.run(scene).budget
     assert budget is not None

@@ -118,5 +118,5 @@ def test_a_calibration_refuses_a_scene_with_a_fault_before_its_recordings_are_re
         capsys, "calibrate", recording, "--scene", "cup_spall", "-o", tmp_path / "missing" / "mine.yaml"
     )
     assert "--scene cup_spall: has a fault (spall on the cup" in told
-    assert "calibrate with the sound scene" in told
+    assert "calibrate with the healthy scene" in told
     assert "does not exist; create it" in told

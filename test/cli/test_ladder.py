@@ -14,7 +14,8 @@ from beardyn_core.cli import main as command
 from beardyn_core.scene.scene import USUAL_QUANTITIES
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.study import ladder
-from beardyn_core.study.ladder import Comparison, Run, climb
+from beardyn_core.study.ladder import climb
+from beardyn_core.study.level_run import Comparison, Run
 from beardyn_core.study.measures import MEASURES, Outcome
 
 FAST = tuple((name, TIERS[name].steps_per_sample) for name in ("lumped", "quasistatic"))
@@ -123,6 +124,17 @@ def test_an_interrupt_keeps_the_levels_done_so_far(
     assert found["interrupted"]
     done = {(row["tier"], row["steps_per_sample"]) for row in found["levels"]}
     assert done == set(FAST)
+
+    def patient(scene: Any, comparison: Comparison) -> Run:
+        runs.append(scene)
+        return one_run(scene, comparison)
+
+    monkeypatch.setattr(ladder, "climb", partial(climb, runner=patient))
+    assert command.main(words) == command.DONE
+    assert {scene.tier for scene in runs} == {"full"}
+    assert not json.loads((tmp_path / "out" / "ladder.json").read_text())["interrupted"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["ladder.json", "ladder.png"]
+    assert command.main(words) == command.BAD_INPUT
 
 
 def test_what_cannot_be_compared_is_refused_before_anything_runs(

@@ -12,10 +12,10 @@ from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.nouns import load_box, read_noun
-from beardyn_core.config.structure import table_path
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.damping import DampingTable, damping_ratios
+from beardyn_core.structure.mounted_box import table_path
 from beardyn_core.structure.table import read_table
 
 TABLE = {"frequency_Hz": [1000.0, 6000.0], "ratio": [0.02, 0.0125]}

@@ -15,11 +15,11 @@ from beardyn_core.base.packed import pack_file, unpack_file
 from beardyn_core.config.content import self_contained
 from beardyn_core.config.load import read_scene, read_scene_text
 from beardyn_core.config.nouns import load_effects
-from beardyn_core.config.structure import modes_of_effects, table_path
 from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.rail.transfer_path import path_read, read_transfer_path
 from beardyn_core.scene.scene import Scene
+from beardyn_core.structure.mounted_box import modes_of_effects, table_path
 
 OPERATION = {"kind": "constant", "force_kN": [0, 0, 80], "speed_rpm": 1165}
 MODES = {"kind": "modes", "table": "mine.CSV"}

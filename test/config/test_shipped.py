@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -47,16 +47,6 @@ LOADERS: dict[str, Callable[[str], Any]] = {
 }
 
 
-def approximately(given: EffectSet) -> dict[str, object]:
-    """Options of the effects; degrees cost the last digit of an angle."""
-    return {
-        name: {key: value if value is None else pytest.approx(value) for key, value in options.items()}
-        if isinstance(options, dict)
-        else options
-        for name, options in asdict(given).items()
-    }
-
-
 @pytest.mark.parametrize("kind", LOADERS)
 def test_every_shipped_file_loads_and_bears_its_name(kind: str) -> None:
     names = shipped_names(kind)
@@ -65,6 +55,12 @@ def test_every_shipped_file_loads_and_bears_its_name(kind: str) -> None:
         thing = LOADERS[kind](name)
         if kind != "effects":
             assert thing.name == name
+
+
+def test_the_preset_of_every_effect_is_found_by_its_former_name() -> None:
+    assert "full" not in shipped_names("effects")
+    assert load_effects("full") == load_effects("all")
+    assert load_scene("static_80kN", effects="full") == load_scene("static_80kN", effects="all")
 
 
 @pytest.mark.parametrize("name", shipped_names("scenes"))
@@ -119,7 +115,7 @@ def test_standard_preset_is_the_usual_effect_set_with_a_lubricated_rib_and_drag(
 
 def test_full_preset_has_every_effect_but_the_slow_one_and_the_tiny_one() -> None:
     members = {field.name for field in fields(EffectSet)}
-    assert set(load_effects("full").names()) == members - {"thermal", "windage"}
+    assert set(load_effects("all").names()) == members - {"thermal", "windage"}
 
 
 def test_dry_preset_has_no_film_and_coulomb_friction() -> None:

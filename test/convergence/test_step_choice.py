@@ -25,7 +25,7 @@ from beardyn_core.twin import Twin
 from test.kernels.rig import Float
 
 HS = load_bearing("HS130x230")
-STANDARD, FULL, DRY = load_effects("standard"), load_effects("full"), load_effects("dry")
+STANDARD, FULL, DRY = load_effects("standard"), load_effects("all"), load_effects("dry")
 LOADS, SPEEDS = (2.0e4, 8.0e4), (60.0, 120.0)
 
 
@@ -198,7 +198,7 @@ def test_films_of_pockets_knock_alike_at_the_usual_step_and_a_finer_one() -> Non
 
     Now it is 0.6 dB; of 2 s chance makes 0.3 dB of it more or less, so 6 s are compared.
     """
-    scene = load_scene("healthy_80", effects="full")
+    scene = load_scene("healthy_80", effects="all")
     sensors = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     levels = []
     for count in (3, 8):

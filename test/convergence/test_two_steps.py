@@ -26,7 +26,7 @@ def powers(name: str, tier: str, steps: int, seed: int) -> Float:
 
     Below, where no step matters, 1 s of a chaotic run is too short to tell.
     """
-    scene = load_scene(name, effects="full", tier=tier)
+    scene = load_scene(name, effects="all", tier=tier)
     scene = replace(
         scene,
         seed=seed,

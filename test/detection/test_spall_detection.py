@@ -124,7 +124,7 @@ def test_monitor_finds_the_cup_spall_on_other_seeds(seed: int) -> None:
 
 
 # Of `beardyn trial healthy`: one whose second stretch ends in a strike of its flat, the deepest lines of a
-# sound bearing, and runs that alarmed while a bearing's waves ended at order 300.
+# healthy bearing, and runs that alarmed while a bearing's waves ended at order 300.
 SOUND = [(200, "german_high", "flat"), (200, "german_high", "round"), (250, "german_high", "flat")]
 SOUND += [(80, "german_low", "round"), (80, "german_low", "polygon"), (160, "german_low", "round")]
 

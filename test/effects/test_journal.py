@@ -41,11 +41,11 @@ from beardyn_core.physics.journal import (
     kick_journal,
     modes_of,
 )
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.statics.equilibria import equilibrium
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import mounting_params
 from beardyn_core.physics.tiers.step_choice import choose_steps
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup, roller_tangent
 from beardyn_core.rail.build import load_history
 from beardyn_core.rail.wheelset import HALF_GAUGE, SHEAR, YOUNG, bending, shaft
 from beardyn_core.scene.operation import QuarterVehicleOperation

@@ -15,7 +15,6 @@ from beardyn_core.cli.structure import zone_yield
 from beardyn_core.config.folders import shipped_names
 from beardyn_core.config.load import read_scene_mapping, read_scene_text
 from beardyn_core.config.nouns import load_bearing, load_box
-from beardyn_core.config.structure import modes_of_effects, mounting_of, seat_of, table_path
 from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.physics import ring_modes as structure
@@ -30,6 +29,7 @@ from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.build import digest, load_zone
 from beardyn_core.structure.modes import WAVES, Modes
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of, seat_of, table_path
 from beardyn_core.structure.table import ROWS, read_table
 from test.effects.test_structure_effect import frictionless, looked_at
 from test.kernels.momentum import assert_momentum_is_exchanged

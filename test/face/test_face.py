@@ -17,10 +17,10 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping
-from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
 from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.structure.mounted_box import modes_of_effects
 from beardyn_core.study import desk_run
 from test.commands import run_python
 from test.face.test_one_run import spalled

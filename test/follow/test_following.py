@@ -13,7 +13,6 @@ from beardyn_core.follow.condition import ConditionBelief
 from beardyn_core.follow.cubature_filter import Belief, correct_belief, predict_belief
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.following import (
-    SOUND,
     SPALLED,
     TAKE_OUT,
     UNEXPLAINED,
@@ -23,6 +22,7 @@ from beardyn_core.follow.following import (
 )
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.service import Service
+from beardyn_core.sensors.labels import HEALTHY
 from test.follow.synthetic import NAMES, heard, standard_estimator
 
 NORMAL_OF_TEN = np.array([-1.64, -1.04, -0.67, -0.39, -0.13, 0.13, 0.39, 0.67, 1.04, 1.64])  # quantiles
@@ -103,7 +103,7 @@ def test_a_first_clear_stretch_is_believed_and_of_another_condition_only_the_fou
 def test_sound_and_spalled_bearings_are_told_apart(estimator: Estimator) -> None:
     sound = followed(estimator, stretches(5, "healthy", 12))
     assert sound[0].health == WAITING
-    assert {each.health for each in sound[1:]} == {SOUND}
+    assert {each.health for each in sound[1:]} == {HEALTHY}
     spalled = followed(estimator, stretches(5, "cup", 8))
     assert spalled[-1].health in (SPALLED, TAKE_OUT)
     assert spalled[-1].estimates["width"].value == pytest.approx(6e-3, rel=0.2)
@@ -194,7 +194,7 @@ def test_a_signal_unlike_all_that_was_learnt_from_is_unexplained(estimator: Esti
     rows = stretches(9, "healthy", 6)
     strange = rows[-1:] + 60.0 * (np.arange(rows.shape[1]) % 2)
     steps = followed(estimator, np.concatenate([rows, strange]))
-    assert steps[-2].health == SOUND
+    assert steps[-2].health == HEALTHY
     assert steps[-1].health == UNEXPLAINED
     assert "learnt from" in steps[-1].doubts[0]
 

@@ -64,10 +64,10 @@ SCENES = (
     "wheel_flat",
 )
 # One scene with every preset, and rooms that no shipped scene enters.
-PRESETS = ("dry", "frictionless", "full")
+PRESETS = ("dry", "frictionless", "all")
 WORDS = {
     "one row": "rows: 1\nmounting: {axial_prop_stiffness_MN_per_m: 100, journal_tilt: locked, cup: held}\n",
-    "hot": "effects: {preset: full, thermal: {time_scale: 1000}, cage: {lubrication: true, guidance: {}}}\n",
+    "hot": "effects: {preset: all, thermal: {time_scale: 1000}, cage: {lubrication: true, guidance: {}}}\n",
     "kinematic": "effects: {preset: standard, cage: {kind: rotating}, traction: {kind: coulomb}}\n",
     "missing": "missing_rollers: [{row: 0, roller: 3}]\n",
     "suspended": "mounting: {cup: suspended, journal_tilt: free}\nnumerics: {laminae: 20}\n",

@@ -78,7 +78,6 @@ def lane_math(lanes: Any, values: Any, out: Any, bound: Any) -> None:
         lanes.store(out, case, 15, log2_one_plus_exp2(a))
 
 
-RACEWAY_INPUTS = 22  # centre, axis, ring axis, velocity, omega, ring velocity, ring omega, oversize
 RACEWAY_OUTPUTS = 19  # force, moment, energy, approach (3), arm, arm slope, normal
 
 

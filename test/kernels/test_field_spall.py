@@ -97,7 +97,7 @@ def test_width_or_stage(keys: dict[str, float]) -> None:
 def loudness(defect: Defect) -> float:
     """Rms above 2 kHz of a short run in tier lumped, [m/s^2]."""
     scene = replace(
-        load_scene("cup_spall", tier="lumped", effects="full"), defects=(defect,), waviness=(), scatter=None
+        load_scene("cup_spall", tier="lumped", effects="all"), defects=(defect,), waviness=(), scatter=None
     )
     quiet = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     measured = [block.acceleration[0][:, 2] for block in blocks(replace(scene, sensors=quiet), 0.4)]

@@ -50,6 +50,20 @@ def test_the_speed_makes_the_round_trip_too(ending: str, tmp_path: Path) -> None
     np.testing.assert_allclose(again.shaft.speed, expected, rtol=1e-6)
 
 
+def test_the_function_writes_what_the_command_does(tmp_path: Path) -> None:
+    path = table(tmp_path / "a.csv", {"time_s": np.arange(6000) / RATE, "az [g]": noise(6000)[:, 0]})
+    recording = bd.import_measured(path, tmp_path / "run.mcap", speed_rpm=1800)
+    words = ["export", str(recording), "-o", str(tmp_path / "one.csv"), "--signals", "vibration,shaft"]
+    assert main(words) == DONE
+    written = bd.export(recording, tmp_path / "two.csv", signals=["vibration", "shaft"])
+    assert [each.name for each in written] == ["two_vibration.csv", "two_shaft.csv", "two.csv.json"]
+    for each in written:
+        assert each.read_bytes() == each.with_name(each.name.replace("two", "one")).read_bytes()
+    with pytest.raises(bd.InputError, match="exists"):
+        bd.export(bd.read(recording), tmp_path / "two.csv")
+    assert len(bd.export(bd.read(recording), tmp_path / "two.csv", force=True)) == 2
+
+
 def test_a_wav_file_that_another_program_has_scaled_asks_for_its_unit(tmp_path: Path) -> None:
     soundfile = pytest.importorskip("soundfile")
     columns = {"time_s": np.arange(6000) / RATE, "az [g]": noise(6000)[:, 0]}

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.base.errors import ValidityError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.choice import load_scene
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.config import load_effects
@@ -21,8 +21,6 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS, contradictions
 from beardyn_core.study.ladder import (
     REFERENCE_RUNS,
-    Comparison,
-    Run,
     climb,
     comparison_of,
     repeats_of,
@@ -32,6 +30,8 @@ from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expect
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
 from beardyn_core.study.ladder_result import BAND_LIMIT_DB, Ladder, Part, errors
+from beardyn_core.study.ladder_store import RUNS_FILE, store_of
+from beardyn_core.study.level_run import Comparison, Run
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
 from beardyn_core.twin import Twin
 
@@ -179,14 +179,14 @@ def test_only_a_level_that_is_surely_within_is_the_cheapest_within(comparison: C
 
 def test_the_choices_of_the_automatic_level_stand_below_the_table(comparison: Comparison) -> None:
     """By what it holds when that is less, else by what it leaves out of the reference."""
-    every = load_effects("full")
-    levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="full", effects=every))
+    every = load_effects("all")
+    levels = replace(LEVELS, reference=replace(REFERENCE, effects_name="all", effects=every))
     less = replace(every, drag=None, seal=None)
     auto = Level("auto 5 %", "full", "auto", less, 6, 7)
     own = Level("own", "full", "of the scene", replace(load_effects("dry"), gravity=None), 6, 8)
     ladder = climb(comparison, replace(levels, levels=(auto, own)), 0.05, ASKED, runner=FakeRuns())
     text = table(ladder)
-    assert "auto 5 %: full tier, 6 laminae x 7, effects: full less drag, seal" in text
+    assert "auto 5 %: full tier, 6 laminae x 7, effects: all less drag, seal" in text
     assert f"own: full tier, 6 laminae x 8, effects: {', '.join(own.effects.names())}" in text
     found = json.loads(json_text("ladder", json_object(ladder)))["levels"][0]
     assert found["less_than_reference"] == ["drag", "seal"]
@@ -290,6 +290,44 @@ def test_an_interrupt_keeps_what_was_done(comparison: Comparison) -> None:
         climbed(comparison, FakeRuns(interrupted=16))
 
 
+def test_an_interrupted_study_goes_on_with_the_levels_that_it_has_not(
+    comparison: Comparison, tmp_path: Path
+) -> None:
+    def steps_run(runs: FakeRuns) -> list[int]:
+        return [round(scene.numerics.steps_per_sample) for scene in runs.scenes]
+
+    def rows_of(ladder: Ladder) -> list[str]:
+        return [repr((row.cost, row.errors)) for row in ladder.rows]
+
+    def go(runs: FakeRuns, over: Comparison = comparison) -> Ladder:
+        return climb(over, LEVELS, 0.05, ASKED, runner=runs, store=store_of(over, tmp_path))
+
+    first = FakeRuns(interrupted=7)
+    begun = go(first)
+    assert begun.interrupted
+    second = FakeRuns()
+    whole = go(second)
+    assert not whole.interrupted
+    assert set(steps_run(second)) == {7, 8}
+    assert rows_of(whole)[:2] == rows_of(begun)[:2]
+    third = FakeRuns()
+    assert rows_of(go(third)) == rows_of(whole)
+    assert third.scenes == []
+    # a level of which a run is lacking is timed anew, and so is all after an edit of what it depends on
+    path = tmp_path / RUNS_FILE
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[:2] + lines[3:]))
+    fourth = FakeRuns()
+    go(fourth)
+    assert steps_run(fourth) == REFERENCE_RUNS * [16]
+    with pytest.raises(InputError, match="interrupted study of static_80kN with other options"):
+        go(FakeRuns(), comparison_of(load_scene("static_80kN"), 0.4, 0.1))
+    other = replace(comparison, block_count=comparison.block_count + 1)
+    fifth = FakeRuns()
+    go(fifth, other)
+    assert set(steps_run(fifth)) == {1, 4, 7, 8, 16}
+
+
 def test_repeated_runs_begin_a_hair_apart_and_feel_the_same(comparison: Comparison) -> None:
     runs = FakeRuns()
     climbed(comparison, runs)
@@ -357,7 +395,7 @@ def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
         (level.tier, level.effects, level.laminae, level.steps_per_sample) for level in levels.levels
     ]
     assert {level.tier for level in levels.levels} == {"lumped", "quasistatic", "full"}
-    assert {"dry", "standard", "full"} <= {level.effects_name for level in levels.levels}
+    assert {"dry", "standard", "all"} <= {level.effects_name for level in levels.levels}
 
 
 def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None:
@@ -367,7 +405,7 @@ def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None
     # the scene's own choice may be the neighbour itself
     usual = levels.neighbour.applied(comparison.scene)
     assert len(levels_of(usual).levels) == len(levels_of(comparison.scene).levels)
-    assert level_of(usual, "full") == levels.neighbour
+    assert level_of(usual, "all") == levels.neighbour
     assert level_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
 
 

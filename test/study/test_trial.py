@@ -372,7 +372,7 @@ def test_a_run_depends_on_the_content_of_its_files(
     scene = replace(
         trial_scene(quick, quick.cells()[0]), effects=EffectSet(structure=ModalStructure("metro"))
     )
-    monkeypatch.setattr("beardyn_core.config.structure.config_folder", lambda: tmp_path)
+    monkeypatch.setattr("beardyn_core.structure.mounted_box.config_folder", lambda: tmp_path)
     before = run_digest(scene, quick, "code")
     assert run_digest(scene, quick, "code") == before
     (tables / "metro.csv").write_text(f"{text}\n")

@@ -94,7 +94,7 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
     than its load, so that the couples add up to a third more. Without cages: what drag presses idle rollers
     on their bars with rubs there, which the budget counts as friction of pockets and not as drag.
     """
-    base = load_scene("static_80kN", tier=tier, effects="full")
+    base = load_scene("static_80kN", tier=tier, effects="all")
     effects, bearing = replace(base.effects, structure=None, cage=None), base.bearing
     assert effects.rib is not None
     assert effects.rolling_resistance is not None
@@ -123,7 +123,7 @@ def test_rolling_drag_and_seal_add_their_torque(tier: str) -> None:
         for phase in range(6)
     ]  # fmt: skip
     assert found["rolling_resistance"] == pytest.approx(-np.mean(rolling), rel=0.02)
-    budget = desk_run.run(replace(load_scene("static_80kN", effects="full"), duration=0.5)).budget
+    budget = desk_run.run(replace(load_scene("static_80kN", effects="all"), duration=0.5)).budget
     assert budget is not None
     lost = {share.source: share.torque for share in budget.shares}
     assert found["drag"] == pytest.approx(-lost["drag"], rel=0.03)

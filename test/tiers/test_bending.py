@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.fast_step import fast_steps
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure, RingStructure
 from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
@@ -26,16 +25,17 @@ from beardyn_core.physics.bodies.layout import (
     TURN,
 )
 from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.roller_spring import lever_of_cup
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import load_of_approach, solve_rollers
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import FORCE
 from beardyn_core.physics.tiers.state import Output, State
 from beardyn_core.physics.tiers.tier_bending import step_body
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from beardyn_core.twin import Twin
 from test.runs import blocks_of
 from test.tiers.momentum import momentum_of_rolling_parts

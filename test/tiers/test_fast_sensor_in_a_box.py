@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice.usual_step import STEPS_PER_TURN, refine_for_sensors
-from beardyn_core.config.structure import modes_of_effects, mounting_of
 from beardyn_core.effects import ModalStructure
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.tiers.friction_steps import StepChoice
@@ -16,6 +15,7 @@ from beardyn_core.physics.tiers.tier_bending import step_body
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES, Accelerometer
 from beardyn_core.structure.modes import Modes
+from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from test.runs import blocks_of
 from test.tiers.runs import scene_of
 

@@ -24,7 +24,7 @@ from test.tiers.runs import scene_of
 
 
 def healthy(tier: str) -> Scene:
-    """A sound bearing as drawn on a track."""
+    """A healthy bearing as drawn on a track."""
     scene = replace(scene_of("smooth_run", tier), scatter=None)
     return replace(scene, numerics=replace(scene.numerics, steps_per_sample=4.0 if tier == "full" else 1.0))
 

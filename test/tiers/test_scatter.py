@@ -13,9 +13,9 @@ import pytest
 from beardyn_core.choice import load_scene
 from beardyn_core.effects import Gravity
 from beardyn_core.physics.defect import roller_oversize
+from beardyn_core.physics.roller_spring import roller_tangent
 from beardyn_core.physics.scatter import crown_errors
 from beardyn_core.physics.statics.static import StaticSolution, solve
-from beardyn_core.physics.tiers.tier_parameters import roller_tangent
 from beardyn_core.run import blocks
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scatter import Scatter

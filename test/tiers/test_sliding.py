@@ -14,11 +14,11 @@ from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.jit import plain
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.choice import load_scene
+from beardyn_core.physics.roller_spring import place_on_cup
 from beardyn_core.physics.tiers.kinematic_rings import SLIDING
 from beardyn_core.physics.tiers.sliding import (
     creep_of,
     creep_over_load,
-    place_on_cup,
     rolling_level,
     slide_params,
 )

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing
 from beardyn_core.physics.bodies.layout import CONE_BODY, CUP_BODY, POSITION
+from beardyn_core.physics.roller_spring import lever_of_cup
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import reach, solve_rollers, spring_params
-from beardyn_core.physics.tiers.tier_parameters import lever_of_cup
 from beardyn_core.run import start
 from test.runs import blocks_of
 from test.tiers.test_bending import bent_scene

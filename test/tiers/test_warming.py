@@ -24,7 +24,7 @@ BLOCK_S = 0.02
 
 
 def scene_of(tier: str, thermal: Thermal | None, blocks: int, name: str = "static_80kN") -> Scene:
-    scene = load_scene(name, effects="full", tier=tier)
+    scene = load_scene(name, effects="all", tier=tier)
     return replace(scene, effects=replace(scene.effects, thermal=thermal), duration=blocks * BLOCK_S)
 
 

@@ -14,13 +14,13 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.choice import load_scene, scene_from_mapping
 from beardyn_core.config import read_scene
 from beardyn_core.config.boxes import mirror_box, mirrored_modes, scene_of_box
-from beardyn_core.config.structure import modes_of_effects
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.rail.train import MIRRORED
 from beardyn_core.run import start
 from beardyn_core.scene.axleboxes import Axleboxes
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
+from beardyn_core.structure.mounted_box import modes_of_effects
 from beardyn_core.structure.table import read_table
 from beardyn_core.twin import Twin
 

@@ -86,13 +86,13 @@ class MonitorSettings:
 
     Notes
     -----
-    A sound bearing has lines of its own: of rollers that enter the load zone, and of waves that the same
+    A healthy bearing has lines of its own: of rollers that enter the load zone, and of waves that the same
     surfaces pass again and again, so that the power of a random pattern comes back. With a quiet sensor they
     are no chance, and no fault. They are smooth: one harmonic holds most of them. What is called must strike:
     beyond its loudest harmonic, others must hold `least_strikes` of the mean power. Of measured analyses that
-    name a fault right 99 % have more than 0.33; no surely present line of a sound bearing, measured beside a
-    faulty one or simulated, had more than 0.27 (docs/monitor_measured.md). Where a loud tone or the track
-    fills the band, `least_sharpest` in one octave does; there sound ones had up to 0.7 at BPFO, with which
+    name a fault right 99 % have more than 0.33; no surely present line of a healthy bearing, measured next to
+    a faulty one or simulated, had more than 0.27 (docs/monitor_measured.md). Where a loud tone or the track
+    fills the band, `least_sharpest` in one octave does; there healthy ones had up to 0.7 at BPFO, with which
     their rollers pass, and 0.4 at the lines of cone and roller. How loud a fault is does not count.
 
     Rollers slip, so that lines lie 1 to 2 % beside geometry (Randall, Antoni 2011, section 2.2); a roller

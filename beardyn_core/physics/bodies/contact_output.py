@@ -84,13 +84,6 @@ def react(ring, centre, wrench, here):
 
 
 @inline
-def react_couple(ring, couple, here):
-    """Add the reaction of a couple on the roller to its ring."""
-    turn = turn_out(scale(-here.mask, couple), here.cosine, here.sine)
-    accumulate_vector(here, layout.REACTION + 6 * ring + 3, turn)
-
-
-@inline
 def account(here, numerical, elastic, audit):
     """Add what a contact lost to the time step and what it stores to the audit, [J]."""
     if audit is None:

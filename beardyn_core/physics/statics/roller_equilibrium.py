@@ -19,6 +19,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.physics.roller_spring import SpringParams, lever_of_cup
 from beardyn_core.physics.statics.roller_contacts import (
     ConePose,
     ContactModel,
@@ -29,7 +30,6 @@ from beardyn_core.physics.statics.roller_contacts import (
     cup_contacts,
     rib_contacts,
 )
-from beardyn_core.physics.tiers.tier_parameters import SpringParams, lever_of_cup
 
 Contacts = tuple[ContactSet, ContactSet, ContactSet]
 """Of the rollers with cup, cone and rib."""

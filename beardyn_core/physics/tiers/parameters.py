@@ -6,21 +6,20 @@ Kernels are specialised by the types of these members, so ``None`` compiles to n
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:  # each of them imports this module
-    from beardyn_core.physics.contact_damping import DampingParams
-    from beardyn_core.physics.defect import FaultParams
-    from beardyn_core.physics.drag import DragParams
-    from beardyn_core.physics.film import FilmParams
-    from beardyn_core.physics.lamina_table import CouplingParams
-    from beardyn_core.physics.pocket import CageParams
-    from beardyn_core.physics.rib import RibParams, SmallRibParams
-    from beardyn_core.physics.ring_modes import StructureParams
-    from beardyn_core.physics.rolling_resistance import RollingParams
-    from beardyn_core.physics.seal import SealParams
-    from beardyn_core.physics.suspension import MountingParams
-    from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
+from beardyn_core.physics.contact_damping import DampingParams
+from beardyn_core.physics.defect import FaultParams
+from beardyn_core.physics.drag import DragParams
+from beardyn_core.physics.film import FilmParams
+from beardyn_core.physics.lamina_table import CouplingParams
+from beardyn_core.physics.pocket import CageParams
+from beardyn_core.physics.rib import RibParams, SmallRibParams
+from beardyn_core.physics.ring_modes import StructureParams
+from beardyn_core.physics.rolling_resistance import RollingParams
+from beardyn_core.physics.seal import SealParams
+from beardyn_core.physics.suspension import MountingParams
+from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
 
 
 class RacewayParams(NamedTuple):

@@ -22,11 +22,11 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import store_vector
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2
+from beardyn_core.physics.roller_spring import place_on_cup
 from beardyn_core.physics.tiers.kinematic_rings import SLIDING, row_times, sum_matrix
 from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
@@ -54,12 +54,6 @@ class SlideParams(NamedTuple):
     both: float
     speed_squared: float
     lever: float  # arm of the cup's line of contact about the bearing centre [m]
-
-
-def place_on_cup(bearing: Bearing) -> tuple[float, float]:
-    """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    along = bearing.contact_distance * math.cos(bearing.cup_angle)
-    return bearing.cup_radius, bearing.apex_place + along
 
 
 def creep_over_load(scene: Scene, load: float, speed: float) -> float:

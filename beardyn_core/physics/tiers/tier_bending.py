@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.config.structure import seat_of
 from beardyn_core.physics.bodies.arrangement import aligned_zeros
 from beardyn_core.physics.bodies.layout import MASK, POCKET_ANGLE
 from beardyn_core.physics.oscillators import exact_oscillators
 from beardyn_core.physics.ring_modes import ModalBody, body_of
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.scene.scene import Scene
+from beardyn_core.structure.mounted_box import seat_of
 
 # Rate of a mode times the step up to which it moves by itself: 6.4 kHz at one step a sample. The lumped tier,
 # which lives from its speed, carries those to 5.1 kHz.

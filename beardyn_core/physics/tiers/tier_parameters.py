@@ -7,8 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import (
     Cage,
     CoulombTraction,
@@ -21,9 +19,10 @@ from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_copy
 from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.pure_rolling import KinematicParams, pocket_params
+from beardyn_core.physics.roller_spring import SpringParams
 from beardyn_core.physics.scatter import mean_crown
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.physics.tiers.sliding import SlideParams, place_on_cup
+from beardyn_core.physics.tiers.sliding import SlideParams
 from beardyn_core.physics.tiers.tier_bending import BendingParams
 from beardyn_core.physics.tiers.tier_waves import RollingWaveParams
 from beardyn_core.scene.scene import Scene
@@ -51,22 +50,6 @@ class RingResponseParams(NamedTuple):
     damper_share: float  # of the dampers in that
     give: Any  # [5, 5], acceleration of the cone against the cup by a wrench between them
     lever: float  # arm of the cup's normal about the bearing centre [m]
-
-
-class SpringParams(NamedTuple):
-    """A roller between its raceways as one spring along the cup's normal.
-
-    With the ninth root s of the approach D the cup load is ``D s (c0 + c1 s + ...)``.
-    """
-
-    series: Any  # [8]
-    lever: float  # arm of the cup's normal about the bearing centre [m]
-    cone_share: float  # cone load over cup load
-    rib_share: float  # rib load over cup load
-    rib_centrifugal: float  # rib load over centrifugal force, at a given cup load
-    idle: float  # cup load of a roller that the cone does not press, over centrifugal force
-    give: float  # least approach over cup load: that of the stiffest spring [m/N]
-    reach: float  # half of the length that holds a tilt of the rings [m]
 
 
 class LooseParams(NamedTuple):
@@ -271,19 +254,3 @@ def patches_or_none(faults: FaultParams) -> FaultParams | None:
     if faults.cup is None and faults.cone is None and faults.roller is None:
         return None
     return faults._replace(cup_waves=None, cone_waves=None, roller_waves=None, pockets=None, crowns=None)
-
-
-def roller_tangent(bearing: Bearing) -> float:
-    """Work out the stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
-
-    Two line contacts in series, for which 10/9 Q / D of Q = K D^(10/9) is 10/9 K^0.9 Q^0.1; profile and rib
-    are left out.
-    """
-    factor = line_contact_factor(bearing.material, bearing.effective_length) / 2.0**LINE_EXPONENT
-    return LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT)
-
-
-def lever_of_cup(bearing: Bearing) -> float:
-    """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
-    radial, axial = place_on_cup(bearing)
-    return axial * math.cos(bearing.cup_angle) + radial * math.sin(bearing.cup_angle)

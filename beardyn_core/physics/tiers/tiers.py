@@ -13,6 +13,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.physics.pure_rolling import kinematic_params
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import tilt_restraint
@@ -79,7 +80,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
     """Build the kernel parameters of the quasistatic tier."""
     motion = tier_parameters.ring_motion_params(base)
     lever, sides = (
-        tier_parameters.lever_of_cup(scene.bearing),
+        lever_of_cup(scene.bearing),
         tier_parameters.row_sides(base, scene.rows),
     )
     response = tier_parameters.ring_response_params(base, motion, lever)
@@ -89,7 +90,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         kinematic=kinematic_params(scene),
         motion=motion,
         response=response,
-        tangent=tier_parameters.roller_tangent(scene.bearing),
+        tangent=roller_tangent(scene.bearing),
         pockets=tier_parameters.pocket_directions(base),
         sides=sides,
         highest_wave=highest_wave(base.effects.faults),

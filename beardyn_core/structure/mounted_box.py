@@ -1,21 +1,20 @@
-"""The modes of a shipped axlebox or of a table of one's own, and the mounting that goes with them."""
+"""The box of a scene: modes by the name or path of their table, seats of sensors, the mounting with it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
-from beardyn_core.base.edge import Problem, places, written_value
+from beardyn_core.base.config_folder import config_folder
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
 from beardyn_core.base.packed import unpack_file
+from beardyn_core.base.spelling import closest
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.config.folders import closest, config_folder
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
@@ -23,7 +22,6 @@ from beardyn_core.structure.modes import Modes
 from beardyn_core.structure.table import modes_of_text, read_table
 
 SEAT_REACH = 5e-3  # a sensor this close to a seat sits on it [m]
-BOX_KEYS = ("box_mass_kg", "box_centre_mm", "box_inertia_kg_m2")
 
 
 def is_path(table: str) -> bool:
@@ -140,17 +138,3 @@ def mounting_of(modes: Modes, mounting: Mounting, bearing: Bearing) -> Mounting:
     x, y, z = (modes.mass / mass * each for each in modes.centre)
     about_x, about_y, about_z = map(float, inertia)
     return replace(mounting, box_mass=mass, box_centre=(x, y, z), box_inertia=(about_x, about_y, about_z))
-
-
-def box_problems(given: set[str], stated: Mounting, taken: Mounting, name: str) -> Iterator[Problem]:
-    """Find keys of a mounting that say something else of the box than its table."""
-    for place in places(Mounting):
-        if place.key in BOX_KEYS and place.key in given:
-            said, meant = getattr(stated, place.field), getattr(taken, place.field)
-            if not np.allclose(said, meant, rtol=1e-3, atol=1e-4):
-                shown = written_value(meant, place.at)
-                yield Problem(
-                    f"{place.key} is {written_value(said, place.at)}; the box {name} of effects.structure "
-                    f"has {shown} without the cup: leave the key out",
-                    ("mounting",),
-                )
