@@ -100,9 +100,7 @@ def test_the_right_rail_is_another_one_and_a_wheel_defect_stays_with_its_wheel()
     car = Axleboxes(axles=4, faulty=("axle_2_left",))
     scenario = CarScenario(boxes, car, "wheel_flat", "", 0.5)
     leading, flat, right = (scenario.of(box) for box in boxes)
-    assert len(leading.history) * 5 == pytest.approx(
-        len(flat.history), rel=0.02
-    )  # 2 kHz, and 10 kHz with a flat
+    assert len(leading.history) == len(flat.history)  # 10 kHz over a rough rail as with a flat
     assert flat.history.wrench[:, 2].max() > 1.2 * leading.history.wrench[:, 2].max()
     assert leading.history.time_ns[-1] >= 0.49e9
     assert not np.allclose(leading.history.wrench[:, 2], right.history.wrench[:, 2], atol=100.0)
