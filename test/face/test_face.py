@@ -188,6 +188,11 @@ def test_a_scene_is_made_of_a_handful_of_arguments() -> None:
     assert bd.scene(effects=EffectSet(gravity=None)).effects.gravity is None
 
 
+def test_a_field_spall_in_code_has_its_own_depth() -> None:
+    (spall,) = bd.scene("static_80kN", faults=[{"kind": "field_spall", "on": "cup", "width_mm": 6}]).defects
+    assert (spall.on, spall.row, spall.width) == ("cup", 0, 6e-3)
+
+
 def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
     made = bd.bearing(
         rollers=17, pitch_diameter_mm=185, roller_diameter_mm=26.7, roller_length_mm=52,
