@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from beardyn_core.scene.field_spall import FieldSpall
-from evidence.measured.texture import OWN, Measured, main, page_values, sum_goals, verdict
+from evidence.measured.texture import OWN, Measured, main, middle_range, page_values, sum_goals, verdict
 from evidence.measured.texture_quantities import Texture
 from evidence.measured.twin_runs import FIELD, TwinCase, measure_twin, scene_of, twin_cases
 from evidence.pages import render
@@ -36,7 +36,7 @@ def runs() -> list[Measured]:
 
 def test_the_page_is_whole_with_public_records_and_with_own_ones() -> None:
     public = render("evidence/measured/texture.py", page_values(RECORDS, [], runs(), "nothing"))
-    assert "most of the public records" in public
+    assert "middle 80 % of the public records" in public
     assert " nan" not in public
     own = render(
         "evidence/measured/texture.py",
@@ -45,9 +45,10 @@ def test_the_page_is_whole_with_public_records_and_with_own_ones() -> None:
     assert "| outer ring (cup) | 1 | -6.0 | -6.0 | +0.0 | +3.5 | +6.0 |" in own
 
 
-def test_a_twin_between_least_and_most_is_inside_and_else_its_distance_is_stated() -> None:
+def test_a_twin_in_the_range_of_the_records_is_inside_and_else_its_distance_is_stated() -> None:
+    assert middle_range([float(each) for each in range(11)]) == (1.0, 5.0, 9.0)
     assert verdict([1.0, 3.0], [0.1, 2.0, 9.0], in_dB=False) == "inside"
-    assert verdict([1.0, 3.0], [6.0], in_dB=False) == "2.0 times above"
+    assert verdict([1.0, 3.0], [6.0], in_dB=False) == "2.00 times above"
     assert verdict([10.0, 30.0], [4.0], in_dB=True) == "6.0 dB below"
     assert verdict([], [4.0], in_dB=True) == "not compared"
     assert verdict([0.0], [4.0], in_dB=False) == "above"
@@ -57,7 +58,7 @@ def test_goals_count_the_runs_inside() -> None:
     assert sum_goals(runs())[0].startswith(
         "modulation depth 0.1 to 0.4, outer ring (cup): 12 of 12 runs inside"
     )
-    assert "inner ring (cone): 0 of 12 runs inside, the runs reach from 4.0 to 4.0" in sum_goals(runs())[1]
+    assert "inner ring (cone): 0 of 12 runs inside, they reach from 4.0 to 4.0" in sum_goals(runs())[1]
 
 
 def test_runs_have_coupled_laminae_their_spall_and_their_surface() -> None:

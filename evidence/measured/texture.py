@@ -42,6 +42,7 @@ from evidence.runner import KeptResults
 
 PAGE = DOCS / "beside_measured.md"
 OWN = "own train"
+FEW = 5  # records, of which least and most count
 LONGEST = 20.0  # of a record that is measured, [s]
 CONDITIONS = {"": "healthy", "cup": "outer ring (cup)", "cone": "inner ring (cone)", "roller": "roller"}
 _SHOWN = (("", ""), *((part, spall) for part in PARTS for spall in SPALLS))
@@ -63,6 +64,7 @@ class Quantity:
     """A quantity by which records and runs are compared."""
 
     name: str
+    short: A[str, "name in the answer"]
     get: Getter
     form: A[str, "format of a number"] = ".2f"
     in_dB: A[bool, "whether differences are stated, not factors"] = False
@@ -85,15 +87,15 @@ def _low_share(octave: int) -> Getter:
 
 
 QUANTITIES = (
-    Quantity("share of 0.5-1 kHz in the power of 0.5-4 kHz, %", _low_share(0), ".0f"),
-    Quantity("share of 1-2 kHz in it, %", _low_share(1), ".0f"),
-    Quantity("share of 2-4 kHz in it, %", _low_share(2), ".0f"),
-    Quantity("4-12 kHz over 0.5-4 kHz, dB", lambda each: each.high_over_low, ".1f", True),
-    Quantity("kurtosis from 0.5 kHz", lambda each: each.kurtosis, ".1f"),
-    Quantity("modulation depth at the line", lambda each: each.depth),
-    Quantity("line over noise, dB", lambda each: each.line, ".1f", True),
-    Quantity("ring-down, ms", lambda each: 1e3 * each.ring_down),
-    Quantity("wander of the passage period, %", lambda each: 100.0 * each.wander),
+    Quantity("share of 0.5-1 kHz in the power of 0.5-4 kHz, %", "0.5-1 kHz", _low_share(0), ".0f"),
+    Quantity("share of 1-2 kHz in it, %", "1-2 kHz", _low_share(1), ".0f"),
+    Quantity("share of 2-4 kHz in it, %", "2-4 kHz", _low_share(2), ".0f"),
+    Quantity("4-12 kHz over 0.5-4 kHz, dB", "4-12 kHz", lambda each: each.high_over_low, ".1f", True),
+    Quantity("kurtosis from 0.5 kHz", "kurtosis", lambda each: each.kurtosis, ".1f"),
+    Quantity("modulation depth at the line", "modulation depth", lambda each: each.depth),
+    Quantity("line over noise, dB", "line over noise", lambda each: each.line, ".1f", True),
+    Quantity("ring-down, ms", "ring-down", lambda each: 1e3 * each.ring_down),
+    Quantity("wander of the passage period, %", "wander", lambda each: 100.0 * each.wander),
 )
 GOALS = (
     Goal("modulation depth 0.1 to 0.4", ("cup",), lambda each: each.depth, 0.1, 0.4),
@@ -155,32 +157,37 @@ def _named(part: str, spall: str) -> str:
 
 
 def verdict(of_records: Sequence[float], of_twin: Sequence[float], in_dB: bool) -> str:
-    """Say where the middle of the twin's runs lies next to the least and most of the records."""
+    """Say where the middle of the twin's runs lies next to the middle 80 % of the records."""
     if not len(of_records) or not len(of_twin):
         return "not compared"
-    middle, least, most = float(np.median(of_twin)), min(of_records), max(of_records)
+    middle = float(np.median(of_twin))
+    least, _, most = middle_range(of_records)
     if least <= middle <= most:
         return "inside"
     edge, side = (most, "above") if middle > most else (least, "below")
     if in_dB:
         return f"{abs(middle - edge):.1f} dB {side}"
     smaller, larger = sorted((edge, middle))
-    return f"{larger / smaller:.1f} times {side}" if smaller > 0.0 else side
+    return f"{larger / smaller:.2f} times {side}" if smaller > 0.0 else side
+
+
+def middle_range(values: Sequence[float]) -> tuple[float, float, float]:
+    """Give the quantiles of 10, 50 and 90 %; of fewer than `FEW` values least, middle and most."""
+    outer = (0.0, 1.0) if len(values) < FEW else (0.1, 0.9)
+    low, middle, high = np.quantile(values, (outer[0], 0.5, outer[1]))
+    return float(low), float(middle), float(high)
 
 
 def list_alike(rows: Sequence[tuple[str, ...]]) -> list[tuple[str, str, str]]:
     """List by condition the quantities in which the twin lies inside the records, and those in which not."""
+    short = {quantity.name: quantity.short for quantity in QUANTITIES}
     found = []
     for condition in dict.fromkeys(row[0] for row in rows):
         here = [row for row in rows if row[0] == condition and row[-1] != "not compared"]
-        inside = [_short(row[1]) for row in here if row[-1] == "inside"]
-        outside = [f"{_short(row[1])} ({row[-1]})" for row in here if row[-1] != "inside"]
+        inside = [short[row[1]] for row in here if row[-1] == "inside"]
+        outside = [f"{short[row[1]]} ({row[-1]})" for row in here if row[-1] != "inside"]
         found.append((condition, "; ".join(inside) or "none", "; ".join(outside) or "none"))
     return found
-
-
-def _short(name: str) -> str:
-    return name.removesuffix(", %").removesuffix(", dB").removesuffix(", ms").replace(" in it", "")
 
 
 def list_groups(measured: Sequence[Measured]) -> Iterator[tuple[str, ...]]:
@@ -246,22 +253,23 @@ def list_goals(twin: Sequence[Measured]) -> Iterator[tuple[str, ...]]:
                         if each.case is not None
                         and (each.case.train, each.case.part, each.case.spall) == (train, part, spall)
                     }
-                    inside = sum(goal.low <= value <= goal.high for value in here.values())
+                    values = [value for value in here.values() if math.isfinite(value)]
+                    inside = sum(goal.low <= value <= goal.high for value in values)
                     cells = [_number(here[surface], goal.form) for surface in SURFACES]
-                    yield (goal.name, train, _named(part, spall), *cells, f"{inside} of {len(here)}")
+                    yield (goal.name, train, _named(part, spall), *cells, f"{inside} of {len(values)}")
 
 
 def sum_goals(twin: Sequence[Measured]) -> list[str]:
     """Say of each goal how many runs lie inside, and from where to where the runs reach."""
     sentences = []
     for goal in GOALS:
-        values = [goal.get(each.texture) for each in twin if each.part in goal.parts]
+        each_run = [goal.get(each.texture) for each in twin if each.part in goal.parts]
+        values = [value for value in each_run if math.isfinite(value)]
         inside = sum(goal.low <= value <= goal.high for value in values)
-        finite = [value for value in values if math.isfinite(value)]
         parts = ", ".join(CONDITIONS[part] for part in goal.parts)
         sentences.append(
-            f"{goal.name}, {parts}: {inside} of {len(values)} runs inside, the runs reach from "
-            f"{min(finite):{goal.form}} to {max(finite):{goal.form}}"
+            f"{goal.name}, {parts}: {inside} of {len(values)} runs inside, they reach from "
+            f"{min(values):{goal.form}} to {max(values):{goal.form}}"
         )
     return sentences
 
@@ -287,10 +295,8 @@ def _number(value: float, form: str) -> str:
 
 
 def _three(values: Sequence[float], form: str) -> str:
-    """Write least, middle and most."""
-    if not len(values):
-        return "-"
-    return ", ".join(format(value, form) for value in (min(values), float(np.median(values)), max(values)))
+    """Write the middle range."""
+    return ", ".join(format(value, form) for value in middle_range(values)) if len(values) else "-"
 
 
 def page_values(
@@ -312,7 +318,7 @@ def page_values(
         "reference": "own train's records" if own else "public records",
         "counts": ", ".join(f"{counts[part]} {name}" for part, name in CONDITIONS.items()),
         "healthy_count": counts[""],
-        "absent": absent,
+        "absent": absent.replace("sound", "healthy"),
         "tier": TIER,
         "measured_s": DURATION - SETTLED,
         "width": WIDTH_MM,
@@ -321,6 +327,7 @@ def page_values(
         "window": WINDOW,
         "band": "{:g} to {:g}".format(*(1e-3 * edge for edge in ENVELOPE_BAND)),
         "usable": USABLE,
+        "few": FEW,
         "run_count": len(twin),
         "parts": len(PARTS),
     }

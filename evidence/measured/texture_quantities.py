@@ -31,6 +31,7 @@ BACKGROUND = 3.0  # orders, whose median is the noise around a line
 CLEAR = 15.0  # level of a line from which its phase is followed, [dB]
 AROUND = 0.08  # of the fault's order, in which its phase is followed
 LAGS = np.arange(8, 65, 4)  # passages, longer than the filter around the line remembers
+LOST = 1.0  # spread of the phase over the first of these lags, beyond which turns are miscounted, [rad]
 RESONANCE = (4000.0, 12_000.0)  # [Hz]
 AROUND_RESONANCE = 0.2  # of its frequency, to each side
 LEAST_REACH = 8000.0  # to which a record must reach for a ring-down, [Hz]
@@ -187,6 +188,8 @@ def measure_wander(signal: Float, rate: float, angle: Float, order: float) -> fl
     margin = LAGS[0] / order  # the ends of the filter
     at = np.interp(np.arange(margin, turned[-1] - margin, 1.0 / order), turned, phase)
     lags = LAGS[len(at) >= 4 * LAGS]
+    if np.std(at[LAGS[0] :] - at[: -LAGS[0]]) > LOST:
+        return math.nan
     if len(lags) < 4:
         return math.nan
     growth = np.polyfit(lags, [np.mean((at[lag:] - at[:-lag]) ** 2) for lag in lags], 1)[0]
@@ -199,7 +202,7 @@ def measure_ring_down(signal: Float, rate: float) -> RingDown:
     The resonance is the highest peak of the spectrum after a median over 100 Hz, which tones do not pass. The
     autocorrelation of a band of `AROUND_RESONANCE` to each side decays as the resonance does, whether
     strikes or noise excite it. A line is fitted to the logarithm of its envelope, from where the filter has
-    decayed to a tenth of the power, for `LONGEST_LAG` at most. What is shorter than about 1 / (band width)
+    decayed to where the envelope rises or is below a tenth. What is shorter than about 1 / (band width)
     cannot be seen; what takes longer than `LONGEST_LAG` is a tone.
     """
     top = min(RESONANCE[1], USABLE * rate)
@@ -222,11 +225,17 @@ def _decay(signal: Float, rate: float, low: float, high: float) -> float:
     power = np.abs(np.fft.fft(analytic, 2 * len(analytic))) ** 2
     correlation = np.abs(np.fft.ifft(power))[: round(LONGEST_LAG * rate)]
     correlation /= correlation[0]
-    first = math.ceil(1.2 * rate / (high - low))
-    quiet = np.flatnonzero(correlation[first:] < 0.1)
-    last = first + (int(quiet[0]) if len(quiet) else len(correlation) - first)
-    if last - first < 4:  # nothing outlasts the filter
-        return first / rate / -math.log(float(correlation[first]))
+    memory = rate / (high - low)  # of the filter, in samples
+    first = math.ceil(1.2 * memory)
+    ahead = max(round(0.5 * memory), 2)
+    last = first
+    while last + ahead < len(correlation) and correlation[last] >= 0.1:
+        if correlation[last] <= correlation[last + 1 : last + ahead].min():
+            break  # an echo, or a beat
+        last += 1
+    if last - first < 4:  # nothing outlasts the filter, unless two resonances beat
+        comes_back = correlation[last : last + round(3.0 * memory)].max() > 0.3
+        return math.nan if comes_back else first / rate / -math.log(float(correlation[first]))
     lag = np.arange(first, last) / rate
     slope = float(np.polyfit(lag, np.log(correlation[first:last]), 1)[0])
     return -1.0 / slope if slope < -1.0 / LONGEST_LAG else math.nan
