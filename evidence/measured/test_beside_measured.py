@@ -42,7 +42,7 @@ def test_the_page_is_whole_with_public_records_and_with_own_ones() -> None:
         "evidence/measured/texture.py",
         page_values(RECORDS, [Measured(OWN, "cup", replace(QUIET, levels=(2.0,) * 5))], runs(), "nothing"),
     )
-    assert "| outer ring (cup) | 1 | -6.0 | -6.0 | +0.0 | +3.5 | +6.0 |" in own
+    assert "| outer ring (cup), field | freight | 1 | -6.0 | -6.0 | +0.0 | +3.5 | +6.0 |" in own
 
 
 def test_a_twin_in_the_range_of_the_records_is_inside_and_else_its_distance_is_stated() -> None:

@@ -184,6 +184,8 @@ def list_alike(rows: Sequence[tuple[str, ...]]) -> list[tuple[str, str, str]]:
     found = []
     for condition in dict.fromkeys(row[0] for row in rows):
         here = [row for row in rows if row[0] == condition and row[-1] != "not compared"]
+        if not here:
+            continue
         inside = [short[row[1]] for row in here if row[-1] == "inside"]
         outside = [f"{short[row[1]]} ({row[-1]})" for row in here if row[-1] != "inside"]
         found.append((condition, "; ".join(inside) or "none", "; ".join(outside) or "none"))
@@ -275,14 +277,28 @@ def sum_goals(twin: Sequence[Measured]) -> list[str]:
 
 
 def compare_levels(own: Sequence[Measured], twin: Sequence[Measured]) -> Iterator[tuple[str, ...]]:
-    """List the levels of own records, and the twin's middle less them by octave, [dB]."""
-    for part, condition in CONDITIONS.items():
+    """List the levels of the twin less those of own records by octave, middles, [dB]."""
+    for part, spall in _SHOWN:
         here = [each.texture.levels for each in own if each.part == part]
-        if here:
-            measured = np.median(here, axis=0)
-            runs = np.median([each.texture.levels for each in twin if each.part == part], axis=0)
-            difference = 20.0 * np.log10(runs / measured)
-            yield (condition, str(len(here)), *(_number(each, "+.1f") for each in difference))
+        for train in SCENES if here else ():
+            runs = [
+                each.texture.levels
+                for each in twin
+                if (each.group, each.part, _spall(each)) == (train, part, spall)
+            ]
+            difference = 20.0 * np.log10(np.median(runs, axis=0) / np.median(here, axis=0))
+            yield (
+                _named(part, spall),
+                train,
+                str(len(here)),
+                *(_number(each, "+.1f") for each in difference),
+            )
+
+
+def count_inside(rows: Sequence[tuple[str, ...]], word: str) -> str:
+    """Count the comparisons inside, of the conditions that have a word in their name."""
+    verdicts = [row[-1] for row in rows if word in row[0] and row[-1] != "not compared"]
+    return f"{verdicts.count('inside')} of {len(verdicts)}"
 
 
 def _values(measured: Sequence[Measured], part: str, get: Getter) -> list[float]:
@@ -308,6 +324,7 @@ def page_values(
     counts = {part: sum(each.part == part for each in public) for part in CONDITIONS}
     return {
         "alike": list_alike(rows),
+        "inside": {word: count_inside(rows, word) for word in ("healthy", "laboratory", "field")},
         "goals": sum_goals(twin),
         "goal_rows": list(list_goals(twin)),
         "comparison": rows,
