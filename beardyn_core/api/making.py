@@ -25,7 +25,7 @@ from beardyn_core.scene.scene import EFFECTS, Scene
 
 USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
 USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
-_NO_PATCH = ("diameter", "worn_pocket")  # kinds of faults without a depth
+_NO_PATCH = ("diameter", "field_spall", "worn_pocket")  # kinds of faults without a depth of their own
 _STEEL_DENSITY = 7830.0  # [kg/m^3]
 # what a bearing in code must say; see `_derive_missing_keys` for the rest
 _NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")

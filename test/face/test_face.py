@@ -19,6 +19,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping
 from beardyn_core.effects import EffectSet
 from beardyn_core.record.sinks import MemorySink
+from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.structure.mounted_box import modes_of_effects
 from beardyn_core.study import desk_run
@@ -186,6 +187,12 @@ def test_a_scene_is_made_of_a_handful_of_arguments() -> None:
     assert not faster.faults
     assert bd.scene(scene, tier="quasistatic").tier == "quasistatic"
     assert bd.scene(effects=EffectSet(gravity=None)).effects.gravity is None
+
+
+def test_a_field_spall_in_code_has_its_own_depth() -> None:
+    (spall,) = bd.scene("static_80kN", faults=[{"kind": "field_spall", "on": "cup", "width_mm": 6}]).defects
+    assert isinstance(spall, FieldSpall)
+    assert (spall.on, spall.row, spall.width) == ("cup", 0, 6e-3)
 
 
 def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
