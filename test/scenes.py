@@ -18,6 +18,9 @@ from beardyn_core.scene.waviness import Waviness
 SPEED = 122.0
 LOAD_80_KN = (0.0, 0.0, 8.0e4)
 
+# effects that are chosen, without the box of the scene, which rings
+RIGID: dict[str, Any] = {"preset": "auto"}
+
 
 @cache
 def standard_scene() -> Scene:

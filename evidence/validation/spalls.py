@@ -75,7 +75,7 @@ CWRU = (
 OUR_WAVES = "the waves of our raceways, whose height is assumed: over smooth ones it is 3.4"
 MFPT_LOADS = "MFPT, fault of the outer and of the inner race, 0 to 300 lbf: 0.07 and 0.28 (docs/levels.md)"
 DEEP_ONES = (
-    "the depth, 400 um by assumption: on floors of 3 and 5 um, on which rollers rest, it is 0.06 and 0.29; "
+    "the depth, 400 um by assumption: on floors of 2.5 and 5 um, on which rollers rest, it is 0.04 and 0.31; "
     "the source tells none"
 )
 # least and largest rms of a fault of so many thousandths of an inch, over that of a healthy bearing

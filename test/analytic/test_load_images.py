@@ -175,7 +175,8 @@ def strongest_image(load: LoadHistory, sample_rate: float) -> float:
 def ride(wheelset: str = "elastic") -> LoadHistory:
     scene = load_scene("healthy_80")
     assert isinstance(scene.operation, QuarterVehicleOperation)
-    operation = dataclasses.replace(scene.operation, wheelset=wheelset)
+    smooth = dataclasses.replace(scene.operation.irregularity, short_waves="none")  # at 2 kHz
+    operation = dataclasses.replace(scene.operation, irregularity=smooth, wheelset=wheelset)
     return load_history(operation, scene.mounting, 1.0, scene.seed)
 
 

@@ -23,8 +23,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 from test.choice.scenes import HELD, SPALL, constant, reasons, variant
 from test.examples import fast_ones
-
-RIGID = {"preset": "auto"}  # in place of the box of the scene, which rings
+from test.scenes import RIGID
 
 
 def has_number(sentence: str) -> bool:

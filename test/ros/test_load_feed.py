@@ -66,6 +66,6 @@ def test_only_a_load_that_cannot_have_the_background_is_told_of() -> None:
     assert missing_background(name, with_forces, live=False) == ""
     assert missing_background("", without, live=False) == ""
     told = missing_background(name, without, live=False)
-    assert "this load has 2000 samples a second" in told
+    assert "this load has 10000 samples a second" in told
     assert name in told
     assert "live load is filtered" in missing_background(name, with_forces, live=True)
