@@ -15,7 +15,7 @@ from scipy.signal import welch
 from beardyn_core.choice import load_scene
 from beardyn_core.run import blocks
 from beardyn_core.scene import band_limited
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from evidence.stamps import stamp
@@ -29,8 +29,8 @@ def spectrum() -> tuple[np.ndarray, np.ndarray]:
     """Simulate the scene without sensor noise: frequency [kHz] and density of the box's acceleration [dB]."""
     scene = load_scene(SCENE, tier=TIER, duration=3.0)
     assert isinstance(scene.operation, QuarterVehicleOperation)
-    smooth = replace(scene.operation.irregularity, short_waves="none")  # a load at 2 kHz
-    scene = replace(scene, operation=replace(scene.operation, irregularity=smooth))
+    rail = Irregularity("fra_4", shortest_wavelength=0.1, short_waves="none")  # a load at 2 kHz
+    scene = replace(scene, operation=replace(scene.operation, irregularity=rail))
     silent = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     readings = [block.vibration[0] for block in blocks(replace(scene, sensors=silent))]
     vertical = np.concatenate([reading.acceleration[:, 2] for reading in readings])

@@ -8,8 +8,10 @@ from typing import Any
 
 import yaml
 
-from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.choice import load_scene, scene_from_mapping, scene_from_text
 from beardyn_core.config import scene_text
+from beardyn_core.config.folders import find
+from beardyn_core.config.yaml_text import read_file
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.defect import Defect
 from beardyn_core.scene.scene import Scene
@@ -60,3 +62,10 @@ def scene_with_keys(**changes: Any) -> Scene:
     """The shipped 80 kN scene with other keys of its file."""
     data = yaml.safe_load(scene_text(load_scene("static_80kN")))
     return scene_from_text(yaml.safe_dump({**data, **changes}))
+
+
+def rigid_scene(name: str, **given: Any) -> Scene:
+    """A shipped scene without its effects, so in a rigid box; ``given`` are keys of its file."""
+    keys = {**read_file(find("scenes", name)), **given}
+    keys.pop("effects", None)
+    return scene_from_mapping(keys, name, find("scenes", name).parent)

@@ -259,7 +259,7 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     recorded = None
     with suppress(InputError) if bearings else nullcontext():
         if recording.scene_text:
-            recorded = NamePlate.of(scene_from_text(recording.scene_text, path).bearing)
+            recorded = NamePlate.of(scene_from_text(recording.scene_text, str(path)).bearing)
     known = mounted_in(recording.measured, path)
     for each in bearings if recorded is not None else ():
         assert recorded is not None

@@ -59,6 +59,10 @@ CHINA = (
 )
 # Of a level whose band is not told.
 CHINA_TOLERANCE: float = 0.3
+CHINA_MISSES = (
+    "the roughness of the line, which the source does not tell: with that of French high-speed lines ours is "
+    "6.1 m/s2, at the limit of ISO 3095 it is 11.5"
+)
 SENSOR_HEIGHT = 0.17
 SECONDS, SETTLED = 4.0, 0.5
 FREIGHT = replace(Mounting(), journal_mass=675.0, box_mass=80.0)
@@ -296,6 +300,7 @@ ANCHORS = (
         CHINA,
         level_in_china,
         tolerance=CHINA_TOLERANCE,
+        misses=CHINA_MISSES,
         measured=True,
     ),
     Anchor(

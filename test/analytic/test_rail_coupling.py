@@ -9,13 +9,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
-from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import FADE_IN, RIDE_RATE, ride_steps
 from beardyn_core.rail.running import running
 from beardyn_core.run import blocks
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from test.analytic.rail_rides import ride_of
-from test.scenes import RIGID
+from test.scenes import rigid_scene
 
 DURATION = 2.0
 SNAPSHOT_RATE = 200.0
@@ -30,7 +29,7 @@ def below_50_hz(signal: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
     """Masses differ by the bearing's own 15 kg in 1000, which the rail model leaves out: hence 5 %."""
-    scene = load_scene("smooth_run", effects=RIGID)
+    scene = rigid_scene("smooth_run")
     assert isinstance(scene.operation, QuarterVehicleOperation)
     found = list(blocks(scene, DURATION))
     time = np.concatenate([block.snapshot_time_ns for block in found]) * 1e-9
@@ -51,7 +50,7 @@ def test_journal_accelerates_as_in_the_rail_model_below_50_hz() -> None:
 @pytest.mark.slow
 def test_journal_sways_as_in_the_rail_model_below_20_hz() -> None:
     """Sideways on the alignment, with the play of the bearing and its own mass in between."""
-    scene = load_scene("smooth_run", effects=RIGID)
+    scene = rigid_scene("smooth_run")
     assert isinstance(scene.operation, QuarterVehicleOperation)
     operation = dataclasses.replace(scene.operation, lateral=True)
     found = list(blocks(dataclasses.replace(scene, operation=operation), DURATION))
@@ -75,7 +74,7 @@ def both(
     sideways: bool, wheelset: str = "elastic", creep: bool = True
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Acceleration at the sensor, [m/s^2]: in the twin, in the rail model; and its rate, [Hz]."""
-    scene = load_scene("smooth_run", tier="quasistatic", effects=RIGID)
+    scene = rigid_scene("smooth_run", tier="quasistatic")
     if not creep:
         scene = dataclasses.replace(scene, effects=dataclasses.replace(scene.effects, film=None))
     operation = scene.operation

@@ -23,9 +23,11 @@ from beardyn_core.calibration.writing import scene_keys, scene_text
 from beardyn_core.choice import load_scene
 from beardyn_core.cli import main as command
 from beardyn_core.config.folders import find
+from beardyn_core.config.yaml_text import read_file, write_mapping
 from test.calibration.law import BASES, law
 from test.cli.json_page import check
 from test.recordings import import_noise
+from test.scenes import RIGID
 
 RATE = 25_600.0
 SCENE = "service_high_speed"
@@ -64,7 +66,7 @@ def test_recordings_that_do_not_fit_the_scene_are_refused(
 @pytest.mark.parametrize(
     ("scene", "options", "sentence"),
     [
-        ("healthy_140", {"fit": ["frequency"]}, "fit frequency: the scene healthy_140 has no modes of a box"),
+        ("rigid.yaml", {"fit": ["frequency"]}, "fit frequency: the scene healthy_140 has no modes of a box"),
         ("service_high_speed_cup", {}, "has a fault"),
         (SCENE, {"fit": ["stiffness"]}, "'stiffness' is no unknown; allowed are frequency, damping"),
         (SCENE, {"fit": []}, "fit: names nothing"),
@@ -77,6 +79,10 @@ def test_what_cannot_be_asked_for_is_refused(
     scene: str, options: dict[str, Any], sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    rigid = {
+        key: value for key, value in read_file(find("scenes", "healthy_140")).items() if key != "effects"
+    }
+    Path("rigid.yaml").write_text(write_mapping(rigid), encoding="utf-8")
     with pytest.raises(InputError, match=sentence):
         bd.calibrate(recording(tmp_path), scene, **options)
 
@@ -128,7 +134,7 @@ def test_files_beside_the_scene_are_found_from_another_folder(tmp_path: Path) ->
 
 
 def test_a_scene_without_structure_and_background_has_other_unknowns() -> None:
-    scene = load_scene("healthy_140")
+    scene = load_scene("healthy_140", effects=RIGID)
     assert [each.name for each in UNKNOWNS if each.base_of(scene, 0) is not None] == ["noise", "end_play"]
 
 

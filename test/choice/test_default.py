@@ -15,7 +15,9 @@ from beardyn_core.choice.trial import together
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_effects, read_scene, shipped_names
 from beardyn_core.config.folders import find
+from beardyn_core.config.load import read_scene_mapping
 from beardyn_core.config.yaml_text import read_file
+from beardyn_core.effects import ModalStructure
 from beardyn_core.scene.scene import Free
 from beardyn_core.scene.trial import Trial
 from test.choice.scenes import BASE
@@ -30,9 +32,10 @@ def refuse(*_: Any) -> None:
 
 
 def test_effects_laminae_and_step_are_open_and_the_tier_is_full() -> None:
-    found = read_scene("cup_spall")
+    found = read_scene_mapping({**UNNAMED, "scene": "unnamed"}, "unnamed", Path())
     assert found.free == Free(tier=False)
     assert found.scene.tier == "full"
+    assert read_scene("cup_spall").free == Free()  # of a scene that says so, with its box
 
 
 def test_a_tier_may_be_left_open_beside() -> None:
@@ -158,7 +161,9 @@ def test_a_trial_with_effects_chooses_nothing(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(trials, "choice_for", refuse)
     trial = with_choices(small(effects="standard"))
     assert trial.choices == ()
-    assert trial_scene(trial, trial.cells()[0]).effects == load_effects("standard")
+    effects = trial_scene(trial, trial.cells()[0]).effects
+    assert isinstance(effects.structure, ModalStructure)  # the box of the scene stays
+    assert replace(effects, structure=None) == load_effects("standard")
 
 
 def test_together_every_effect_is_on_that_one_needs_and_of_the_kind_that_leaves_out_least() -> None:

@@ -22,6 +22,7 @@ from beardyn_core.run import start
 from beardyn_core.scene.scene import NOTHING, Free, Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES, SLOW_RATES
 from beardyn_core.sensors.block import Block
+from test.scenes import rigid_scene
 
 pytestmark = pytest.mark.usefixtures("shipped_configuration")
 DURATION, SETTLED = 1.6, 0.3
@@ -30,7 +31,7 @@ ASKED = 1000.0
 
 @cache
 def asked() -> Scene:
-    return load_scene("smooth_run", tier="lumped", effects="auto", vibration_to=ASKED)
+    return rigid_scene("smooth_run", tier="lumped", vibration_to_Hz=ASKED)
 
 
 def at(rate: float) -> Scene:

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.jit import entry
-from beardyn_core.choice import load_scene, scene_from_text
+from beardyn_core.choice import scene_from_text
 from beardyn_core.choice.fast_step import fast_steps, fastest_mode
 from beardyn_core.choice.ringing import bounce, levels
 from beardyn_core.config.nouns import load_vehicle
@@ -56,6 +56,7 @@ from test.kernels.momentum import assert_momentum_is_exchanged
 from test.kernels.rig import Float, Rig
 from test.kernels.states import shaken
 from test.runs import constant_load, started, stepped_load
+from test.scenes import rigid_scene
 
 LOAD = (0.0, 0.0, 6.7e4)
 SPEED_OF_SHAFT = 120.0
@@ -76,7 +77,7 @@ numerics: {steps_per_sample: 0.5}
 @cache
 def scene_on(wheelset: str, tier: str = "full") -> Scene:
     """The smooth run, its wheelset as said, its bearing as drawn, without what a step does not need."""
-    scene = load_scene("smooth_run", tier=tier)
+    scene = rigid_scene("smooth_run", tier=tier)
     operation = scene.operation
     assert isinstance(operation, QuarterVehicleOperation)
     steps = max(scene.numerics.steps_per_sample, 1)  # a coupled wheelset is refused longer ones

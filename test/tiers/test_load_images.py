@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.signal import welch
 
-from beardyn_core.choice import load_scene
 from beardyn_core.run import blocks
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
+from test.scenes import rigid_scene
 
 SAMPLE_RATE = 2000.0
 SETTLED_S = 0.3
@@ -31,10 +31,10 @@ def test_a_healthy_run_without_noise_has_no_lines_at_the_rate_of_its_load(
 
     Of rollers by the drawing: waves of rollers as made have lines of their own, which would hide some.
     """
-    scene = load_scene("healthy_80", tier=tier, duration=duration)
+    scene = rigid_scene("healthy_80", tier=tier, duration_s=duration)
     assert isinstance(scene.operation, QuarterVehicleOperation)
-    smooth = replace(scene.operation.irregularity, short_waves="none")  # a load at 2 kHz
-    scene = replace(scene, operation=replace(scene.operation, irregularity=smooth))
+    rail = Irregularity("fra_4", shortest_wavelength=0.1, short_waves="none")  # a load at 2 kHz
+    scene = replace(scene, operation=replace(scene.operation, irregularity=rail))
     silent = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     readings = [block.vibration[0] for block in blocks(replace(scene, sensors=silent, scatter=None))]
     vertical = np.concatenate([reading.acceleration[:, 2] for reading in readings])

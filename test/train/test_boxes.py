@@ -71,7 +71,7 @@ def test_axles_must_be_said() -> None:
 def test_the_shipped_bogie_has_its_spall_in_one_box_of_four() -> None:
     scene = read_scene("bogie").scene
     assert scene.axleboxes is not None
-    assert (scene.tier, scene.doubts) == ("lumped", ())
+    assert (scene.tier, scene.doubts) == ("quasistatic", ())
     boxes = {box.name: scene_of_box(scene, box) for box in scene.axleboxes.boxes}
     assert [name for name, each in boxes.items() if each.defects] == ["axle_2_left"]
     assert [each.mounting.side for each in boxes.values()] == ["left", "right", "left", "right"]
