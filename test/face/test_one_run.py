@@ -156,7 +156,7 @@ def test_the_summary_of_a_file_is_that_of_the_run(both: Both) -> None:
         assert getattr(made, name) == getattr(told, name), name
     assert made.averaged == pytest.approx(told.averaged, rel=2e-4)  # cages turn unevenly on waves
     assert made.mean_force == pytest.approx(told.mean_force, rel=1e-5, abs=0.1)
-    torque = np.asarray(both.memory.shaft_torque)
+    torque = both.memory.torque.values
     doubt = 4.0 * float(np.std(torque)) / np.sqrt(len(torque))  # of a mean of 200 Hz of 400
     assert made.shaft_torque == pytest.approx(told.shaft_torque, abs=doubt)
     assert doubt < 0.05 * abs(told.shaft_torque)
