@@ -37,13 +37,14 @@ raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
 point_contact      contact with the cone at a point, and the small rib
 land               land of a cage in cup or cone
-waviness           gap of waviness; the force along a sloping gap
+waviness           waviness: its tables, its gap, and the force along a sloping gap
+rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
 traction           friction of the raceway contacts
 film               film of the raceway contacts
 rib                ribs at both roller ends: spheres on a cone, their film and friction
 pocket             pockets of the cage, and its simplified forms
-defect             patches, waviness, wear and size errors: tables, and the gaps they make
+defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way
 roller_spring      a roller as one spring along the cup's normal
 spall_cover        share of each lamina that counts as lost over a patch, from the half-space

@@ -1,4 +1,4 @@
-"""Patches, waviness, wear and size errors: their tables, the gaps they make, their growth between blocks.
+"""Patches, wear and size errors: their tables, the gaps they make, their growth between blocks.
 
 Far from every patch a contact costs one distance a patch. Near one, each lamina becomes two springs, its
 sound and its damaged part, the damaged one with the gap from the path of the roller over the patch. Near a
@@ -22,10 +22,10 @@ from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
 from beardyn_core.physics.scatter import added_clearance, crown_errors, scattered_oversize
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover, shared_cover
+from beardyn_core.physics.waviness import WaveParams, wave_params
 from beardyn_core.scene.defect import RollerError, WornPocket, every_patch
 from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.waviness import Waviness
 
 
 class SurfaceParams(NamedTuple):
@@ -45,14 +45,6 @@ class DamageParams(NamedTuple):
 
     laminae: Any  # the lamina table twice over [row of the table, 2 x lamina]
     springs: Any  # work space [1, spring x SPRING_FIELDS, lane]
-
-
-class WaveParams(NamedTuple):
-    """Waviness of one surface; a row of the table is one turn and two points more."""
-
-    table: Any  # flat [m]
-    first: Any  # [block, 1, lane], where the lane's row of the table begins
-    points: float  # of one turn
 
 
 class FaultParams(NamedTuple):
@@ -187,39 +179,6 @@ def roller_oversize(scene: Scene) -> Float:
         if isinstance(defect, RollerError):
             error[defect.row, defect.roller] += 0.5 * defect.diameter
     return error
-
-
-POINTS_PER_WAVE = 64  # linear interpolation is then good to 0.12 % of the amplitude of the shortest wave
-# ... and to 8 % where scatter makes it: there it is a hundredth of the longest or less
-POINTS_PER_SCATTERED_WAVE = 8
-
-
-def wave_params(scene: Scene, on: str, arrangement: Arrangement) -> WaveParams | None:
-    """Tabulate the waviness of one surface over a period per row or roller; ``None`` without any."""
-    waves = [wave for wave in scene.waves if wave.on == on]
-    if not waves:
-        return None
-    shortest = [
-        max(wave.orders) * (POINTS_PER_WAVE if wave in scene.waviness else POINTS_PER_SCATTERED_WAVE)
-        for wave in waves
-    ]
-    points = max(1024, *shortest)
-    count = arrangement.roller_count if on == "roller" else 1
-    tables = np.zeros((2, count, points + 2))
-    for wave in waves:
-        for roller in range(count):
-            if wave.roller is None or on != "roller" or wave.roller == roller:
-                tables[wave.row, roller] += np.resize(_one_turn(wave, roller, points), points + 2)
-    first = np.arange(2 * count, dtype=float).reshape(2, count) * (points + 2)
-    start = arrangement.to_lanes(np.broadcast_to(first, (2, arrangement.roller_count)))
-    return WaveParams(tables.reshape(-1), np.ascontiguousarray(start[:, None, :]), float(points))
-
-
-def _one_turn(wave: Waviness, roller: int, points: int) -> Float:
-    """Compute `Waviness.gap` at points around the body by a Fourier transform, shape [point], [m]."""
-    lines = np.zeros(points // 2 + 1, np.complex128)
-    np.add.at(lines, list(wave.orders), np.array(wave.amplitudes) * np.exp(1j * wave.phases(roller)))
-    return np.fft.irfft(0.5 * points * lines, points)
 
 
 _LAST = layout.PATCH_POINTS - 2.0

@@ -21,9 +21,9 @@ from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
 from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
+from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.massless_roller import faulted_load, over_patches
 from beardyn_core.physics.tiers.planar_roller import cone_waves
-from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.waviness import wave_gap
 from test.kernels.entries import pocket_of
 

@@ -12,8 +12,8 @@ import pytest
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import POCKET_ANGLE
 from beardyn_core.physics.lanes.lanes import Lanes
+from beardyn_core.physics.rolling_waves import MOST_POINTS, highest_wave, rolling_wave_params
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.physics.tiers.tier_waves import MOST_POINTS, highest_wave, rolling_wave_params
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels.casting import Float, through

@@ -28,9 +28,7 @@ build             a scene to parameters; how much of a spring a step takes in
 parameters        named tuples of kernel parameters; an absent effect is None
 tier_parameters   parameters of the tiers without roller dynamics
 tier_bending      bending of the axlebox in these tiers
-tier_waves        waviness as the rollers of the lumped tier meet it
 pocket_play       rollers in the pockets of cages that turn and hang (quasistatic tier)
-rolling_waves     waviness under rollers that orbit kinematically (lumped tier)
 kinematics        world poses, twists and contact forces from the kernel's state
 ================= =====================================================================
 """

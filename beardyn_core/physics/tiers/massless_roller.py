@@ -30,6 +30,7 @@ from beardyn_core.physics.lanes.vectors import add_scaled
 from beardyn_core.physics.pocket import pocket_torque
 from beardyn_core.physics.rib import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
+from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.kinematic_bending import (
     PLACE,
     SPEED,
@@ -52,7 +53,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     show_roller,
     watch_loads,
 )
-from beardyn_core.physics.tiers.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.sliding import creep_of, rolling_level, store_creep
 
 # After the loads: angle of the cages [rad], speed of shaft and cages [rad/s]; then the largest loads [N].

@@ -20,11 +20,11 @@ from beardyn_core.physics.bodies.layout import MASK, OVERSIZE, POCKET_ANGLE
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.pure_rolling import KinematicParams, pocket_params
 from beardyn_core.physics.roller_spring import SpringParams
+from beardyn_core.physics.rolling_waves import RollingWaveParams
 from beardyn_core.physics.scatter import mean_crown
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.sliding import SlideParams
 from beardyn_core.physics.tiers.tier_bending import BendingParams
-from beardyn_core.physics.tiers.tier_waves import RollingWaveParams
 from beardyn_core.scene.scene import Scene
 
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]

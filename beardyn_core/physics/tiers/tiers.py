@@ -14,6 +14,7 @@ from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.physics.pure_rolling import kinematic_params
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
+from beardyn_core.physics.rolling_waves import highest_wave, rolling_wave_params
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import tilt_restraint
@@ -26,7 +27,6 @@ from beardyn_core.physics.tiers.sliding import slide_params
 from beardyn_core.physics.tiers.start import initial_state, settle_lumped
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.tier_bending import bending_params, step_body
-from beardyn_core.physics.tiers.tier_waves import highest_wave, rolling_wave_params
 from beardyn_core.scene.scene import Scene
 
 

@@ -1,4 +1,4 @@
-"""Waviness for rollers that orbit kinematically: a table of each surface as its rollers meet it."""
+"""Waviness under rollers that orbit kinematically: tables as these meet it, one place in them for all."""
 
 from __future__ import annotations
 
@@ -7,13 +7,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.arrangement import aligned_zeros
 from beardyn_core.physics.bodies.layout import POCKET_ANGLE
-from beardyn_core.physics.defect import FaultParams, WaveParams
+from beardyn_core.physics.defect import FaultParams
+from beardyn_core.physics.lanes.lane_math import floor, where_greater
+from beardyn_core.physics.lanes.lane_tables import prefetch
+from beardyn_core.physics.waviness import WaveParams
 
 # A finer table fits no cache. Waves of more than 256 a turn have fewer points each than in the other tiers:
 # linear interpolation takes 2 % off those of 1000 a turn, which strike at 8 kHz at 200 km/h.
 MOST_POINTS = 16_384
+_PER_TURN = 0.15915494309189535
 
 
 class RollingWaveParams(NamedTuple):
@@ -75,3 +80,66 @@ def _seen_from(waves: WaveParams, ahead: Float, here: float, opposite: float) ->
         turned = lines[surface[block, lane], : len(orders)] * share * np.exp(1j * orders * ahead[block, lane])
         table[:, block, lane] = np.resize(np.fft.irfft(turned, points), points + 2)
     return table
+
+
+@inline
+def wave_places(turns, waves):
+    """Find where all rollers stand in the tables: on cup, cone and themselves; see `place_in`."""
+    if waves is None:
+        return (0, 0.0), (0, 0.0), (0, 0.0)
+    return (
+        place_in(turns[0], waves.cup),
+        place_in(turns[0] - turns[1], waves.cone),
+        place_in(-turns[2], waves.roller),
+    )
+
+
+@inline
+def place_in(angle, table):
+    """Find the row of a table that an angle is at or behind, and the part of the way to the next."""
+    if table is None:
+        return 0, 0.0
+    points = table.shape[0] - 2
+    turns = angle * _PER_TURN
+    position = (turns - floor(turns)) * points
+    row = min(
+        int(where_greater(position, 0.0, position, 0.0)), points
+    )  # within the table, whatever the angle
+    return row, position - row
+
+
+@inline
+def fetch_waves(lanes, blocks, ahead, waves):
+    """Ask for what the tables have some steps `ahead`, at places of `wave_places`: no near cache holds it."""
+    if waves is None:
+        return
+    _fetch(lanes, blocks, ahead[0], waves.cup)
+    _fetch(lanes, blocks, ahead[1], waves.cone)
+
+
+@inline
+def _fetch(lanes, blocks, place, table):
+    if table is None:
+        return
+    for block in range(blocks):
+        prefetch(lanes, table, place[0], block)
+        prefetch(lanes, table, place[0] + 1, block)
+
+
+@inline
+def subtract_waviness(lanes, block, approach, places, waves):
+    """Take the gaps of waviness off the approach of a block of rollers, [m]."""
+    if waves is None:
+        return approach
+    approach = _less_gap(lanes, block, approach, places[0], waves.cup)
+    approach = _less_gap(lanes, block, approach, places[1], waves.cone)
+    return _less_gap(lanes, block, approach, places[2], waves.roller)
+
+
+@inline
+def _less_gap(lanes, block, approach, place, table):
+    if table is None:
+        return approach
+    row, part = place
+    low = lanes.load(table, row, block)
+    return approach - (low + part * (lanes.load(table, row + 1, block) - low))
