@@ -6,8 +6,17 @@ number of passes from a fixed start, so that a force depends on the present stat
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
+import numpy as np
+
 from beardyn_core.base.jit import inline
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.lamina_coupling import part_exponent
+from beardyn_core.effects import LaminaCoupling
+from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.physics.lanes.lane_math import (
     at_least,
     at_most,
@@ -28,6 +37,35 @@ _NO_ENERGY = 1e-40  # of a depth of 1e-19 m
 _SMALLEST_PART = 1e-30
 _SMALLEST_LOOSE = 1e-12
 _NOTHING = 1e-300
+
+
+class CouplingParams(NamedTuple):
+    """Laminae coupled through the half-space; `work` holds nothing from one contact to the next."""
+
+    root: Any  # [lamina, lamina]
+    follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
+    own_stiffness: Any  # [lamina]
+    part_exponent: float  # of the part of a lamina that stands higher than the rest
+    work: Any  # [COUPLING_ROWS, lamina, lane]
+
+
+def coupling_params(
+    bearing: Bearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
+) -> CouplingParams | None:
+    """Make matrices and work space for `count` laminae, or ``None`` without the effect."""
+    if coupling is None:
+        return None
+    matrices = bearing_lamina_root(bearing, coupling, count)
+    own = np.diag(matrices.stiffness).copy()
+    follow = -matrices.stiffness / own[:, None]
+    np.fill_diagonal(follow, 0.0)
+    return CouplingParams(
+        root=np.ascontiguousarray(matrices.root),
+        follow=np.ascontiguousarray(follow),
+        own_stiffness=own,
+        part_exponent=part_exponent(coupling.strength),
+        work=aligned_zeros(layout.COUPLING_ROWS, count, arrangement.width),
+    )
 
 
 @inline

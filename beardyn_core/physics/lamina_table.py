@@ -1,9 +1,8 @@
-"""Laminae of a roller: the table of what each has of its own, and their coupling."""
+"""Laminae of a roller: the table of what each has of its own."""
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,22 +11,9 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.lamina_coupling import part_exponent
-from beardyn_core.effects import LaminaCoupling, LineFilm
-from beardyn_core.effects.lamina_coupling import bearing_lamina_root
+from beardyn_core.effects import LineFilm
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.scene.scene import Scene
-
-
-class CouplingParams(NamedTuple):
-    """Laminae coupled through the half-space; `work` holds nothing from one contact to the next."""
-
-    root: Any  # [lamina, lamina]
-    follow: Any  # [lamina, lamina], where one lamina is in balance, given the others
-    own_stiffness: Any  # [lamina]
-    part_exponent: float  # of the part of a lamina that stands higher than the rest
-    work: Any  # [COUPLING_ROWS, lamina, lane]
 
 
 def for_springs(table: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -128,22 +114,3 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
             (math.pi / 4) ** 2 * 0.5 * modulus / (math.pi * radius * length)
         )
     return table
-
-
-def coupling_params(
-    bearing: Bearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
-) -> CouplingParams | None:
-    """Make matrices and work space for `count` laminae, or ``None`` without the effect."""
-    if coupling is None:
-        return None
-    matrices = bearing_lamina_root(bearing, coupling, count)
-    own = np.diag(matrices.stiffness).copy()
-    follow = -matrices.stiffness / own[:, None]
-    np.fill_diagonal(follow, 0.0)
-    return CouplingParams(
-        root=np.ascontiguousarray(matrices.root),
-        follow=np.ascontiguousarray(follow),
-        own_stiffness=own,
-        part_exponent=part_exponent(coupling.strength),
-        work=aligned_zeros(layout.COUPLING_ROWS, count, arrangement.width),
-    )

@@ -27,7 +27,8 @@ from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params
 from beardyn_core.physics.film import film_params
 from beardyn_core.physics.journal import journal_params
-from beardyn_core.physics.lamina_table import coupling_params, lamina_table
+from beardyn_core.physics.lamina_coupling import coupling_params
+from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.pocket import cage_params
 from beardyn_core.physics.rib import rib_params, small_rib_params
 from beardyn_core.physics.ring_modes import body_of, structure_params

@@ -12,7 +12,7 @@ from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams
 from beardyn_core.physics.film import FilmParams
-from beardyn_core.physics.lamina_table import CouplingParams
+from beardyn_core.physics.lamina_coupling import CouplingParams
 from beardyn_core.physics.pocket import CageParams
 from beardyn_core.physics.rib import RibParams, SmallRibParams
 from beardyn_core.physics.ring_modes import StructureParams
