@@ -18,10 +18,12 @@ from beardyn_core.physics.scatter import crown_errors
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.run import blocks
 from beardyn_core.scene.load import LoadHistory
+from beardyn_core.scene.operation import Irregularity, QuarterVehicleOperation
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin
 from evidence.validation.cage_whirl import WhirlCase, cage_whirl
+from test.scenes import rigid_scene
 from test.tiers.runs import FAST, Float, scene_of
 
 FORCE = (0.0, 0.0, 8e4)
@@ -134,7 +136,10 @@ AXIAL = (450.0, 900.0)  # the axlebox along the axle
 @cache
 def levels(tier: str, scattered: bool) -> Float:
     """Third octaves of the axlebox's acceleration along y, z at 300 km/h, no noise, [2, band], [dB]."""
-    scene = load_scene("healthy_300", tier=tier)
+    scene = rigid_scene("healthy_300", tier=tier)
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    line = Irregularity("china_ballastless", shortest_wavelength=0.1, short_waves="none")  # of bearing noise
+    scene = replace(scene, operation=replace(scene.operation, irregularity=line))
     quiet = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
     scene = replace(scene, sensors=quiet, scatter=Scatter("G2", 7) if scattered else None)
     signal = np.concatenate([block.vibration[0].acceleration for block in blocks(scene, 2.5)])[12_800:, 1:]
