@@ -40,7 +40,11 @@ class Irregularity:
     kind: A[
         str, At(one_of=IRREGULARITY_KINDS), "a spectrum by name, or a file of a profile or of a density"
     ] = "german_low"
-    shortest_wavelength: A[float, At("m", gt=0.0, ge=0.02, le=50.0), "of the band of the spectrum"] = 2.0
+    shortest_wavelength: A[
+        float,
+        At("m", gt=0.0, ge=0.02, le=50.0),
+        "of the band of the spectrum; what a density from a file has below is left out",
+    ] = 2.0
     longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0
     short_waves: A[
         str | None,

@@ -8,7 +8,7 @@ grades             how well the faults can be diagnosed at all, as published
 run                monitors over the records, and what is right, wrong or missed
 page               docs/monitor_measured.md
 wrong_inputs       docs/monitor_wrong_inputs.md: the monitor given a wrong speed or a wrong bearing
-speed              how often the interval of the heard speed holds, on records it was not fitted on
+speed              how often the interval of the speed from vibration holds, on records it was not fitted on
 cycbd              blind deconvolution, aimed at an order
 spectra            other spectra than the chain's, on the part for choosing
 run_to_failure     docs/run_to_failure.md: when the trend alarms

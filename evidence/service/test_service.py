@@ -1,4 +1,4 @@
-"""In service: healthy bearings are left alone and faulty ones named, whatever else the sensor hears."""
+"""In service: healthy bearings are left alone and faulty ones named, whatever else the sensor measures."""
 
 from __future__ import annotations
 
