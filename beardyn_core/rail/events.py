@@ -10,6 +10,7 @@ import numpy as np
 
 from beardyn_core.rail.excitation import waves_of
 from beardyn_core.rail.roughness import select_roughness
+from beardyn_core.rail.spectra import spectrum_band
 from beardyn_core.scene import excitation
 from beardyn_core.scene.operation import MeasuredOperation, QuarterVehicleOperation
 from beardyn_core.scene.running import distance_at, speed_at
@@ -96,7 +97,7 @@ def _irregularity(irregularity: excitation.Irregularity, scene: Scene) -> dict[s
     if irregularity.path is not None:
         found["file"] = irregularity.path.name
     if irregularity.kind not in ("none", "csv"):
-        found["wavelength_m"] = [irregularity.shortest_wavelength, irregularity.longest_wavelength]
+        found["wavelength_m"] = list(spectrum_band(irregularity))
     roughness, _ = select_roughness(irregularity, scene.background)
     if roughness.rail != "none":
         found["short_waves"] = roughness.rail

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.rail.patch import patch_gain
-from beardyn_core.rail.spectra import target_density
+from beardyn_core.rail.spectra import spectrum_band, target_density
 from beardyn_core.rail.table import Column, Layout, read_table
 from beardyn_core.scene.chord_polynomials import refine_series
 from beardyn_core.scene.excitation import Irregularity
@@ -107,7 +107,7 @@ def _draw_profile(
     period = _SHORTEST_PERIOD
     while period < distance:
         period *= 2.0
-    shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
+    shortest, longest = spectrum_band(irregularity)
     points = grid_points(period, shortest, _SAMPLES_PER_WAVE)
     if irregularity.kind == "none":
         return RailProfile(period / points, np.zeros(points), np.zeros(points))

@@ -7,11 +7,11 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.rail.irregularity import RailProfile, grid_points, random_phases, spectral_lines
 from beardyn_core.rail.patch import patch_gain
-from beardyn_core.rail.spectra import roughness_density, target_density
+from beardyn_core.rail.spectra import SHORTEST_WAVE, roughness_density, spectrum_band, target_density
 from beardyn_core.scene.background import Background, Roughness
 from beardyn_core.scene.excitation import Irregularity
 
-BAND = (0.004, 2.0)  # wavelengths, [m]: from a third of a contact patch to the longest of the levels
+BAND = (SHORTEST_WAVE, 2.0)  # wavelengths, [m]: to the longest of the levels
 _PERIOD = 512.0
 _SAMPLES_PER_WAVE = 8  # images of the grid are 70 dB down where the contact patch swallows the shortest wave
 _STREAMS = {"rail": 0x726F7567, "wheel": 0x74726561}
@@ -73,8 +73,7 @@ def _lacking_density(irregularity: Irregularity, wavenumber: Float, density: Flo
     found = density.copy()
     if irregularity.kind not in ("csv", "none"):
         wavelength = 2.0 * np.pi / wavenumber
-        there = (wavelength >= irregularity.shortest_wavelength) & (
-            wavelength <= irregularity.longest_wavelength
-        )
+        shortest, longest = spectrum_band(irregularity)
+        there = (wavelength >= shortest) & (wavelength <= longest)
         found[there] -= target_density(irregularity, wavenumber[there])
     return np.maximum(found, 0.0)

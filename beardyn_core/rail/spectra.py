@@ -80,6 +80,7 @@ _LEVELS = {
         """,
     }.items()
 }
+SHORTEST_WAVE = 0.004  # a third of a contact patch, [m]
 THIRD_OCTAVE = 10.0**0.05 - 10.0**-0.05
 
 DENSITY_LAYOUT = Layout(
@@ -139,6 +140,19 @@ def _china(cycles: Float, direction: str) -> Float:
     pieces = np.array(_CHINA_PIECES[direction])
     piece = np.searchsorted(_CHINA_BREAKS[direction], cycles, side="right")
     return np.asarray(1e-6 * pieces[piece, 0] / cycles ** pieces[piece, 1])
+
+
+def spectrum_band(irregularity: Irregularity) -> tuple[float, float]:
+    """Find the shortest and longest wavelength of a drawn irregularity, [m]; a file's own by default."""
+    if irregularity.kind != "density_csv":
+        return irregularity.named_band
+    assert irregularity.path is not None
+    covered = _density_table(irregularity.path)["wavelength_m"]
+    shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
+    return (
+        max(float(covered[0]), SHORTEST_WAVE) if shortest is None else shortest,
+        float(covered[-1]) if longest is None else longest,
+    )
 
 
 def target_density(irregularity: Irregularity, wavenumber: Float, direction: str = "vertical") -> Float:

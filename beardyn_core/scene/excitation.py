@@ -41,11 +41,15 @@ class Irregularity:
         str, At(one_of=IRREGULARITY_KINDS), "a spectrum by name, or a file of a profile or of a density"
     ] = "german_low"
     shortest_wavelength: A[
-        float,
-        At("m", gt=0.0, ge=0.02, le=50.0),
-        "of the band of the spectrum; what a density from a file has below is left out",
-    ] = 2.0
-    longest_wavelength: A[float, At("m", gt=0.0, ge=1.0, le=1000.0), "of the band of the spectrum"] = 150.0
+        float | None,
+        At("m", gt=0.0, ge=0.004, le=50.0),
+        "of the band; when left out 2 m with a spectrum by name, else the end of the file (from 4 mm)",
+    ] = None
+    longest_wavelength: A[
+        float | None,
+        At("m", gt=0.0, ge=1.0, le=1000.0),
+        "of the band; when left out 150 m with a spectrum by name, else the end of the file",
+    ] = None
     short_waves: A[
         str | None,
         At(one_of=RAIL_LEVELS),
@@ -65,15 +69,24 @@ class Irregularity:
             return self.short_waves
         return "none" if self.kind in ("csv", "none") else "average_network"
 
+    @property
+    def named_band(self) -> tuple[float, float]:
+        """Shortest and longest wavelength of a spectrum by name, also where none is given, [m]."""
+        shortest, longest = self.shortest_wavelength, self.longest_wavelength
+        return 2.0 if shortest is None else shortest, 150.0 if longest is None else longest
+
     def __post_init__(self) -> None:
         refuse(self, "irregularity")
 
     def rules(self) -> Iterator[str]:
         """Check that the band is not empty, and that a file is set exactly when one is needed."""
-        if self.shortest_wavelength >= self.longest_wavelength:
+        shortest, longest = self.shortest_wavelength, self.longest_wavelength
+        if self.kind != "density_csv":
+            shortest, longest = self.named_band
+        if shortest is not None and longest is not None and shortest >= longest:
             yield (
-                f"shortest_wavelength_m is {self.shortest_wavelength:g}; it must be less than "
-                f"longest_wavelength_m, {self.longest_wavelength:g}"
+                f"shortest_wavelength_m is {shortest:g}; it must be less than "
+                f"longest_wavelength_m, {longest:g}"
             )
         if self.kind in MEASURED and self.path is None:
             yield f"path is missing; kind {self.kind!r} needs the path of a CSV file"

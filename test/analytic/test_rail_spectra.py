@@ -18,6 +18,7 @@ from beardyn_core.rail.spectra import (
     THIRD_OCTAVE,
     roughness_density,
     spectral_density,
+    spectrum_band,
 )
 from beardyn_core.rail.table import read_table
 from beardyn_core.scene.background import Roughness
@@ -187,6 +188,26 @@ def test_a_density_of_a_table_is_met(tmp_path):
     ).height.any()
     with pytest.raises(InputError, match=r"covers 1 to 200 m; the irregularity goes from 0\.1"):
         rail_profile(Irregularity("density_csv", 0.1, 100.0, path=path), 100.0, 1)
+
+
+def test_a_density_of_a_table_is_taken_to_its_own_ends(tmp_path):
+    path = written(tmp_path, "wavelength_m,vertical_mm2_m\n0.1,1e-3\n1,0.1\n40,10\n")
+    whole = Irregularity("density_csv", path=path)
+    assert spectrum_band(whole) == (0.1, 40.0)
+    assert spectrum_band(Irregularity("density_csv", 0.5, path=path)) == (0.5, 40.0)
+    profile = rail_profile(whole, 100.0, 1)
+    amplitude = np.abs(np.fft.rfft(profile.height))
+    wavelength = profile.period / np.maximum(np.arange(len(amplitude)), 1)
+    there = (wavelength >= 0.1) & (wavelength <= 40.0)
+    assert amplitude[there].min() > 1e6 * amplitude[~there].max()
+    # what the file has is not added once more by the roughness of the line
+    rough = Roughness(rail="average_network", wheel="none")
+    position = np.linspace(0.0, 400.0, 200_001)
+    height = roughness_height(rough, whole, 2.9, position, 1, 0.0)
+    power = np.abs(np.fft.rfft(height * np.hanning(len(height)))) ** 2
+    cycles = np.fft.rfftfreq(len(height), position[1])
+    inside, below = (cycles > 0.6) & (cycles < 9.0), (cycles > 11.0) & (cycles < 20.0)
+    assert power[inside].max() < 1e-3 * power[below].max()
 
 
 @pytest.mark.parametrize(
