@@ -7,12 +7,11 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing import contact_law
-from beardyn_core.bearing.contact_law import SPIN_SHARE, PointContact, exact_rib_contact
+from beardyn_core.bearing.contact_law import SPIN_SHARE, exact_rib_contact
 from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
-from beardyn_core.physics import point_contact
 from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     damper_time,
@@ -45,6 +44,14 @@ from beardyn_core.physics.lanes.vectors import (
     dot,
     scale,
     subtract,
+)
+from beardyn_core.physics.point_contact import (
+    PointContact,
+    absent_point,
+    is_pressed,
+    push_point,
+    settle_point,
+    stiffen_point,
 )
 
 
@@ -181,7 +188,7 @@ def _roller_end(bearing: Bearing) -> RibEndParams:
 
 
 def _film(
-    bearing: Bearing, rib: Rib, lubricant: Lubricant, temperature: float, contact: PointContact
+    bearing: Bearing, rib: Rib, lubricant: Lubricant, temperature: float, contact: contact_law.PointContact
 ) -> RibFilmParams | None:
     """Work out film thickness at the temperature of the inlet, and its friction."""
     lubrication = rib.lubrication
@@ -206,7 +213,7 @@ def _film(
     )
 
 
-def _around_squared(contact: PointContact) -> float:
+def _around_squared(contact: contact_law.PointContact) -> float:
     """Compute the square of the ellipse's semi-axis around the ring over the approach, [m]."""
     larger, _ = contact.semi_axes(1.0)
     return float(larger**2 * contact.factor ** (2.0 / 3.0))
@@ -401,15 +408,15 @@ _LARGEST_LOG2_THICKENING = 30.0
 class RibContact(NamedTuple):
     """Contact of the large end: its sphere, or its rim at one point; at two where the sphere is too flat."""
 
-    first: Any  # `PointContact`
-    second: Any
+    first: PointContact
+    second: PointContact
 
 
 @inline
 def prepare_rib(body, view, zero, rib, damping):
     """Work out the rib contact before the solve, a `RibContact`; without a rib zeros that nothing uses."""
     if rib is None:
-        nothing = point_contact.absent_point(zero)
+        nothing = absent_point(zero)
         return RibContact(nothing, nothing)
     return rib_contact(subtract(body.place, view.origin), body, view, rib, damping)
 
@@ -436,19 +443,19 @@ def _pressed_points(sphere, centre, body, view, law, end):
     along = dot(sphere.normal, body.axis)
     first = _load_point(sphere, centre, body, view, law)
     if end is None:
-        return RibContact(first, point_contact.absent_point(0.0 * along))
+        return RibContact(first, absent_point(0.0 * along))
     if any_positive(where_greater(sphere.depth, 0.0, end.cosine - along, 0.0 * along)):
         deeper, other = rim_points(sphere, centre, body.axis, view.axis, law[0], end)
         first = _load_point(deeper, centre, body, view, law)
         return RibContact(first, _load_other(other, centre, body, view, law, end.both))
-    return RibContact(first, point_contact.absent_point(0.0 * along))
+    return RibContact(first, absent_point(0.0 * along))
 
 
 @inline
 def _load_other(point, centre, body, view, law, both):
     """Load the second point of the rim where the sphere is so flat that both sides of the rim bear."""
     if both is None:
-        return point_contact.absent_point(0.0 * point.depth)
+        return absent_point(0.0 * point.depth)
     return _load_point(point, centre, body, view, law)
 
 
@@ -472,7 +479,7 @@ def _load_point(point, centre, body, view, law):
     reach = spin_reach(touching, rib.drilling)
     sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
     friction, film = _rub(load, root, sliding, (centre, arm, normal), body, view, rib)
-    return point_contact.PointContact(
+    return PointContact(
         centre, normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
     )
 
@@ -514,9 +521,9 @@ def _stiffen_other(matrix, point, rib, p, end):
 
 @inline
 def _add_rib_stiffness(matrix, point, rib, p):
-    if not point_contact.is_pressed(point):
+    if not is_pressed(point):
         return matrix
-    return point_contact.stiffen_point(matrix, point, p.effects.damping, rib.drilling, p)
+    return stiffen_point(matrix, point, p.effects.damping, rib.drilling, p)
 
 
 @inline
@@ -538,9 +545,9 @@ def _push_other(total, point, rib, end):
 
 @inline
 def _push_on(total, point, rib):
-    if not point_contact.is_pressed(point):
+    if not is_pressed(point):
         return total
-    return add_wrenches(total, point_contact.push_point(point, rib.drilling))
+    return add_wrenches(total, push_point(point, rib.drilling))
 
 
 @inline
@@ -549,7 +556,7 @@ def settle_rib(contact, change, total, here, rib, p):
     if rib is None:
         return total
     first, time_constant = contact.first, damper_time(p.effects.damping)
-    wrench = point_contact.settle_point(first, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    wrench = settle_point(first, change, here, LOSS_RIB, time_constant, rib.drilling, p)
     sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
     output = ContactOutput(wrench.force, first.arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
@@ -565,10 +572,10 @@ def _settle_other(contact, change, total, here, law, end):
     if end.both is None:
         return total
     (rib, p), (first, second) = law, contact
-    if not point_contact.is_pressed(second):
+    if not is_pressed(second):
         return total
     time_constant = damper_time(p.effects.damping)
-    wrench = point_contact.settle_point(second, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    wrench = settle_point(second, change, here, LOSS_RIB, time_constant, rib.drilling, p)
     both = add_wrenches(total, wrench)
     share = second.elastic / (first.elastic + second.elastic + _SMALLEST_ELASTIC)
     arm = add_scaled(first.arm, share, subtract(second.arm, first.arm))
