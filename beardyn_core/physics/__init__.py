@@ -35,14 +35,15 @@ lamina_springs     laminae as springs, summed (quasistatic tier)
 lamina_coupling    laminae that sink with each other, also partly over a patch
 raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
-point_contact      contact with the cone at a point, and the small rib
+point_contact      contact with the cone at a point, which both ribs share
 land               land of a cage in cup or cone
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
 traction           friction of the raceway contacts
 film               film of the raceway contacts
-rib                ribs at both roller ends: spheres on a cone, their film and friction
+rib                large roller end on its rib: a sphere on a cone, its film and friction
+small_rib          small roller end on its rib: a plane on a circle
 pocket             pockets of the cage, and its simplified forms
 defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way

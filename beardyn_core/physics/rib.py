@@ -1,4 +1,4 @@
-"""Ribs at both roller ends: parameters, where a sphere meets the cone of a rib, its film and friction."""
+"""Large roller end on its rib: parameters, where a sphere meets the cone of a rib, its film and friction."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from beardyn_core.bearing.contact_law import SPIN_SHARE, exact_rib_contact
 from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.effects import EffectSet, Rib, RibShearedFilm
+from beardyn_core.effects import Rib, RibShearedFilm
 from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     damper_time,
@@ -21,7 +21,6 @@ from beardyn_core.physics.bodies.contact_output import (
 )
 from beardyn_core.physics.bodies.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD, squared_over
-from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
@@ -117,18 +116,6 @@ class RibParams(NamedTuple):
     drilling: RibDrillingParams | None
 
 
-class SmallRibParams(NamedTuple):
-    """Small roller end at the cone's small rib."""
-
-    radius: float  # of the rib's contact circle [m]
-    place: float  # of that circle, axial from the cone's origin [m]
-    end_place: float  # of the flat end on the axis from the centre of mass [m]
-    stiffness: float  # [N/m]
-    damping: DampingParams
-    friction: float
-    regularisation: float  # [m/s]
-
-
 # Floor of the second derivative in the search along the rim, as part of the sine of the rib's polar angle.
 _SMALLEST_BEND = 0.01
 
@@ -217,25 +204,6 @@ def _around_squared(contact: contact_law.PointContact) -> float:
     """Compute the square of the ellipse's semi-axis around the ring over the approach, [m]."""
     larger, _ = contact.semi_axes(1.0)
     return float(larger**2 * contact.factor ** (2.0 / 3.0))
-
-
-def small_rib_params(bearing: Bearing, effects: EffectSet) -> SmallRibParams | None:
-    """Describe the small rib in cone coordinates; its clearance opens with the roller on the large rib."""
-    effect = effects.small_rib
-    if effect is None:
-        return None
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
-    along = -0.5 * bearing.roller_length - bearing.small_rib_clearance
-    below = bearing.small_end_radius - 0.5 * bearing.small_rib_height
-    return SmallRibParams(
-        radius=0.5 * bearing.pitch_diameter + along * sine - below * cosine,
-        place=0.5 * bearing.row_spacing + along * cosine + below * sine,
-        end_place=-0.5 * bearing.roller_length - bearing.roller_mass_offset,
-        stiffness=effect.stiffness,
-        damping=DampingParams(effect.damping / effect.stiffness),
-        friction=effect.friction,
-        regularisation=effect.regularisation_speed,
-    )
 
 
 _LARGEST_TURN = 0.4

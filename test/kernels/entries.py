@@ -42,9 +42,9 @@ from beardyn_core.physics.lanes.solve import (
 )
 from beardyn_core.physics.lanes.vectors import Wrench, subtract
 from beardyn_core.physics.pocket import Motion, Pocket, free_pocket
-from beardyn_core.physics.point_contact import push_small_rib, small_rib_contact
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
 from beardyn_core.physics.rib import push_rib, rib_contact, rib_gap
+from beardyn_core.physics.small_rib import push_small_rib, small_rib_contact
 from beardyn_core.physics.traction import LaminaContact, friction_rate
 
 MATH_NAMES = (

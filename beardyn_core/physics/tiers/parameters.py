@@ -14,10 +14,11 @@ from beardyn_core.physics.drag import DragParams
 from beardyn_core.physics.film import FilmParams
 from beardyn_core.physics.lamina_coupling import CouplingParams
 from beardyn_core.physics.pocket import CageParams
-from beardyn_core.physics.rib import RibParams, SmallRibParams
+from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.ring_modes import StructureParams
 from beardyn_core.physics.rolling_resistance import RollingParams
 from beardyn_core.physics.seal import SealParams
+from beardyn_core.physics.small_rib import SmallRibParams
 from beardyn_core.physics.suspension import MountingParams
 from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
 
