@@ -348,7 +348,7 @@ class Motion(NamedTuple):
 class Pocket(NamedTuple):
     """Where a roller is in its pocket.
 
-    The order of the members decides the last bits, see `exchange.react`.
+    The order of the members decides the last bits, see `contact_output.react`.
     """
 
     centre: Vector  # of mass of the roller from the cage's origin [m]
