@@ -55,7 +55,7 @@ suspension         what holds the box, or both rings
 pure_rolling       speeds and places of rollers that roll without slip
 drag               medium around the rollers
 rolling_resistance couple against rolling
-contact_damping    damping of every Hertz contact
+contact_damping    damping of every Hertz contact, and how much of it a step takes
 oscillators        steps of a mode with its exact free motion
 lanes              lane values: arithmetic, functions, vectors, the system of a roller
 bodies             shared: layout of the state, lanes of rollers, rigid bodies, what contacts write

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.contact_output import account, account_loss, implicit_time, react
+from beardyn_core.physics.bodies.contact_output import account, account_loss, react
 from beardyn_core.physics.bodies.layout import CONE, LOSS_DAMPING
+from beardyn_core.physics.contact_damping import implicit_time
 from beardyn_core.physics.lanes.lane_math import where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.solve import add_couple, add_point, add_point_everywhere

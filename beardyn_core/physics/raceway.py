@@ -9,8 +9,6 @@ from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     account,
     account_loss,
-    damper_time,
-    implicit_time,
     output_contact,
     react,
     watch_chatter,
@@ -19,6 +17,7 @@ from beardyn_core.physics.bodies.contact_output import (
 from beardyn_core.physics.bodies.friction_substeps import hold_contact
 from beardyn_core.physics.bodies.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 from beardyn_core.physics.bodies.orbit import Body, entrainment_speed
+from beardyn_core.physics.contact_damping import damper_time, implicit_time
 from beardyn_core.physics.defect import find_damage
 from beardyn_core.physics.film import film_output, log2_entrainment
 from beardyn_core.physics.generator_line import (

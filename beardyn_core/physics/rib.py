@@ -14,13 +14,13 @@ from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import Rib, RibShearedFilm
 from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
-    damper_time,
     load_vector,
     output_contact,
     watch_largest,
 )
 from beardyn_core.physics.bodies.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD, squared_over
+from beardyn_core.physics.contact_damping import damper_time
 from beardyn_core.physics.film import asperity_share
 from beardyn_core.physics.lanes.lane_math import (
     LOG2_E,
