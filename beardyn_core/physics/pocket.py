@@ -379,7 +379,7 @@ def prepare_pocket(lanes, rings, block, body, orbit, pockets, p, cage):
     if cage is None:
         zero = lanes.constant(0.0)
         nothing = (zero, zero, zero)
-        return PocketContact(nothing, _empty_sums(zero), zero, nothing)
+        return PocketContact(nothing, empty_sums(zero), zero, nothing)
     view = ring_view(lanes, rings, CAGE_BODY, orbit.cosine, orbit.sine)
     place = lanes.load(rings, CAGE_BODY, RING_TURN) + lanes.load(p.rollers, block, POCKET_ANGLE)
     wear, length = pocket_wear(lanes, block, pockets), pocket_length(lanes, block, pockets)
@@ -480,22 +480,22 @@ def free_pocket(pocket, roller, cage):
     small_end, large_end = (axis, small_radius), (axis, large_radius)
     small_front = add_scaled(small_arm, small_radius, front)
     small_behind = add_scaled(small_arm, small_radius, behind)
-    walls = _empty_sums(0.0 * still)
+    walls = empty_sums(0.0 * still)
     depth = height + offset + small * (lift + skew) - clearance
     wall = Wall(centre, small_front, front, depth)
-    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
+    walls = touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_front = add_scaled(large_arm, large_radius, front)
     depth = height + offset + large * (lift + skew) - clearance
     wall = Wall(centre, large_front, front, depth)
-    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
+    walls = touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_back = walls.force
     depth = height - offset + small * (lift - skew) - clearance
     wall = Wall(centre, small_behind, behind, depth)
-    walls = _touch_wall(walls, wall, motion, cage, small_end, cage.film)
+    walls = touch_wall(walls, wall, motion, cage, small_end, cage.film)
     large_behind = add_scaled(large_arm, large_radius, behind)
     depth = height - offset + large * (lift - skew) - clearance
     wall = Wall(centre, large_behind, behind, depth)
-    walls = _touch_wall(walls, wall, motion, cage, large_end, cage.film)
+    walls = touch_wall(walls, wall, motion, cage, large_end, cage.film)
     pushed_on = subtract(walls.force, pushed_back)
     slip_squared = where_greater(
         dot(pushed_on, pushed_on),
@@ -508,7 +508,7 @@ def free_pocket(pocket, roller, cage):
     shorter = roller.half_length * (1.0 - dot(pocket_axis, axis))
     arm, direction = scale(side * roller.half_length, axis), scale(side, pocket_axis)
     end = Wall(centre, arm, direction, magnitude(slide) - shorter - cage.half_end_clearance - pocket.length)
-    walls = _touch_wall(walls, end, motion, cage, (axis, roller.radius), None)
+    walls = touch_wall(walls, end, motion, cage, (axis, roller.radius), None)
     bar = scale(where_greater(offset, 0.0, roller.radius + still, -roller.radius + still), ahead)
     return PocketContact(centre, walls, slip_squared, bar)
 
@@ -532,12 +532,12 @@ def rotating_pocket(pocket, roller, cage):
     large_radius = roller.radius + large_place * roller.taper
     small_normal, large_normal = scale(small_side, ahead), scale(large_side, ahead)
     small_arm = add_scaled(scale(small_place, axis), small_radius, small_normal)
-    nothing = _empty_sums(0.0 * offset)
+    nothing = empty_sums(0.0 * offset)
     wall = Wall(centre, small_arm, small_normal, magnitude(small_offset) - clearance)
-    small = _touch_wall(nothing, wall, motion, cage, (axis, small_radius), None)
+    small = touch_wall(nothing, wall, motion, cage, (axis, small_radius), None)
     large_arm = add_scaled(scale(large_place, axis), large_radius, large_normal)
     wall = Wall(centre, large_arm, large_normal, magnitude(large_offset) - clearance)
-    both = _touch_wall(small, wall, motion, cage, (axis, large_radius), None)
+    both = touch_wall(small, wall, motion, cage, (axis, large_radius), None)
     slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
     bar = scale(
         where_greater(offset, 0.0, roller.radius + 0.0 * offset, -roller.radius + 0.0 * offset), ahead
@@ -554,11 +554,11 @@ def kinematic_pocket(pocket, cage, kinematic):
     centre, axis, motion = pocket.centre, pocket.axis, pocket.motion
     ahead, offset, skew = _along_pitch_circle(pocket)
     small_arm, large_arm = scale(-cage.bar_place, axis), scale(cage.bar_place, axis)
-    nothing = _empty_sums(0.0 * offset)
-    small = _add_kinematic_spring(
+    nothing = empty_sums(0.0 * offset)
+    small = add_kinematic_spring(
         nothing, centre, small_arm, ahead, offset - cage.bar_place * skew, motion, kinematic
     )
-    both = _add_kinematic_spring(
+    both = add_kinematic_spring(
         small, centre, large_arm, ahead, offset + cage.bar_place * skew, motion, kinematic
     )
     slip_squared = _pair_slip_squared(centre, small_arm, large_arm, motion, small.force, both.force)
@@ -578,7 +578,7 @@ def _along_pitch_circle(pocket):
 def _pair_slip_squared(centre, small_arm, large_arm, motion, small_force, both_force):
     """Square the slip at the large end where more than half of the force is there, else at the small end."""
     large_force = subtract(both_force, small_force)
-    small_slip, large_slip = _wall_slip(centre, small_arm, motion), _wall_slip(centre, large_arm, motion)
+    small_slip, large_slip = wall_slip(centre, small_arm, motion), wall_slip(centre, large_arm, motion)
     return where_greater(
         4.0 * dot(large_force, large_force),
         dot(both_force, both_force),
@@ -589,12 +589,12 @@ def _pair_slip_squared(centre, small_arm, large_arm, motion, small_force, both_f
 
 @inline
 def _slip_squared(centre, arm, motion):
-    slip = _wall_slip(centre, arm, motion)
+    slip = wall_slip(centre, arm, motion)
     return dot(slip, slip)
 
 
 @inline
-def _wall_slip(centre, arm, motion):
+def wall_slip(centre, arm, motion):
     """Work out the velocity of the roller against the cage at a point, [m/s]."""
     velocity, omega, cage_velocity, cage_omega = motion
     return subtract(
@@ -606,7 +606,7 @@ def _wall_slip(centre, arm, motion):
 
 
 @inline
-def _empty_sums(zero):
+def empty_sums(zero):
     """Make sums over no walls from a zero, or a NaN, which stays one."""
     nothing = (zero, zero, zero)
     return Walls(nothing, nothing, zero, zero, nothing, nothing)
@@ -626,13 +626,13 @@ def _add_touch(walls, arm, slip, force, lost, energy):
 
 
 @inline
-def _touch_wall(walls, wall, motion, cage, shape, film):
+def touch_wall(walls, wall, motion, cage, shape, film):
     """Add one wall to the sums: a spring-damper with friction; one that no roller reaches costs nothing.
 
     ``shape`` is the roller's axis and its radius at the wall, for the film if there is one.
     """
     if is_reached(wall.depth, film):
-        slip = _wall_slip(wall.centre, wall.arm, motion)
+        slip = wall_slip(wall.centre, wall.arm, motion)
         return _press_wall(walls, wall.arm, slip, wall.direction, wall.depth, cage, shape, film)
     force = walls.force
     force = (force[0] + 0.0 * wall.depth, force[1], force[2])  # a NaN stays one
@@ -668,9 +668,9 @@ def _partial_contact_mean(inside, rate, step):
 
 
 @inline
-def _add_kinematic_spring(walls, centre, arm, direction, offset, motion, kinematic):
+def add_kinematic_spring(walls, centre, arm, direction, offset, motion, kinematic):
     """Add one spring-damper that pulls as well as it pushes."""
-    slip = _wall_slip(centre, arm, motion)
+    slip = wall_slip(centre, arm, motion)
     damper = kinematic.damping * dot(slip, direction)
     spring = kinematic.stiffness * offset
     force, lost = scale(-spring - damper, direction), scale(damper, direction)

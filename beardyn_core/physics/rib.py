@@ -446,7 +446,7 @@ def _load_point(point, centre, body, view, law):
     spin = dot(subtract(body.omega, view.omega), normal)
     reach = spin_reach(touching, rib.drilling)
     sliding = with_spin(dot(tangential, tangential), reach, spin, rib.drilling)
-    friction, film = _rub(load, root, sliding, (centre, arm, normal), body, view, rib)
+    friction, film = rub(load, root, sliding, (centre, arm, normal), body, view, rib)
     return PointContact(
         centre, normal, arm, load, tangent, friction, elastic, energy, slip, reach * friction, spin, film
     )
@@ -460,7 +460,7 @@ def _push(depth, rate, damping):
 
 
 @inline
-def _rub(load, root, sliding, place, body, view, rib):
+def rub(load, root, sliding, place, body, view, rib):
     """Work out friction over slip speed and film thickness; nothing where no roller is pressed."""
     if not any_positive(load):
         return 0.0 * load, 0.0 * load  # a NaN stays one

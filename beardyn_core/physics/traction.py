@@ -235,7 +235,7 @@ def _inlet_table(scene: Scene, laminae: NDArray[np.float64]) -> NDArray[np.float
     return for_springs(np.log2(factor / np.sqrt(laminae[LAMINA_PRESSURE : LAMINA_PRESSURE + 2])))
 
 
-_TWO_OVER_PI = 0.6366197723675814
+TWO_OVER_PI = 0.6366197723675814
 _SLOWEST = 1e-12
 _SMALLEST_PRESSURE = 1e-3
 _LARGEST_LOG2_THICKENING = 30.0
@@ -387,7 +387,7 @@ def arctangent_rate(force, slip, speed, steepness):
     if steepness is None:
         return 0.0
     per_slip = steepness / speed
-    return _TWO_OVER_PI * force * per_slip * arctangent_over(slip * per_slip)
+    return TWO_OVER_PI * force * per_slip * arctangent_over(slip * per_slip)
 
 
 # --- asperities and film together
@@ -443,7 +443,7 @@ def load_sharing_coefficient(contact, film, sharing):
     inverse_slip = 1.0 / at_least(slip, 1e-12)  # one division for all laws
     per_slip = sharing.slope * exp2(-contact.log2_rolling)
     saturated = per_slip * arctangent_with(per_slip * slip, inverse_slip * (1.0 / per_slip))
-    asperities = sharing.friction * _TWO_OVER_PI * saturated
+    asperities = sharing.friction * TWO_OVER_PI * saturated
     return _share_load(contact, slip, inverse_slip, asperities, film, sharing)
 
 
@@ -451,7 +451,7 @@ def load_sharing_coefficient(contact, film, sharing):
 def _share_load(contact, slip, inverse_slip, asperities, film, sharing):
     if film is None:
         return asperities
-    wet = _flats(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_shear(
+    wet = flats_traction(contact, slip, inverse_slip, film, sharing, sharing.aihara) + inlet_shear(
         contact, sharing.inlet
     )
     wet = at_most(wet, sharing.friction * inverse_slip)
@@ -459,7 +459,7 @@ def _share_load(contact, slip, inverse_slip, asperities, film, sharing):
 
 
 @inline
-def _flats(contact, slip, inverse_slip, film, sharing, aihara):
+def flats_traction(contact, slip, inverse_slip, film, sharing, aihara):
     """Take the traction of the flats over slip speed and load; Aihara's only at the pressures of its tests.
 
     From 0.5 down to 0.25 GPa it gives way, with the logarithm of the pressure, to a film that shears.
