@@ -14,6 +14,7 @@ from beardyn_core.physics.bodies.layout import (
     REACTION,
     TRENDS_PER_SNAPSHOT,
 )
+from beardyn_core.physics.bodies.rigid_bodies import lane_total, row_totals
 from beardyn_core.physics.defect import find_damage, gap_moments
 from beardyn_core.physics.lanes.lane_math import (
     at_least,
@@ -47,8 +48,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     TORQUE_POCKET,
     TORQUE_RIB,
     TORQUE_ROLLING,
-    lane_total,
-    row_totals,
     show_contacts,
     show_roller,
     watch_loads,

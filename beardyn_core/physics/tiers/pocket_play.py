@@ -29,10 +29,10 @@ import math
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
+from beardyn_core.physics.bodies.rigid_bodies import row_totals
 from beardyn_core.physics.defect import pocket_wear
 from beardyn_core.physics.drag import drag_push
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, where_greater
-from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 
 # Sums over the rollers of a row: force on the cage up and forward [N], moment about its axis [N m], normal
 # forces of the pockets [N].

@@ -6,7 +6,7 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import clear_largest, load_vector, store_vector
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
-from beardyn_core.physics.bodies.rigid_bodies import body_vector
+from beardyn_core.physics.bodies.rigid_bodies import body_vector, lane_total
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.physics.lanes.vectors import add_scaled
 from beardyn_core.physics.pocket import pocket_torque
@@ -44,7 +44,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     held_losses,
     keep_losses,
     kept_wrench,
-    lane_total,
     relative_cone,
     show_contacts,
     show_roller,
