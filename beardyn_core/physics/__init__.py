@@ -36,7 +36,6 @@ lamina_coupling    laminae that sink with each other, also partly over a patch
 raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
 point_contact      contact with the cone at a point, which both ribs share
-land               land of a cage in cup or cone
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
@@ -44,7 +43,6 @@ traction           friction of the raceway contacts
 film               film of the raceway contacts
 rib                large roller end on its rib: a sphere on a cone, its film and friction
 small_rib          small roller end on its rib: a plane on a circle
-pocket             pockets of the cage, and its simplified forms
 defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way
 roller_spring      a roller as one spring along the cup's normal
@@ -60,8 +58,8 @@ oscillators        steps of a mode with its exact free motion
 lanes              lane values: arithmetic, functions, vectors, the system of a roller
 bodies             shared: layout of the state, lanes of rollers, rigid bodies, what contacts write
 statics            equilibrium, torque and life, in NumPy
+cage               the cages: pockets, lands, drag, and their motion
 tiers              parameters, state and steps of full, quasistatic and lumped
 seal               seals between cup and shaft
-cage_drag          torques of effects on the cages, against cup and cone
 ================== ================================================================================
 """

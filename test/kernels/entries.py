@@ -11,6 +11,7 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.friction_substeps import Held
 from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.cage.pocket import Motion, Pocket, free_pocket
 from beardyn_core.physics.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.physics.generator_line import generator_line, line_slip
 from beardyn_core.physics.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
@@ -41,7 +42,6 @@ from beardyn_core.physics.lanes.solve import (
     solve,
 )
 from beardyn_core.physics.lanes.vectors import Wrench, subtract
-from beardyn_core.physics.pocket import Motion, Pocket, free_pocket
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
 from beardyn_core.physics.rib import push_rib, rib_contact, rib_gap
 from beardyn_core.physics.small_rib import push_small_rib, small_rib_contact

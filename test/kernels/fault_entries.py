@@ -7,6 +7,7 @@ from typing import Any
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.cage.pocket import free_pocket
 from beardyn_core.physics.defect import (
     find_damage,
     pocket_length,
@@ -19,7 +20,6 @@ from beardyn_core.physics.lamina_springs import cup_springs
 from beardyn_core.physics.laminae import released_power
 from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
-from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
 from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.massless_roller import faulted_load, over_patches

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from beardyn_core.physics.cage.pocket import CageParams
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams
 from beardyn_core.physics.film import FilmParams
 from beardyn_core.physics.lamina_coupling import CouplingParams
-from beardyn_core.physics.pocket import CageParams
 from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.ring_modes import StructureParams
 from beardyn_core.physics.rolling_resistance import RollingParams
@@ -86,7 +86,7 @@ class EffectParams(NamedTuple):
     cage: CageParams | None
     structure: StructureParams | None
     seal: SealParams | None
-    cage_drag: Any  # parameters of each effect that brakes the cages, see `physics.cage_drag`, or None
+    cage_drag: Any  # parameters of each effect that brakes the cages, see `physics.cage.drag`, or None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None

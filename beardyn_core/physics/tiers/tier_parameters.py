@@ -53,7 +53,7 @@ class RingResponseParams(NamedTuple):
 
 
 class LooseParams(NamedTuple):
-    """Rollers that move in the pockets of their cages, see `physics.tiers.pocket_play`."""
+    """Rollers that move in the pockets of their cages, see `physics.cage.play`."""
 
     stiffness: float  # of both touches of a bar [N/m]
     damping: float  # [N s/m]

@@ -55,7 +55,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class PocketFilmParams(NamedTuple):
-    """Lubricant between roller and bar at one of two abscissae; see `physics.pocket.pocket_loads`."""
+    """Lubricant between roller and bar at one of two abscissae; see `physics.cage.pocket.pocket_loads`."""
 
     wedge: float  # load over rolling speed and radius over gap [N s/m]
     squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
@@ -66,7 +66,7 @@ class PocketFilmParams(NamedTuple):
 
 
 class LandParams(NamedTuple):
-    """Land of a cage in a cylinder of cup or cone; see `physics.land`."""
+    """Land of a cage in a cylinder of cup or cone; see `physics.cage.land`."""
 
     body: float  # row of the ring in the array of bodies
     outside: float  # +1 when the cage runs inside the ring, -1 around it
@@ -411,7 +411,7 @@ def settle_pocket(contact, change, here, cage, p):
     """Write reaction, output and audit of the pocket contact, which is explicit.
 
     The loss is taken at the middle of the step. It changes the roller's velocity here; what it changes in
-    the cage's is known when all pockets have pushed, see `cage_bodies.settle_cages`. Kinetic energy is the
+    the cage's is known when all pockets have pushed, see `motion.settle_cages`. Kinetic energy is the
     mean of what the velocities before and after the step have, which lies above that of the instant by a
     quarter of what the springs give in the step: the elastic energy is booked without it.
     """
