@@ -11,7 +11,8 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.friction_substeps import Held
 from beardyn_core.physics.bodies.orbit import Body, View
-from beardyn_core.physics.cage.pocket import Motion, Pocket, free_pocket
+from beardyn_core.physics.cage.pocket import Pocket, free_pocket
+from beardyn_core.physics.cage.walls import Motion
 from beardyn_core.physics.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.physics.generator_line import generator_line, line_slip
 from beardyn_core.physics.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae

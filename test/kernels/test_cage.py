@@ -24,7 +24,7 @@ from beardyn_core.physics.bodies.layout import (
     RATE,
     TILT,
 )
-from beardyn_core.physics.cage.pocket import LandParams
+from beardyn_core.physics.cage.land import LandParams
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_cage, naive_step

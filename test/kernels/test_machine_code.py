@@ -278,8 +278,8 @@ def copied(tmp_path_factory: pytest.TempPathFactory, forks: Forks) -> Copied:
 @pytest.mark.parametrize(
     ("name", "old", "new", "changes"),
     [
-        ("physics/cage/pocket.py", "0.5 * cage.stiffness * inside", "0.6 * cage.stiffness * inside", True),
-        ("physics/cage/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
+        ("physics/cage/walls.py", "0.5 * cage.stiffness * inside", "0.6 * cage.stiffness * inside", True),
+        ("physics/cage/walls.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
         ("physics/bodies/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
         ("physics/lanes/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
         ("base/jit.py", '"forceinline": True', '"forceinline": False', True),

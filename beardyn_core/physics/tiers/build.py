@@ -22,7 +22,7 @@ from beardyn_core.physics.bodies.layout import (
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.bodies.step_stages import new_timers
 from beardyn_core.physics.cage.drag import cage_drag_params
-from beardyn_core.physics.cage.pocket import cage_params
+from beardyn_core.physics.cage.parameters import cage_params
 from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params

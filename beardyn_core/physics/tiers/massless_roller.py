@@ -15,7 +15,7 @@ from beardyn_core.physics.bodies.layout import (
     TRENDS_PER_SNAPSHOT,
 )
 from beardyn_core.physics.bodies.rigid_bodies import lane_total, row_totals
-from beardyn_core.physics.cage.pocket import pocket_torque
+from beardyn_core.physics.cage.rubbing import pocket_torque
 from beardyn_core.physics.defect import find_damage, gap_moments
 from beardyn_core.physics.lanes.lane_math import (
     at_least,

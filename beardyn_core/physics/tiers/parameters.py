@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from beardyn_core.physics.cage.pocket import CageParams
+from beardyn_core.physics.cage.parameters import CageParams
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams

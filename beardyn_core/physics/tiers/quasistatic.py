@@ -22,7 +22,7 @@ from beardyn_core.physics.cage.play import (
     see_cages,
     with_cages,
 )
-from beardyn_core.physics.cage.pocket import pocket_torque
+from beardyn_core.physics.cage.rubbing import pocket_torque
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.physics.lanes.vectors import add_scaled
 from beardyn_core.physics.rib import sliding_torque
