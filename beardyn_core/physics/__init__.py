@@ -41,7 +41,9 @@ rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
 traction           friction of the raceway contacts
 film               film of the raceway contacts
-rib                large roller end on its rib: a sphere on a cone, its film and friction
+rib                large roller end on its rib
+rib_gap            where it is nearest to the rib: a sphere and its rim on a cone
+rib_friction       its film and friction
 small_rib          small roller end on its rib: a plane on a circle
 defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way

@@ -44,7 +44,8 @@ from beardyn_core.physics.lanes.solve import (
 )
 from beardyn_core.physics.lanes.vectors import Wrench, subtract
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
-from beardyn_core.physics.rib import push_rib, rib_contact, rib_gap
+from beardyn_core.physics.rib import push_rib, rib_contact
+from beardyn_core.physics.rib_gap import rib_gap
 from beardyn_core.physics.small_rib import push_small_rib, small_rib_contact
 from beardyn_core.physics.traction import LaminaContact, friction_rate
 

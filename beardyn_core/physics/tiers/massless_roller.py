@@ -29,7 +29,7 @@ from beardyn_core.physics.lanes.lane_math import (
 )
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import add_scaled
-from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rib_friction import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.kinematic_bending import (

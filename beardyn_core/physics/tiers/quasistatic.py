@@ -25,7 +25,7 @@ from beardyn_core.physics.cage.play import (
 from beardyn_core.physics.cage.rubbing import pocket_torque
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.physics.lanes.vectors import add_scaled
-from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rib_friction import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.tiers.kinematic_bending import (
     PLACE,
