@@ -39,7 +39,9 @@ point_contact      contact with the cone at a point, which both ribs share
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
-traction           friction of the raceway contacts
+traction           friction of the raceway contacts: the law that is chosen, asperities with film
+dry_friction       dry friction, its corner at zero slip rounded
+film_traction      traction of full films
 film               film of the raceway contacts
 rib                large roller end on its rib
 rib_gap            where it is nearest to the rib: a sphere and its rim on a cone

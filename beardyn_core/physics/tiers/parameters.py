@@ -12,6 +12,7 @@ from beardyn_core.physics.cage.parameters import CageParams
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams
+from beardyn_core.physics.dry_friction import CoulombParams
 from beardyn_core.physics.film import FilmParams
 from beardyn_core.physics.lamina_coupling import CouplingParams
 from beardyn_core.physics.rib import RibParams
@@ -20,7 +21,7 @@ from beardyn_core.physics.rolling_resistance import RollingParams
 from beardyn_core.physics.seal import SealParams
 from beardyn_core.physics.small_rib import SmallRibParams
 from beardyn_core.physics.suspension import MountingParams
-from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
+from beardyn_core.physics.traction import LoadSharingParams, MixedParams
 
 
 class RacewayParams(NamedTuple):
