@@ -22,7 +22,7 @@ from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.physics.bodies.step_stages import stage_cycles
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.slow_thermal import advance_temperatures, blocks_between, cold_start, scene_at
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters

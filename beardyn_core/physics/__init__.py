@@ -52,7 +52,8 @@ patch_path         path of a roller over a patch, and how its sharp edges give w
 roller_spring      a roller as one spring along the cup's normal
 spall_cover        share of each lamina that counts as lost over a patch, from the half-space
 journal            bending of the axle at the journal
-ring_modes         bending of the axlebox: rings or modes of a table
+modal_body         how the axlebox bends: thin rings or the modes of a table
+ring_modes         bending of the axlebox within a step
 suspension         what holds the box, or both rings
 pure_rolling       speeds and places of rollers that roll without slip
 drag               medium around the rollers

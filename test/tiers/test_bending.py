@@ -24,7 +24,7 @@ from beardyn_core.physics.bodies.layout import (
     SIGNAL_FORCE,
     TURN,
 )
-from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.modal_body import ModalBody, body_of
 from beardyn_core.physics.roller_spring import lever_of_cup
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import load_of_approach, solve_rollers

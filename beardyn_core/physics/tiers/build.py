@@ -30,8 +30,9 @@ from beardyn_core.physics.film import film_params
 from beardyn_core.physics.journal import journal_params
 from beardyn_core.physics.lamina_coupling import coupling_params
 from beardyn_core.physics.lamina_table import lamina_table
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.rib import rib_params
-from beardyn_core.physics.ring_modes import body_of, structure_params
+from beardyn_core.physics.ring_modes import structure_params
 from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
 from beardyn_core.physics.seal import seal_params
