@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from copy import deepcopy
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -23,11 +23,17 @@ from beardyn_core.physics.bodies.step_stages import stage_cycles
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.modal_body import body_of
-from beardyn_core.physics.slow_thermal import advance_temperatures, blocks_between, cold_start, scene_at
+from beardyn_core.physics.slow_thermal import (
+    Warmth,
+    advance_temperatures,
+    blocks_between,
+    cold_start,
+    scene_at,
+)
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.cage_watch import CageWatch
-from beardyn_core.physics.tiers.snapshot import Snapshot
+from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.start import at_rest, initial_state
 from beardyn_core.physics.tiers.state import Output, State, work_space
 from beardyn_core.physics.tiers.status import assess, describe, is_fatal
@@ -50,6 +56,20 @@ STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slo
 COMPILING = "compiling the kernels of this set of effects: about a minute, kept for later"
 
 log = logging.getLogger("beardyn")
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Everything the rest of a run depends on: what it is frozen in and goes on from."""
+
+    index: int  # of the next block
+    state: State
+    parameters: Parameters
+    load: LoadBuffer
+    observer: Any  # a copy, with the states of all filters
+    first_audit: Float | None  # [ENERGY_TERMS], energies at the start of the run [J]
+    warmth: Warmth | None = None
+    cages: CageWatch | None = None
 
 
 class Twin:

@@ -10,7 +10,6 @@ kinematic_step    what the fast tiers share of a step
 state             what a run changes and what its steps write
 start             the state a run starts from
 status            status bits and the sentence of each
-snapshot          what a run is frozen in and goes on from
 step_choice       the coarsest step that is converged
 friction_steps    the step that friction asks for, without an equilibrium
 tiers             what each tier computes with
