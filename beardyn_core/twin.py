@@ -20,6 +20,7 @@ from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.physics.bodies.step_stages import stage_cycles
+from beardyn_core.physics.cage.watch import CageWatch
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.modal_body import body_of
@@ -32,11 +33,10 @@ from beardyn_core.physics.slow_thermal import (
 )
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.physics.tiers.cage_watch import CageWatch
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.start import at_rest, initial_state
 from beardyn_core.physics.tiers.state import Output, State, work_space
-from beardyn_core.physics.tiers.status import assess, describe, is_fatal
+from beardyn_core.physics.tiers.status import assess, describe, is_fatal, status_of_cages
 from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
@@ -273,7 +273,7 @@ class Twin:
         if self._cages is not None:
             seconds = blocks * BLOCK_NS * 1e-9
             self._cages = self._cages.after(self.scene.bearing, bodies, float(loads[:, 6].mean()), seconds)
-            status |= self._cages.status
+            status |= status_of_cages(self._cages)
         audit = self._energy_audit()
         temperature = self._warm_up(loads, blocks)
         block = self._observer.observe(

@@ -12,6 +12,7 @@ land        land of a cage in cup or cone
 drag        torques of effects on the cages, against cup and cone
 motion      cages as bodies: free, following the rings, or prescribed
 play        rollers that move in the pockets of cages (quasistatic tier)
+watch       speeds of the cages over those of pure rolling
 rubbing     friction of the pockets where rollers have no dynamics
 =========== ==================================================================
 """

@@ -13,7 +13,6 @@ status            status bits and the sentence of each
 step_choice       the coarsest step that is converged
 friction_steps    the step that friction asks for, without an equilibrium
 tiers             what each tier computes with
-cage_watch        speeds of the cages over those of pure rolling
 planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
