@@ -8,10 +8,9 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, View
 from beardyn_core.physics.cage.pocket import free_pocket
+from beardyn_core.physics.cage.pocket_wear import pocket_length, pocket_wear
 from beardyn_core.physics.defect import (
     find_damage,
-    pocket_length,
-    pocket_wear,
     soften_by_edges,
     spring_damage,
     spring_slopes,

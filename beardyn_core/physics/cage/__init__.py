@@ -8,6 +8,7 @@ step_bounds how much a cage may be resisted, which follows explicitly
 pocket      contact of a roller with its pocket, and its simplified forms
 walls       walls of a pocket, summed
 pocket_film lubricant between rollers and bars
+pocket_wear what wear and scatter add to the clearance of each pocket
 land        land of a cage in cup or cone
 drag        torques of effects on the cages, against cup and cone
 motion      cages as bodies: free, following the rings, or prescribed

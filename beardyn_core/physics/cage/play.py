@@ -39,8 +39,8 @@ from beardyn_core.effects import (
 )
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.rigid_bodies import row_totals
+from beardyn_core.physics.cage.pocket_wear import pocket_wear
 from beardyn_core.physics.cage.rubbing import pocket_params
-from beardyn_core.physics.defect import pocket_wear
 from beardyn_core.physics.drag import drag_push
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, where_greater
 from beardyn_core.scene.scene import Scene

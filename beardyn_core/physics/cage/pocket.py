@@ -28,6 +28,7 @@ from beardyn_core.physics.bodies.layout import (
     RING_TURN,
 )
 from beardyn_core.physics.bodies.orbit import ring_view
+from beardyn_core.physics.cage.pocket_wear import pocket_length, pocket_wear
 from beardyn_core.physics.cage.walls import (
     Motion,
     Wall,
@@ -37,7 +38,6 @@ from beardyn_core.physics.cage.walls import (
     touch_wall,
     wall_slip,
 )
-from beardyn_core.physics.defect import pocket_length, pocket_wear
 from beardyn_core.physics.lanes.lane_math import cos_sin, magnitude, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import (
