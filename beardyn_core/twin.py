@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from copy import deepcopy
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -20,17 +20,23 @@ from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS, SIGNAL_FORCE
 from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.bodies.rates import BLOCK_NS
 from beardyn_core.physics.bodies.step_stages import stage_cycles
+from beardyn_core.physics.cage.watch import CageWatch
 from beardyn_core.physics.defect import grow
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.ring_modes import body_of
-from beardyn_core.physics.slow_thermal import advance_temperatures, blocks_between, cold_start, scene_at
+from beardyn_core.physics.modal_body import body_of
+from beardyn_core.physics.slow_thermal import (
+    Warmth,
+    advance_temperatures,
+    blocks_between,
+    cold_start,
+    scene_at,
+)
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, weight_on_cone
 from beardyn_core.physics.tiers.build import build_parameters
-from beardyn_core.physics.tiers.cage_watch import CageWatch
-from beardyn_core.physics.tiers.snapshot import Snapshot
+from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.start import at_rest, initial_state
 from beardyn_core.physics.tiers.state import Output, State, work_space
-from beardyn_core.physics.tiers.status import assess, describe, is_fatal
+from beardyn_core.physics.tiers.status import assess, describe, is_fatal, status_of_cages
 from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
@@ -50,6 +56,20 @@ STAGES_SHARED_EVERY = 10  # blocks: how the step shares its time out changes slo
 COMPILING = "compiling the kernels of this set of effects: about a minute, kept for later"
 
 log = logging.getLogger("beardyn")
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Everything the rest of a run depends on: what it is frozen in and goes on from."""
+
+    index: int  # of the next block
+    state: State
+    parameters: Parameters
+    load: LoadBuffer
+    observer: Any  # a copy, with the states of all filters
+    first_audit: Float | None  # [ENERGY_TERMS], energies at the start of the run [J]
+    warmth: Warmth | None = None
+    cages: CageWatch | None = None
 
 
 class Twin:
@@ -253,7 +273,7 @@ class Twin:
         if self._cages is not None:
             seconds = blocks * BLOCK_NS * 1e-9
             self._cages = self._cages.after(self.scene.bearing, bodies, float(loads[:, 6].mean()), seconds)
-            status |= self._cages.status
+            status |= status_of_cages(self._cages)
         audit = self._energy_audit()
         temperature = self._warm_up(loads, blocks)
         block = self._observer.observe(

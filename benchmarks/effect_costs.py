@@ -50,7 +50,7 @@ from beardyn_core.effects import (
     Thermal,
 )
 from beardyn_core.effects.catalogue import catalogue
-from beardyn_core.physics.cage_drag import CAGE_DRAGS
+from beardyn_core.physics.cage.drag import CAGE_DRAGS
 from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS

@@ -73,7 +73,7 @@ def equilibrium(
     InputError, ValidityError
         An argument makes no sense; there is no equilibrium.
     """
-    from beardyn_core.physics.ring_modes import bending_rings
+    from beardyn_core.physics.modal_body import bending_rings
     from beardyn_core.physics.statics.static import solve
 
     chosen = _bearing(bearing)

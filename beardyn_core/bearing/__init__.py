@@ -12,7 +12,6 @@ contact_law        line contact (Palmgren), point contact (Hertz), rib of a bear
 lamina_coupling    laminae coupled through the half-space, also those partly over a patch
 holed_line         load that a line contact loses over holes, from a half-space
 ring_bending       stiffness and mass of the bending modes of a thin ring
-force_triangle     one roller between cup, cone and rib
 lubricant          viscosity and pressure-viscosity with temperature
 film_thickness     films of line contacts, inlet heating; film of the rib contact
 rolling_resistance rolling couple of one lubricated contact

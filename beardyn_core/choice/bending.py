@@ -12,7 +12,7 @@ from beardyn_core.choice.reference_solution import MOST_DB, Evidence
 from beardyn_core.choice.ringing import band_centres, levels
 from beardyn_core.choice.rule import VIBRATION_TOLERANCE_DB, Alternative, Influence, Rule, absent, percent
 from beardyn_core.effects import ModalStructure
-from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.modal_body import ModalBody, body_of
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.scene.sensor import PASSBAND, RATES
 from beardyn_core.structure.modes import Modes

@@ -17,7 +17,7 @@ from beardyn_core.effects import (
     Thermal,
     Traction,
 )
-from beardyn_core.physics.cage_drag import CAGE_DRAGS
+from beardyn_core.physics.cage.drag import CAGE_DRAGS
 from beardyn_core.physics.thermal import thermal_network
 
 # Runs shorter than this stay at the temperature the scene gives.

@@ -6,7 +6,7 @@ import math
 
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
-from beardyn_core.physics.pure_rolling import bar_weight
+from beardyn_core.physics.cage.rubbing import bar_weight
 
 _NOTABLE = 0.01  # of the torque
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile

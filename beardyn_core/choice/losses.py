@@ -14,10 +14,11 @@ from beardyn_core.base.units import STANDARD_GRAVITY
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LineFilm, Rib, Traction
 from beardyn_core.physics.bodies.layout import CONE
-from beardyn_core.physics.cage_drag import cage_drag_torque
+from beardyn_core.physics.cage.drag import cage_drag_torque
+from beardyn_core.physics.cage.rubbing import bar_weight
 from beardyn_core.physics.drag import drag_params, drag_push, drag_torque
 from beardyn_core.physics.lamina_table import lamina_table
-from beardyn_core.physics.pure_rolling import bar_weight, kinematic_params
+from beardyn_core.physics.pure_rolling import kinematic_params
 from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque

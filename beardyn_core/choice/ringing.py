@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.physics.journal import journal_shapes, modes_of
-from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.modal_body import ModalBody
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import box_coupling, cross_matrix, spatial_mass

@@ -9,7 +9,7 @@ from beardyn_core.bearing.kinematics import centrifugal_force
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.statics.initial_equilibrium import rest_under
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution

@@ -90,7 +90,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.bearing.life import load_doubts
     from beardyn_core.config import load_bearing
     from beardyn_core.effects import LaminaCoupling
-    from beardyn_core.physics.ring_modes import bending_rings
+    from beardyn_core.physics.modal_body import bending_rings
     from beardyn_core.physics.statics.rating_life import life_lines, life_object
     from beardyn_core.physics.statics.static import solve
 

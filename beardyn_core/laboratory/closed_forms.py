@@ -1,7 +1,7 @@
 """Closed forms of the nine contacts and of simple shapes, in plain NumPy and compiled.
 
 Compiled are the raceways by `physics.generator_line.generator_line`, one evaluation for all discs of a
-roller, and both ribs by `physics.rib.rib_gap`. The pocket lines of the text are no walls of the
+roller, and both ribs by `physics.rib_gap.rib_gap`. The pocket lines of the text are no walls of the
 twin, and are worked out here.
 """
 
@@ -22,7 +22,8 @@ from beardyn_core.laboratory.shapes import Arc, Circle, Cone, Shape, Straight, u
 from beardyn_core.physics.generator_line import generator_line
 from beardyn_core.physics.lamina_table import lamina_places
 from beardyn_core.physics.lanes.vectors import add_scaled, dot, subtract
-from beardyn_core.physics.rib import RibEndParams, RibParams, rib_gap
+from beardyn_core.physics.rib import RibParams
+from beardyn_core.physics.rib_gap import RibEndParams, rib_gap
 from beardyn_core.physics.tiers.parameters import RacewayParams, RollerParams
 
 _UP = (0.0, 0.0, 1.0)

@@ -22,7 +22,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.laboratory.closed_forms import rib_face_params
 from beardyn_core.laboratory.nine_contacts import RibFace, RollerPose, end_sphere, large_rib, nominal_pose
 from beardyn_core.laboratory.search import SURFACES, Pair, condition_number, search
-from beardyn_core.physics.rib import RibEndParams, RibWindowParams, rib_gap
+from beardyn_core.physics.rib_gap import RibEndParams, RibWindowParams, rib_gap
 
 SPHERE_RATIOS = (0.80, 0.85, 0.90, 0.95, 1.00, 1.05, 1.20)
 PUSH = 10e-6  # how far the roller is pushed into the rib, [m]

@@ -11,7 +11,8 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
-from beardyn_core.measured.choice import AXES, Chosen
+from beardyn_core.measured.choice import Chosen
+from beardyn_core.measured.sensor_choice import AXES
 from beardyn_core.measured.shaft import NOTHING, Constant, Found, Measured, Pulses, Turned
 from beardyn_core.measured.survey import LONGEST_STEP, Survey, Surveyed
 

@@ -13,12 +13,13 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.measured.alignment import Begun, align_files, align_tables, used_delays
-from beardyn_core.measured.choice import Chosen, choose, speeds_in, time_unit_in
+from beardyn_core.measured.choice import Chosen, choose, time_unit_in
 from beardyn_core.measured.claimed_rate import SAME, Stamps, decide_rate
 from beardyn_core.measured.claimed_start import Start, seconds_as_start
 from beardyn_core.measured.clock import Clock
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel
+from beardyn_core.measured.speed_choice import speeds_in
 from beardyn_core.measured.tacho import PulseLevels, Tacho, judge_pulses
 from beardyn_core.measured.telling import describe_files, gather_sentences
 from beardyn_core.measured.time_column import is_ramp

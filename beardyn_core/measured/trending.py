@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import write_whole
-from beardyn_core.measured.choice import AXES
+from beardyn_core.measured.sensor_choice import AXES
 from beardyn_core.measured.stream import Heard, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.trend import Trend, TrendPoint, record_levels

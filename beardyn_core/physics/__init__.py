@@ -35,32 +35,36 @@ lamina_springs     laminae as springs, summed (quasistatic tier)
 lamina_coupling    laminae that sink with each other, also partly over a patch
 raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
-point_contact      contact with the cone at a point, and the small rib
-land               land of a cage in cup or cone
+point_contact      contact with the cone at a point, which both ribs share
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
-traction           friction of the raceway contacts
+traction           friction of the raceway contacts: the law that is chosen, asperities with film
+dry_friction       dry friction, its corner at zero slip rounded
+film_traction      traction of full films
 film               film of the raceway contacts
-rib                ribs at both roller ends: spheres on a cone, their film and friction
-pocket             pockets of the cage, and its simplified forms
+rib                large roller end on its rib
+rib_gap            where it is nearest to the rib: a sphere and its rim on a cone
+rib_friction       its film and friction
+small_rib          small roller end on its rib: a plane on a circle
 defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way
 roller_spring      a roller as one spring along the cup's normal
 spall_cover        share of each lamina that counts as lost over a patch, from the half-space
 journal            bending of the axle at the journal
-ring_modes         bending of the axlebox: rings or modes of a table
+modal_body         how the axlebox bends: thin rings or the modes of a table
+ring_modes         bending of the axlebox within a step
 suspension         what holds the box, or both rings
 pure_rolling       speeds and places of rollers that roll without slip
 drag               medium around the rollers
 rolling_resistance couple against rolling
-contact_damping    damping of every Hertz contact
+contact_damping    damping of every Hertz contact, and how much of it a step takes
 oscillators        steps of a mode with its exact free motion
 lanes              lane values: arithmetic, functions, vectors, the system of a roller
 bodies             shared: layout of the state, lanes of rollers, rigid bodies, what contacts write
 statics            equilibrium, torque and life, in NumPy
+cage               the cages: pockets, lands, drag, and their motion
 tiers              parameters, state and steps of full, quasistatic and lumped
 seal               seals between cup and shaft
-cage_drag          torques of effects on the cages, against cup and cone
 ================== ================================================================================
 """

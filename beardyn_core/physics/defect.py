@@ -16,14 +16,15 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement
+from beardyn_core.physics.cage.pocket_wear import pocket_wear_of
 from beardyn_core.physics.lamina_table import contact_radii, for_springs, surface_radius
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, floor, magnitude, where_greater, wrap
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.patch_path import PATH_CELLS, edge_softness, reach_of, roller_path
-from beardyn_core.physics.scatter import added_clearance, crown_errors, scattered_oversize
+from beardyn_core.physics.scatter import crown_errors, scattered_oversize
 from beardyn_core.physics.spall_cover import counted_cover, lamina_cover, shared_cover
 from beardyn_core.physics.waviness import WaveParams, wave_params
-from beardyn_core.scene.defect import RollerError, WornPocket, every_patch
+from beardyn_core.scene.defect import RollerError, every_patch
 from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 
@@ -149,21 +150,6 @@ def damage_params(laminae: Float, width: int) -> DamageParams:
     """Double the lamina table (sound and damaged springs) and make work space for the springs."""
     springs = np.zeros((1, layout.SPRING_FIELDS * 2 * laminae.shape[1], width))
     return DamageParams(for_springs(laminae), springs)
-
-
-def pocket_wear_of(scene: Scene, arrangement: Arrangement) -> Float | None:
-    """Take half of the clearance added to each pocket, [block, 2, lane], [m]; ``None`` without any.
-
-    The first is along the pitch circle, from wear and scatter, the second at the ends, where a longer roller
-    takes it.
-    """
-    if scene.scattered is None and not any(isinstance(defect, WornPocket) for defect in scene.defects):
-        return None
-    longer = np.zeros((2, arrangement.roller_count))
-    if scene.scattered is not None:
-        longer = scene.scattered.deviations(scene.bearing).roller_length
-    halves = (0.5 * added_clearance(scene), -0.5 * longer)
-    return np.stack([arrangement.to_lanes(half) for half in halves], axis=1)
 
 
 def crown_params(scene: Scene, arrangement: Arrangement) -> Float | None:
@@ -432,19 +418,3 @@ def spring_slopes(lanes, spring, depth, damage):
     roller = lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SLOPE)
     ring = ring + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_RING_SOFTENING)
     return ring, roller + depth * lanes.load(springs, _SPRINGS, field + layout.SPRING_ROLLER_SOFTENING)
-
-
-@inline
-def pocket_wear(lanes, block, pockets):
-    """Work out the half of the clearance added to each roller's pocket along the pitch circle, [m]."""
-    if pockets is None:
-        return 0.0
-    return lanes.load(pockets, block, 0)
-
-
-@inline
-def pocket_length(lanes, block, pockets):
-    """Work out the half of the clearance added to each roller's pocket at its ends, [m]."""
-    if pockets is None:
-        return 0.0
-    return lanes.load(pockets, block, 1)

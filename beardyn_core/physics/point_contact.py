@@ -1,13 +1,14 @@
-"""Contact of a roller with the cone at one point: what both ribs share, and the small rib."""
+"""Contact of a roller with the cone at one point, which both ribs share."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.contact_output import account, account_loss, implicit_time, react
-from beardyn_core.physics.bodies.layout import CONE, LOSS_DAMPING, LOSS_SMALL_RIB
-from beardyn_core.physics.lanes.lane_math import at_least, sqrt, where_greater
+from beardyn_core.physics.bodies.contact_output import account, account_loss, react
+from beardyn_core.physics.bodies.layout import CONE, LOSS_DAMPING
+from beardyn_core.physics.contact_damping import implicit_time
+from beardyn_core.physics.lanes.lane_math import where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.solve import add_couple, add_point, add_point_everywhere
 from beardyn_core.physics.lanes.vectors import (
@@ -15,11 +16,9 @@ from beardyn_core.physics.lanes.vectors import (
     Wrench,
     add,
     add_scaled,
-    add_wrenches,
     cross,
     dot,
     scale,
-    subtract,
 )
 
 _NOTHING = 1e-300
@@ -139,75 +138,3 @@ def settle_point(contact, change, here, source, time_constant, drilling, p):
     account_loss(here, LOSS_DAMPING, p.step * damped, audit)
     account(here, p.step * numerical, contact.energy, audit)
     return wrench
-
-
-# --- the small rib: the flat small end of a roller against a circle of the rib
-
-
-@inline
-def prepare_small_rib(body, view, zero, rib):
-    """Work out the small-rib contact before the solve; without one zeros, which nothing uses."""
-    if rib is None:
-        return absent_point(zero)
-    return small_rib_contact(subtract(body.place, view.origin), body, view, rib)
-
-
-@inline
-def small_rib_contact(centre, body, view, rib):
-    """Work out the force of the small rib on the roller: plane on circle, closed form.
-
-    Adds the stop that holds a roller when the load is away. The rib bears on a circle at half its height;
-    of all its points the one furthest behind the plane of the roller end lies in the direction in which the
-    roller axis leans away from the cone's. Neglects the width of the rib's face.
-    """
-    axis, ring_axis = body.axis, view.axis
-    along = dot(axis, ring_axis)
-    across = add_scaled(axis, -along, ring_axis)
-    lean = sqrt(dot(across, across))
-    point = add_scaled(scale(rib.place, ring_axis), rib.radius / lean, across)
-    arm = subtract(point, centre)
-    depth = dot(arm, axis) - rib.end_place
-    normal = scale(-1.0, axis)
-    at_arm = add(body.velocity, cross(body.omega, arm))
-    slip = subtract(subtract(at_arm, view.velocity), cross(view.omega, add(centre, arm)))
-    touching = at_least(depth, 0.0)
-    rate = dot(slip, normal)
-    push = touching + where_greater(depth, 0.0, rib.damping.time_constant * rate, 0.0 * depth)
-    tangent = where_greater(push, 0.0, rib.stiffness + 0.0 * depth, 0.0 * depth)
-    load = tangent * push
-    tangential = add_scaled(slip, -rate, normal)
-    speed = sqrt(dot(tangential, tangential) + rib.regularisation * rib.regularisation)
-    zero = 0.0 * depth
-    elastic = rib.stiffness * touching
-    energy = 0.5 * rib.stiffness * touching * touching
-    friction = rib.friction * load / speed
-    return PointContact(centre, normal, arm, load, tangent, friction, elastic, energy, slip, zero, zero, zero)
-
-
-@inline
-def stiffen_small_rib(matrix, contact, rib, p):
-    """Add the implicit part of the small-rib contact to the roller's matrix."""
-    if rib is None:
-        return matrix
-    if not is_pressed(contact):
-        return matrix
-    return stiffen_point(matrix, contact, rib.damping, None, p)
-
-
-@inline
-def push_small_rib(total, contact, rib):
-    """Add the small rib's wrench at the beginning of the step to that of the roller."""
-    if rib is None:
-        return total
-    if not is_pressed(contact):
-        return total
-    return add_wrenches(total, push_point(contact, None))
-
-
-@inline
-def settle_small_rib(contact, change, total, here, rib, p):
-    """Settle the small-rib contact after the solve and add its wrench to the roller's."""
-    if rib is None:
-        return total
-    time_constant = rib.damping.time_constant
-    return add_wrenches(total, settle_point(contact, change, here, LOSS_SMALL_RIB, time_constant, None, p))

@@ -6,17 +6,9 @@ import math
 from typing import NamedTuple
 
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin, roller_spin
-from beardyn_core.effects import KinematicCage
+from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
+from beardyn_core.physics.cage.rubbing import PocketParams, pocket_params
 from beardyn_core.scene.scene import Scene
-
-
-class PocketParams(NamedTuple):
-    """Friction of the pockets, from what it takes to push a roller round that no cone drives."""
-
-    weight: float  # part of a roller's weight that its bar carries on average over the orbit [N]
-    lever: float  # torque on the shaft over the push: both bars, friction, spin over shaft speed [m]
-    regularisation: float  # shaft speed below which it falls to zero [rad/s]
 
 
 class KinematicParams(NamedTuple):
@@ -79,28 +71,3 @@ def kinematic_params(scene: Scene) -> KinematicParams:
         rolling_count=float(scene.roller_total),
         pocket=pocket_params(scene),
     )
-
-
-def pocket_params(scene: Scene) -> PocketParams | None:
-    """Work out the friction of the pockets; none without a cage, or with a prescribed one."""
-    cage, bearing = scene.effects.cage, scene.bearing
-    if cage is None or isinstance(cage, KinematicCage):
-        return None
-    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
-    fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
-    return PocketParams(
-        weight=bar_weight(bearing, fall),
-        lever=2.0 * cage.friction * spin,
-        regularisation=cage.regularisation_speed / spin,
-    )
-
-
-def bar_weight(bearing: Bearing, gravity: float) -> float:
-    """Work out what a roller that no cone drives lays on its bar, on average over the orbit, [N].
-
-    Parameters
-    ----------
-    gravity : float
-        [m/s^2].
-    """
-    return 2.0 / math.pi * gravity * bearing.roller_mass

@@ -5,10 +5,19 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies import contact_output as exchange
+from beardyn_core.physics.bodies.contact_output import (
+    ContactOutput,
+    account,
+    account_loss,
+    output_contact,
+    react,
+    watch_chatter,
+    watch_largest,
+)
 from beardyn_core.physics.bodies.friction_substeps import hold_contact
 from beardyn_core.physics.bodies.layout import LOSS_DAMPING, LOSS_SLIDING, PENETRATION
 from beardyn_core.physics.bodies.orbit import Body, entrainment_speed
+from beardyn_core.physics.contact_damping import damper_time, implicit_time
 from beardyn_core.physics.defect import find_damage
 from beardyn_core.physics.film import film_output, log2_entrainment
 from beardyn_core.physics.generator_line import (
@@ -136,7 +145,7 @@ def stiffen_raceway(matrix, contact, p):
     if not contact.sums.touches:
         return matrix
     line, stiffness, friction, step = contact.line, contact.sums.stiffness, contact.sums.friction, p.step
-    time = step * exchange.implicit_time(p.spring_time, p.effects.damping)
+    time = step * implicit_time(p.spring_time, p.effects.damping)
     rough = scale(step, friction)
     # friction resists in the tangent plane: in every direction less along the normal
     stiff = subtract(scale(time, stiffness), rough)
@@ -187,10 +196,10 @@ def settle_raceway(ring, contact, change, here, p):
     wrench, normal, friction = _react(ring, contact, change, here, p)
     _output(ring, contact, wrench, normal, here, p)
     capacity = traction_capacity(normal[0], p.effects.coulomb, p.effects.mixed, p.effects.load_sharing)
-    exchange.watch_chatter(here, ring, friction, capacity)
+    watch_chatter(here, ring, friction, capacity)
     deepest = at_least(lanes.load(here.rollers, here.block, PENETRATION), contact.sums.deepest)
     lanes.store(here.rollers, here.block, PENETRATION, deepest)
-    exchange.watch_largest(lanes, here.rollers, here.block, ring, dot(wrench.force, wrench.force))
+    watch_largest(lanes, here.rollers, here.block, ring, dot(wrench.force, wrench.force))
     return wrench
 
 
@@ -206,9 +215,7 @@ def _output(ring, contact, wrench, normal, here, p):
     arm = add_scaled(line.arm, pressure_centre, line.arm_slope)
     speed = sqrt(slip.around[0] * slip.around[0] + slip.along[0] * slip.along[0])
     film = film_output(normal[0], contact.log2_speed, ring, p.laminae, p.effects.film) + lanes.constant(0.0)
-    exchange.output_contact(
-        lanes, here.rollers, here.block, ring, exchange.ContactOutput(wrench.force, arm, speed, film)
-    )
+    output_contact(lanes, here.rollers, here.block, ring, ContactOutput(wrench.force, arm, speed, film))
 
 
 @inline
@@ -219,10 +226,10 @@ def _react(ring, contact, change, here, p):
         nothing = (zero, zero, zero)
         return Wrench(nothing, nothing), nothing, zero
     settled = settled_contact(contact, change, p.step, p.spring_time, p.effects.damping)
-    exchange.react(ring, contact.centre, settled.wrench, here)
-    exchange.account_loss(here, LOSS_SLIDING, settled.slid, p.effects.audit)
-    exchange.account_loss(here, LOSS_DAMPING, settled.damped, p.effects.audit)
-    exchange.account(here, settled.numerical, contact.sums.energy, p.effects.audit)
+    react(ring, contact.centre, settled.wrench, here)
+    account_loss(here, LOSS_SLIDING, settled.slid, p.effects.audit)
+    account_loss(here, LOSS_DAMPING, settled.damped, p.effects.audit)
+    account(here, settled.numerical, contact.sums.energy, p.effects.audit)
     return settled.wrench, settled.normal, settled.friction
 
 
@@ -249,7 +256,7 @@ def settled_contact(contact, change, step, spring_time, damping):
     friction_around = weigh_affine(sums.friction, around)
     wrench = line_wrench(line, normal, friction_around, weigh_affine(sums.friction, along))
     wrench = add_leaning(wrench, contact.lean)
-    further = spring_time + 0.5 * exchange.damper_time(damping)
+    further = spring_time + 0.5 * damper_time(damping)
     wrench = add_leaning_change(wrench, sums.gap, d_rate, further, contact.body, contact.damage)
     around, along = add_change(slip.around, d_around, 0.5), add_change(slip.along, d_along, 0.5)
     slid = power(sums.friction, around, around) + power(sums.friction, along, along)

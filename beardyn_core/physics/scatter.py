@@ -1,4 +1,4 @@
-"""Manufacturing scatter as numbers of each roller: offsets of its contacts, its crown, place and pocket."""
+"""Manufacturing scatter as numbers of each roller: offsets of its contacts, crown, place of its pocket."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.scene.defect import WornPocket
 from beardyn_core.scene.scene import Scene
 
 
@@ -68,14 +67,3 @@ def pocket_offsets(scene: Scene) -> Float:
         return np.zeros((2, scene.bearing.roller_count))
     place = scene.scattered.deviations(scene.bearing).pocket_place
     return np.asarray(place / (0.5 * scene.bearing.pitch_diameter))
-
-
-def added_clearance(scene: Scene) -> Float:
-    """Work out what wear and scatter add to the clearance of each pocket, shape [row, roller], [m]."""
-    added = np.zeros((2, scene.bearing.roller_count))
-    for defect in scene.defects:
-        if isinstance(defect, WornPocket):
-            added[defect.row, defect.pocket] += defect.clearance
-    if scene.scattered is not None:
-        added = added + scene.scattered.deviations(scene.bearing).pocket_clearance
-    return added

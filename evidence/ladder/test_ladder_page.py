@@ -14,7 +14,7 @@ from evidence.ladder import front
 from evidence.ladder.page import page
 from evidence.ladder.turns import in_turns
 from evidence.pages import DOCS
-from test.study.test_ladder import FakeRuns, climbed
+from test.study.fake_ladder import FakeRuns, climbed
 
 
 def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> None:

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from beardyn_core.physics.tiers.cage_watch import CageWatch
-from beardyn_core.physics.tiers.status import Status
+from beardyn_core.physics.cage.watch import CageWatch
+from beardyn_core.physics.tiers.status import Status, status_of_cages
 from evidence.light.grid import (
     AUTO,
     AUTO_POINTS,
@@ -80,7 +80,7 @@ def test_a_dry_rib_is_what_drives_cages_ahead() -> None:
 
 
 def test_a_status_tells_of_cages_that_run_ahead_or_back() -> None:
-    assert CageWatch((1.02, 1.0), 2.0).status == Status.CAGE_FAST
-    assert CageWatch((1.0, -0.1), 2.0).status == Status.CAGE_BACKWARDS
-    assert CageWatch((1.02, -0.1), 0.5).status == Status.FINE  # not a revolution yet
-    assert CageWatch((0.5, 1.005), 2.0).status == Status.FINE
+    assert status_of_cages(CageWatch((1.02, 1.0), 2.0)) == Status.CAGE_FAST
+    assert status_of_cages(CageWatch((1.0, -0.1), 2.0)) == Status.CAGE_BACKWARDS
+    assert status_of_cages(CageWatch((1.02, -0.1), 0.5)) == Status.FINE  # not a revolution yet
+    assert status_of_cages(CageWatch((0.5, 1.005), 2.0)) == Status.FINE

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import Cage
 from beardyn_core.physics.bodies.layout import CAGE_BODY, POSITION
-from beardyn_core.physics.pocket import cage_params
+from beardyn_core.physics.cage.parameters import cage_params
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.twin import Twin

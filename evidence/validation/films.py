@@ -24,10 +24,11 @@ from beardyn_core.effects.traction import Traction
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import LAMINA_PRESSURE
 from beardyn_core.physics.film import FilmParams
+from beardyn_core.physics.film_traction import aihara_params
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.physics.traction import LoadSharingParams, aihara_params
+from beardyn_core.physics.traction import LoadSharingParams
 from evidence.standard import standard_scene
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import (

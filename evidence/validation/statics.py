@@ -10,8 +10,8 @@ from beardyn_core.bearing.contact_law import (
     PointContact,
     line_contact_factor,
 )
-from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.config import load_bearing
+from beardyn_core.physics.statics.roller_equilibrium import roller_forces
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from evidence.validation.anchor import Anchor
 from evidence.validation.ball_contact import curvature_difference, curvature_sum

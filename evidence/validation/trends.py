@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from beardyn_core.config import load_bearing
-from beardyn_core.physics.ring_modes import ModalBody, body_of
+from beardyn_core.physics.modal_body import ModalBody, body_of
 from beardyn_core.physics.statics.static import solve
 from evidence.validation.anchor import HOLDS_FROM, Finding, Trend, falls, rises
 from evidence.validation.posture import (

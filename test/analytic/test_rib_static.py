@@ -25,7 +25,6 @@ from beardyn_core.bearing.contact_law import (
     rib_truncation,
 )
 from beardyn_core.bearing.film_thickness import rib_film_thickness
-from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
@@ -33,6 +32,7 @@ from beardyn_core.effects import Rib, RibMixedFilm, RibShearedFilm
 from beardyn_core.effects.rib import RibLubrication
 from beardyn_core.physics.rib import rib_params
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model, rib_contacts
+from beardyn_core.physics.statics.roller_equilibrium import roller_forces
 from beardyn_core.physics.statics.static import _rotation, solve
 from beardyn_core.physics.statics.torque import rib_torque
 

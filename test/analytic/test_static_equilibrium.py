@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.contact_law import line_contact_factor, rib_contact_factor
-from beardyn_core.bearing.force_triangle import roller_forces
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
@@ -27,6 +26,7 @@ from beardyn_core.physics.statics.roller_contacts import (
     cup_contacts,
     rib_contacts,
 )
+from beardyn_core.physics.statics.roller_equilibrium import roller_forces
 from beardyn_core.physics.statics.static import StaticSolution, _rotation, solve
 from test.examples import examples, fast_ones
 

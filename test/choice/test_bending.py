@@ -14,7 +14,7 @@ from beardyn_core.choice.bending import rates_told, structure
 from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.ringing import levels
 from beardyn_core.effects import ModalStructure
-from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.scene.scene import Scene
 from test.choice.scenes import reasons, variant

@@ -37,7 +37,7 @@ from beardyn_core.study.trial_report import json_object as trial_object
 from beardyn_core.study.trial_result import TrialResult
 from test.cli.json_page import PAGE, check, documented
 from test.recordings import write_recording
-from test.study.test_ladder import FakeRuns, climbed
+from test.study.fake_ladder import FakeRuns, climbed
 from test.study.test_trial import run_of
 
 MEASURED = {

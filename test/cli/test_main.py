@@ -21,7 +21,7 @@ from beardyn_core.cli import schema
 from beardyn_core.cli.generated_parser import parameters_of
 from beardyn_core.config import shipped_names
 from beardyn_core.config.schema import SCHEMA_KINDS
-from beardyn_core.physics.ring_modes import RINGS
+from beardyn_core.physics.modal_body import RINGS
 from beardyn_core.physics.statics import static
 
 

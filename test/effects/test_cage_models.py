@@ -24,7 +24,7 @@ from beardyn_core.physics.bodies.layout import (
     POCKET,
     POSITION,
 )
-from beardyn_core.physics.pocket import cage_params
+from beardyn_core.physics.cage.parameters import cage_params
 from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.status import Status
 from beardyn_core.scene.scene import Scene

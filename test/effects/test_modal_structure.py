@@ -19,7 +19,8 @@ from beardyn_core.config.yaml_text import read_file, scene_text
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.physics import ring_modes as structure
 from beardyn_core.physics.bodies.layout import SIGNAL_CHANNELS
-from beardyn_core.physics.ring_modes import ModalBody, _bend, _kick, body_of, structure_params
+from beardyn_core.physics.modal_body import WAVES_SEEN, ModalBody, body_of
+from beardyn_core.physics.ring_modes import _bend, _kick, structure_params
 from beardyn_core.physics.statics import initial_equilibrium
 from beardyn_core.physics.statics.equilibria import equilibrium
 from beardyn_core.physics.statics.initial_equilibrium import rest_under, springs_under
@@ -80,7 +81,7 @@ def test_two_waves_of_slip_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     What is left is friction of a box that is struck; later on, where friction sticks decides.
     """
     push, signals = {}, {}
-    for waves in (structure.WAVES_OF_SLIP, structure.WAVES_SEEN):
+    for waves in (structure.WAVES_OF_SLIP, WAVES_SEEN):
         monkeypatch.setattr(structure, "WAVES_OF_SLIP", waves)
         shaken_box = bent(3)
         shaken_box.run(1)

@@ -30,8 +30,8 @@ from beardyn_core.physics.bodies.layout import (
     SIGNAL_FORCE,
     VELOCITY,
 )
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.oscillators import exact_oscillators
-from beardyn_core.physics.ring_modes import body_of
 from beardyn_core.physics.statics.static import solve
 from test.kernels.momentum import assert_momentum_is_exchanged
 from test.kernels.rig import Float, Rig

@@ -37,7 +37,7 @@ from beardyn_core.physics.bodies.layout import (
     TILT,
 )
 from beardyn_core.physics.bodies.losses import ENERGY_TERMS, LOSS_NAMES
-from beardyn_core.physics.cage_drag import brake_cages, cage_drag_params, cage_drag_torque
+from beardyn_core.physics.cage.drag import brake_cages, cage_drag_params, cage_drag_torque
 from beardyn_core.physics.tiers.status import is_fatal
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import missing_effects

@@ -10,8 +10,8 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.config import load_lubricant
 from beardyn_core.effects import Rib, RibMixedFilm, RingStructure
+from beardyn_core.physics.modal_body import rings
 from beardyn_core.physics.rib import rib_params
-from beardyn_core.physics.ring_modes import rings
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.statics.torque import rib_torque
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from beardyn_core.base.jit import entry
-from beardyn_core.physics.land import land_contact, short_bearing
-from beardyn_core.physics.pocket import kinematic_pocket, rotating_pocket
+from beardyn_core.physics.cage.land import land_contact, short_bearing
+from beardyn_core.physics.cage.pocket import kinematic_pocket, rotating_pocket
 from test.kernels.entries import pocket_of, store_walls
 
 

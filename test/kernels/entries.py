@@ -11,6 +11,8 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.friction_substeps import Held
 from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.cage.pocket import Pocket, free_pocket
+from beardyn_core.physics.cage.walls import Motion
 from beardyn_core.physics.film import log2_entrainment, log2_film_thickness, log2_load
 from beardyn_core.physics.generator_line import generator_line, line_slip
 from beardyn_core.physics.lamina_coupling import DEPTH, FORCE, SURFACE, couple_laminae
@@ -41,10 +43,10 @@ from beardyn_core.physics.lanes.solve import (
     solve,
 )
 from beardyn_core.physics.lanes.vectors import Wrench, subtract
-from beardyn_core.physics.pocket import Motion, Pocket, free_pocket
-from beardyn_core.physics.point_contact import push_small_rib, small_rib_contact
 from beardyn_core.physics.raceway import RacewayContact, push_raceway
-from beardyn_core.physics.rib import push_rib, rib_contact, rib_gap
+from beardyn_core.physics.rib import push_rib, rib_contact
+from beardyn_core.physics.rib_gap import rib_gap
+from beardyn_core.physics.small_rib import push_small_rib, small_rib_contact
 from beardyn_core.physics.traction import LaminaContact, friction_rate
 
 MATH_NAMES = (

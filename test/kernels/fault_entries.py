@@ -7,10 +7,10 @@ from typing import Any
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies.contact_output import load_vector, store_vector
 from beardyn_core.physics.bodies.orbit import Body, View
+from beardyn_core.physics.cage.pocket import free_pocket
+from beardyn_core.physics.cage.pocket_wear import pocket_length, pocket_wear
 from beardyn_core.physics.defect import (
     find_damage,
-    pocket_length,
-    pocket_wear,
     soften_by_edges,
     spring_damage,
     spring_slopes,
@@ -19,7 +19,6 @@ from beardyn_core.physics.lamina_springs import cup_springs
 from beardyn_core.physics.laminae import released_power
 from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
-from beardyn_core.physics.pocket import free_pocket
 from beardyn_core.physics.raceway import Ring, faults_of_cup, prepare_raceway, settled_contact
 from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.massless_roller import faulted_load, over_patches

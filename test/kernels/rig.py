@@ -14,7 +14,7 @@ from beardyn_core.physics.bodies.layout import ROLLER_STATES, SIGNAL_CHANNELS
 from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.defect import roller_oversize
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.ring_modes import body_of
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.scatter import crown_errors
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.tiers.build import build_parameters

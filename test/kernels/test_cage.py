@@ -24,8 +24,8 @@ from beardyn_core.physics.bodies.layout import (
     RATE,
     TILT,
 )
+from beardyn_core.physics.cage.land import LandParams
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.pocket import LandParams
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_cage, naive_step
 from test.kernels.cage_entries import journals, kinematic_pockets, lands, rotating_pockets

@@ -12,9 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beardyn_core.effects import LineFilm
+from beardyn_core.physics.dry_friction import CoulombParams
+from beardyn_core.physics.film_traction import ShearedFilmParams
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.physics.traction import CoulombParams, ShearedFilmParams
 from beardyn_core.scene.scene import Scene
 from test.kernels import naive
 from test.kernels.casting import through

@@ -278,13 +278,13 @@ def copied(tmp_path_factory: pytest.TempPathFactory, forks: Forks) -> Copied:
 @pytest.mark.parametrize(
     ("name", "old", "new", "changes"),
     [
-        ("physics/pocket.py", "0.5 * cage.stiffness * inside", "0.6 * cage.stiffness * inside", True),
-        ("physics/pocket.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
+        ("physics/cage/walls.py", "0.5 * cage.stiffness * inside", "0.6 * cage.stiffness * inside", True),
+        ("physics/cage/walls.py", "_SMALLEST_WAY = 1e-15", "_SMALLEST_WAY = 1e-14", True),
         ("physics/bodies/layout.py", "\nREACTION = ", "\nREACTION = 0 + 1 + ", True),
         ("physics/lanes/lanes.py", "builder.fadd(a, b", "builder.fadd(b, a", True),  # told to numba by hand
         ("base/jit.py", '"forceinline": True', '"forceinline": False', True),
         ("physics/bodies/layout.py", "# --- where energy is lost", "# --- where energy goes", False),
-        ("physics/pocket.py", '"""', '"""Anew: ', False),
+        ("physics/cage/pocket.py", '"""', '"""Anew: ', False),
         ("physics/rib.py", "return ", "return 1.0 * ", False),
     ],
 )

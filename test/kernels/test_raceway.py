@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from beardyn_core.physics.dry_friction import CoulombParams
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.physics.traction import CoulombParams
 from test.kernels import naive, naive_step
 from test.kernels.casting import through
 from test.kernels.entries import RACEWAY_OUTPUTS, raceways

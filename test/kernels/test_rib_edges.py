@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from beardyn_core.bearing.contact_law import rib_contact
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
 from beardyn_core.physics.lanes.lanes import Lanes
-from beardyn_core.physics.rib import RibParams, SmallRibParams
+from beardyn_core.physics.rib import RibParams
+from beardyn_core.physics.small_rib import SmallRibParams
 from test.kernels import naive, naive_rib
 from test.kernels.casting import through
 from test.kernels.entries import rib_gaps, ribs, small_ribs

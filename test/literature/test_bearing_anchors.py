@@ -13,12 +13,12 @@ from beardyn_core.bearing.contact_law import (
     line_contact_factor,
     rib_contact,
 )
-from beardyn_core.bearing.force_triangle import centrifugal_cup_load, roller_forces
 from beardyn_core.bearing.kinematics import fault_frequencies, frequencies
 from beardyn_core.bearing.life import dynamic_rating, rating_factor
 from beardyn_core.bearing.lubricant import gold_pressure_viscosity
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_bearing, load_lubricant, shipped_names
+from beardyn_core.physics.statics.roller_equilibrium import centrifugal_cup_load, roller_forces
 from evidence.validation.ball_contact import curvature_difference, curvature_sum
 from evidence.validation.load_zone import axial_integral, radial_integral
 from test.kernels.naive_traction import roelands_viscosity

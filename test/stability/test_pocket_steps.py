@@ -13,7 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import Cage, PocketFilm
-from beardyn_core.physics.pocket import CageParams, cage_params
+from beardyn_core.physics.cage.parameters import CageParams, cage_params
 
 
 @pytest.mark.parametrize("lean", [0.0, 0.44, 1.2])

@@ -1,4 +1,4 @@
-"""The ladder: its levels, which are efficient or good enough, and what a run of it leaves behind."""
+"""The ladder: which of its levels are efficient or good enough, and what a run of it leaves behind."""
 
 from __future__ import annotations
 
@@ -17,85 +17,15 @@ from beardyn_core.choice import load_scene
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.config import load_effects
 from beardyn_core.effects import KinematicCage
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.tier import TIERS, contradictions
-from beardyn_core.study.ladder import (
-    REFERENCE_RUNS,
-    climb,
-    comparison_of,
-    repeats_of,
-    vary_start,
-)
-from beardyn_core.study.ladder_levels import Level, LevelList, automatic, expected_cost, level_of, levels_of
+from beardyn_core.study.ladder import REFERENCE_RUNS, climb, comparison_of, repeats_of, vary_start
+from beardyn_core.study.ladder_levels import Level, LevelList, automatic, levels_of
 from beardyn_core.study.ladder_picture import ladder_figure, ladder_picture
 from beardyn_core.study.ladder_report import json_object, table
 from beardyn_core.study.ladder_result import BAND_LIMIT_DB, Ladder, Part, errors
 from beardyn_core.study.ladder_store import RUNS_FILE, store_of
-from beardyn_core.study.level_run import Comparison, Run
+from beardyn_core.study.level_run import Comparison
 from beardyn_core.study.measures import MEASURES, QUANTITIES, Outcome
-from beardyn_core.twin import Twin
-
-ASKED = ("force", "deflection", "roller_load", "torque", "vibration")
-STANDARD = load_effects("standard")
-SIZES = [2 * 20 if measure.weighed else len(measure.parts) for measure in MEASURES]
-
-
-def level(name: str, tier: str = "full", laminae: int = 6, steps: int = 4) -> Level:
-    return Level(name, tier, "standard", STANDARD, laminae, steps)
-
-
-REFERENCE = level("reference", laminae=20, steps=16)
-FAST, MIDDLE = level("fast", "lumped", 1, 1), level("middle", "quasistatic")
-EXACT, SLOW = level("exact", steps=7), level("slow", steps=8)
-LEVELS = LevelList(REFERENCE, SLOW, (FAST, MIDDLE, EXACT, SLOW))
-# wall time per simulated second, error of the torque, level of all bands [dB]
-TRUTH = {
-    (1, 1): (0.1, 0.5, 4.0),
-    (6, 4): (0.3, 0.02, 1.0),
-    (6, 7): (1.0, 0.0, 0.0),
-    (6, 8): (2.0, 0.0, 0.0),
-    (20, 16): (9.0, 0.0, 0.0),
-}
-
-
-class FakeRuns:
-    """Outcomes with known errors and a known scatter; the last choice invalid or interrupted if asked."""
-
-    def __init__(
-        self, scatter: float = 1e-3, invalid: int | None = None, interrupted: int | None = None
-    ) -> None:
-        self._generator = np.random.default_rng(5)
-        self._scatter, self._invalid, self._interrupted = scatter, invalid, interrupted
-        self.scenes: list[Scene] = []
-
-    def __call__(self, scene: Scene, comparison: Comparison) -> Run:
-        steps = round(scene.numerics.steps_per_sample)
-        self.scenes.append(scene)
-        if steps == self._interrupted:
-            raise KeyboardInterrupt
-        if steps == self._invalid:
-            return Run(None, np.array([1.0]), "the run ended at 0.1 s: a number became NaN")
-        wall, torque, level = TRUTH[scene.numerics.laminae, steps]
-        windows = tuple(self._values(torque, level) for _ in range(5))
-        whole = tuple(np.mean([window[i] for window in windows], axis=0) for i in range(len(MEASURES)))
-        return Run(Outcome(whole, windows), np.full(5, wall), "complete")
-
-    def _values(self, torque: float, level: float) -> tuple[np.ndarray, ...]:
-        return tuple(
-            np.full(size, 1.0 + (torque if m.quantity == "torque" else 0.0))
-            + (120.0 + level if m.quantity == "vibration" else 0.0)
-            + self._scatter * self._generator.standard_normal(size)
-            for m, size in zip(MEASURES, SIZES, strict=True)
-        )
-
-
-@pytest.fixture(scope="module")
-def comparison() -> Comparison:
-    return comparison_of(load_scene("static_80kN"), 0.5, 0.1)
-
-
-def climbed(comparison: Comparison, runs: FakeRuns, accuracy: float = 0.05) -> Ladder:
-    return climb(comparison, LEVELS, accuracy, ASKED, runner=runs)
+from test.study.fake_ladder import ASKED, FAST, LEVELS, REFERENCE, SIZES, FakeRuns, climbed, level
 
 
 def test_efficient_levels_and_the_cheapest_good_one(comparison: Comparison) -> None:
@@ -191,22 +121,6 @@ def test_the_choices_of_the_automatic_level_stand_below_the_table(comparison: Co
     found = json.loads(json_text("ladder", json_object(ladder)))["levels"][0]
     assert found["less_than_reference"] == ["drag", "seal"]
     assert found["effects"] == list(less.names())
-
-
-def test_a_fault_line_is_asked_of_the_vibration() -> None:
-    scene = load_scene("cup_spall")
-    asked = automatic(scene, 0.05, ("fault_line",))
-    assert asked == automatic(scene, 0.05, ("vibration",))
-    # what would be chosen if nothing were asked
-    assert asked != automatic(scene, 0.05, ())
-
-
-def test_tiers_are_judged_with_the_steps_that_they_take_unasked() -> None:
-    for quick in (True, False):
-        found = {
-            (level.tier, level.steps_per_sample) for level in levels_of(load_scene("cup_spall"), quick).levels
-        }
-        assert {(tier.name, tier.steps_per_sample) for tier in TIERS.values()} <= found
 
 
 def test_a_quantity_that_is_not_asked_for_does_not_count(comparison: Comparison) -> None:
@@ -356,66 +270,6 @@ def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(comparis
     other = vary_start(kinematic, 1)
     assert other.effects.cage == kinematic.effects.cage
     assert other.end_play != kinematic.end_play
-
-
-# every scene and every list of levels once; the slow suite has each with each
-LISTS = {"quick": (True, False), "usual": (False, False), "each effect": (False, True)}
-FAST_LISTS = {("smooth_run", "usual"), ("cup_spall", "quick"), ("static_5kN", "each effect")}
-
-
-@pytest.mark.parametrize(
-    ("name", "quick", "each_effect"),
-    [
-        pytest.param(
-            name, *chosen, id=f"{name}, {told}",
-            marks=[] if (name, told) in FAST_LISTS else [pytest.mark.slow],
-        )
-        for name in ("smooth_run", "cup_spall", "static_5kN")
-        for told, chosen in LISTS.items()
-    ],
-)  # fmt: skip
-def test_every_level_of_a_scene_can_be_computed_and_has_its_own_name(
-    name: str, quick: bool, each_effect: bool
-) -> None:
-    scene = load_scene(name)
-    levels = levels_of(scene, quick, each_effect)
-    every = [levels.reference, *levels.levels]
-    assert len({level.name for level in every}) == len(every)
-    assert levels.neighbour in levels.levels
-    for found in every:
-        applied = found.applied(scene)
-        assert not contradictions(applied.tier, applied.effects.rib is not None, applied.numerics.laminae)
-        assert applied.defects == scene.defects
-        Twin(applied)
-    costs = [expected_cost(level) for level in levels.levels]
-    assert costs == sorted(costs)
-    assert expected_cost(levels.reference) > max(costs)
-    own = (scene.tier, scene.effects, scene.numerics.laminae, scene.numerics.steps_per_sample)
-    assert own in [
-        (level.tier, level.effects, level.laminae, level.steps_per_sample) for level in levels.levels
-    ]
-    assert {level.tier for level in levels.levels} == {"lumped", "quasistatic", "full"}
-    assert {"dry", "standard", "all"} <= {level.effects_name for level in levels.levels}
-
-
-def test_effects_of_the_scene_itself_are_a_level(comparison: Comparison) -> None:
-    scene = replace(comparison.scene, effects=replace(STANDARD, cage=None))
-    levels = levels_of(scene)
-    assert "of the scene" in {level.effects_name for level in levels.levels}
-    # the scene's own choice may be the neighbour itself
-    usual = levels.neighbour.applied(comparison.scene)
-    assert len(levels_of(usual).levels) == len(levels_of(comparison.scene).levels)
-    assert level_of(usual, "all") == levels.neighbour
-    assert level_of(usual, "auto", name="auto 5 %").name == "auto 5 %"
-
-
-def test_another_level_takes_its_place_by_cost(comparison: Comparison) -> None:
-    levels = levels_of(comparison.scene, quick=True)
-    more = level("auto 5 %", "quasistatic", laminae=4, steps=2)
-    found = levels.including(more)
-    assert more in found.levels
-    assert set(found.levels) - {more} == set(levels.levels)
-    assert [expected_cost(r) for r in found.levels] == sorted(expected_cost(r) for r in found.levels)
 
 
 def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path: Path) -> None:

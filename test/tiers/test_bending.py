@@ -1,101 +1,36 @@
-"""Bending of the box in the fast tiers: naive sums, static solution, eigenproblem and full tier beside it."""
+"""Bending of the box in the fast tiers: naive sums, static solution and full tier beside it."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.choice.fast_step import fast_steps
-from beardyn_core.effects import ModalStructure, RingStructure
 from beardyn_core.physics.bodies.layout import (
     CAGE_BODY,
     CONE_BODY,
     CUP_BODY,
     LINEAR,
     POSITION,
-    RATE,
     SIGNAL_CHANNELS,
     SIGNAL_FORCE,
     TURN,
 )
-from beardyn_core.physics.ring_modes import ModalBody, body_of
-from beardyn_core.physics.roller_spring import lever_of_cup
-from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
-from beardyn_core.physics.statics.roller_equilibrium import load_of_approach, solve_rollers
+from beardyn_core.physics.modal_body import body_of
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.suspension import FORCE
-from beardyn_core.physics.tiers.state import Output, State
 from beardyn_core.physics.tiers.tier_bending import step_body
-from beardyn_core.run import start
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import contradictions
-from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of
 from beardyn_core.twin import Twin
 from test.runs import blocks_of
+from test.tiers.bent_box import KINDS, Float, bent_scene, shapes_at, started, stepped, suspended
 from test.tiers.momentum import momentum_of_rolling_parts
 from test.tiers.runs import FAST, scene_of
-
-Float = NDArray[np.float64]
-KINDS: dict[str, RingStructure | ModalStructure] = {
-    "rings": RingStructure(),
-    "modes": ModalStructure("high_speed"),
-}
-STRIDE = 8  # steps between two looks at the state
-
-
-@cache
-def bent_scene(tier: str, kind: str, name: str = "static_80kN") -> Scene:
-    """A shipped scene with a box that bends, one step a sample in the fast tiers."""
-    scene = scene_of(name, tier)
-    effects = replace(scene.effects, structure=KINDS[kind])
-    modes, mounting = modes_of_effects(effects), scene.mounting
-    if modes is not None:
-        mounting = mounting_of(modes, mounting, scene.bearing)
-    steps = 4 if tier == "full" else 1
-    numerics = replace(scene.numerics, steps_per_sample=steps)
-    return replace(scene, effects=effects, mounting=mounting, numerics=numerics)
-
-
-def suspended(tier: str, kind: str) -> Scene:
-    """The same with the box on its springs."""
-    scene = bent_scene(tier, kind)
-    return replace(scene, mounting=replace(scene.mounting, cup="suspended"))
-
-
-def started(scene: Scene) -> Twin:
-    """A twin at rest under the first load."""
-    return start(scene, 0.1).twin
-
-
-def stepped(twin: Twin, steps: int, speed: float | None = None) -> tuple[Float, Float]:
-    """Signals and rollers of some steps under the first load, the shaft at another speed [rad/s].
-
-    What a run holds for a while is worked out anew in every one of them.
-    """
-    state = twin._state
-    assert state is not None
-    loads = np.repeat(twin._loads(0, 20_000_000, 512)[:1], steps + 1, axis=0)
-    if speed is not None:
-        loads[:, 6] = speed
-        state.bodies[CAGE_BODY:, RATE] *= speed
-    signals = np.zeros((steps, twin._channels))
-    rollers = np.zeros((steps, *twin._tier.trend_shape(state.rollers.shape)))
-    output = Output(signals, rollers, np.zeros((steps, *state.bodies.shape)), twin._audit)
-    twin._tier.advance(twin._lanes, state, twin._work, loads, output, twin._kernel_parameters)
-    return signals, rollers
-
-
-def shapes_at(twin: Twin, azimuth: Float) -> Float:
-    """Opening of the raceways by each mode of the step, by plain sums, shape [row, place, mode]."""
-    fitted = step_body(twin.scene, twin._parameters.step)
-    assert fitted is not None
-    return math.cos(twin.scene.bearing.cup_angle) * fitted.body.openings(azimuth)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -262,125 +197,6 @@ def _means(scene: Scene) -> tuple[float, float]:
 def test_deflection_and_largest_load_are_those_of_the_full_tier(tier: str, kind: str) -> None:
     """80 kN with the same structure, set beforehand: 1 %."""
     np.testing.assert_allclose(_means(bent_scene(tier, kind)), _means(bent_scene("full", kind)), rtol=0.01)
-
-
-@pytest.mark.parametrize("tier", FAST)
-def test_frequencies_of_the_loaded_box_are_those_of_an_independent_eigenproblem(tier: str) -> None:
-    """Mass and stiffness of rings, all modes of the table and contact springs, up to 4 kHz: within 1 %.
-
-    The kernel starts on one eigenvector after the other; its phase after 40 calls, against a run without,
-    tells the frequency. Springs of the contacts are those of the static solution, for the lumped tier slopes
-    of its law of a single roller.
-    """
-    scene = bent_scene(tier, "modes", "static_5kN")
-    # preloaded: of a roller at the edge of a load zone a nanometre decides whether it is a spring
-    scene = replace(scene, end_play=-1e-4, mounting=replace(scene.mounting, cup="suspended"))
-    # creep of the raceways damps, the eigenproblem does not
-    scene = replace(scene, effects=replace(scene.effects, film=None, traction=None))
-    body, h = body_of(scene), 1.0 / 25600.0
-    assert body is not None
-    twin = started(scene)
-    p = twin._kernel_parameters
-    stepped(twin, 3200, 0.0)  # settled without turning
-    assert twin._state is not None
-    rest = twin._state.copy()
-    motion = rest.bodies[CONE_BODY, POSITION : POSITION + 6] - rest.bodies[CUP_BODY, POSITION : POSITION + 6]
-    fitted = step_body(scene, h)
-    assert fitted is not None
-    bent = np.linalg.pinv(fitted.share) @ rest.flex[0]
-    springs = _springs if tier == "lumped" else _laminae
-    # cup (6), journal (3), modes of the table
-    relative = np.zeros((5 + len(body.rate), 9 + len(body.rate)))
-    relative[range(5), [0, 1, 2, 3, 5]] = -1.0
-    relative[range(3), [6, 7, 8]] = 1.0
-    relative[5:, 9:] = np.eye(len(body.rate))
-    stiffness = relative.T @ springs(scene, body, motion[[0, 1, 2, 3, 5]], bent) @ relative
-    box = p.base.mounting.coupling
-    mass = np.eye(9 + len(body.rate))
-    mass[:6, :6] = box.mass
-    mass[6:9, 6:9] *= p.base.mounting.journal_mass
-    assert body.suspension is not None
-    stretch = np.concatenate([np.eye(6), np.zeros((6, 3)), body.suspension], axis=1)
-    stiffness += stretch.T @ box.stiffness @ stretch
-    stiffness[9:, 9:] += np.diag(body.rate**2)
-    root = np.linalg.cholesky(mass)
-    inner = np.linalg.solve(root, np.linalg.solve(root, stiffness).T)
-    squares, vectors = np.linalg.eigh(0.5 * (inner + inner.T))
-    vectors = np.linalg.solve(root.T, vectors)
-    rates = np.sqrt(np.maximum(squares, 0.0))
-    tested = np.flatnonzero((rates > 2e3) & (rates < 2.0 * np.pi * (4e3 if tier == "quasistatic" else 2e3)))
-    assert len(tested) > 5
-    errors = [
-        _frequency(twin, rest, vectors[:, index], mass, rates[index], fitted.share, h) for index in tested
-    ]
-    # the eigenproblem has no mass of rollers: 8 kg between rings of 100 kg and more, 1.3 % in one mode
-    assert np.abs(errors).max() < (0.015 if tier == "quasistatic" else 0.01), errors
-
-
-def _springs(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
-    """Stiffness of rollers as single springs against pose and modes, shape [5 + mode, 5 + mode]."""
-    bearing = scene.bearing
-    approach, load = load_of_approach(bearing, scene.numerics.laminae)
-    order = np.argsort(approach)
-    slope = np.gradient(load[order], approach[order])
-    azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
-    angle, lever, side = bearing.cup_angle, lever_of_cup(bearing), np.array([[-1.0], [1.0]])
-    across, along = np.sin(azimuth) + 0.0 * side, np.cos(azimuth) + 0.0 * side
-    rigid = [math.cos(angle) * across, -math.sin(angle) * side + 0.0 * along, math.cos(angle) * along]
-    normal = np.stack([*rigid, side * lever * along, -side * lever * across], axis=2)
-    normal = np.concatenate([normal, -math.cos(angle) * body.openings(azimuth)], axis=2)
-    normal = normal.reshape(-1, normal.shape[2])
-    depth = normal @ np.concatenate([pose, bent]) - 0.5 * scene.end_play * math.sin(angle)
-    spring = np.where(depth > 0.0, np.interp(depth, approach[order], slope), 0.0)
-    # both contacts of a roller are lines of springs, which hold a tilt in its meridian plane
-    plane = np.stack([along, -across], axis=2).reshape(-1, 2)
-    square = bearing.effective_length**2 / 12.0
-    stiffness = (normal.T * spring) @ normal
-    stiffness[3:5, 3:5] += square * (plane.T * spring) @ plane
-    return np.asarray(stiffness)
-
-
-def _laminae(scene: Scene, body: ModalBody, pose: Float, bent: Float) -> Float:
-    """The same of rollers in balance with their laminae, from the static solution."""
-    model = contact_model(scene.bearing, scene.end_play, scene.numerics.laminae, 0.0, 0.0, body=body)
-    about_x, about_z = pose[3:]
-    turn = np.array([[1.0, -about_z, 0.0], [about_z, 1.0, -about_x], [0.0, about_x, 1.0]])
-    return solve_rollers(model, ConePose(pose[:3], turn, bent), None).cone_stiffness
-
-
-def _frequency(
-    twin: Twin, rest: State, vector: Float, mass: Float, rate: float, share: Float, h: float
-) -> float:
-    """Relative error of the frequency of a loaded mode in the running kernel."""
-    size, back = 1e-8, np.linalg.pinv(share)
-    state = rest.copy()
-    # velocities half a step later than places
-    speed = -rate * math.sin(0.5 * rate * h)
-    state.bodies[CUP_BODY, POSITION : POSITION + 6] += size * vector[:6]
-    state.bodies[CONE_BODY, POSITION : POSITION + 3] += size * vector[6:9]
-    state.bodies[CUP_BODY, LINEAR : LINEAR + 6] += size * speed * vector[:6]
-    state.bodies[CONE_BODY, LINEAR : LINEAR + 3] += size * speed * vector[6:9]
-    state.flex[0] += size * share @ vector[9:]
-    state.flex[1] += size * speed * share @ vector[9:]
-    phases, other = [], rest.copy()
-    for _ in range(40):
-        twin._state = state
-        stepped(twin, STRIDE, 0.0)
-        twin._state = other
-        stepped(twin, STRIDE, 0.0)
-
-        def amount(field: int, flex: int) -> float:
-            cup = (state.bodies - other.bodies)[CUP_BODY, field : field + 6]
-            cone = (state.bodies - other.bodies)[CONE_BODY, field : field + 3]
-            bent = back @ (state.flex - other.flex)[flex]
-            return float(vector @ mass @ np.concatenate([cup, cone, bent])) / size
-
-        place, speed = amount(POSITION, 0), amount(LINEAR, 1) / rate
-        lag = 0.5 * rate * h  # place at t, speed at t + h / 2
-        phases.append(math.atan2(-(speed + math.sin(lag) * place) / math.cos(lag), place))
-    times = STRIDE * h * np.arange(1, 41)
-    late = np.unwrap(np.array(phases) - rate * times)
-    return float(np.polyfit(times, late, 1)[0]) / rate
 
 
 @pytest.mark.parametrize("tier", FAST)

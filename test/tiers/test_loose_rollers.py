@@ -17,7 +17,7 @@ from beardyn_core.effects import (
     ShearedFilmTraction,
     Traction,
 )
-from beardyn_core.physics.tiers.tier_parameters import loose_params
+from beardyn_core.physics.cage.play import loose_params
 from beardyn_core.run import blocks
 from beardyn_core.scene.scene import Scene
 from test.tiers.runs import scene_of

@@ -16,7 +16,7 @@ from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import reach, solve_rollers, spring_params
 from beardyn_core.run import start
 from test.runs import blocks_of
-from test.tiers.test_bending import bent_scene
+from test.tiers.bent_box import bent_scene
 
 Float = NDArray[np.float64]
 

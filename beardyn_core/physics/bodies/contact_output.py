@@ -166,17 +166,3 @@ def watch_chatter(here, ring, friction, capacity):
     )
     loads = lanes.load(rollers, block, first + layout.CHATTER_LOAD)
     lanes.store(rollers, block, first + layout.CHATTER_LOAD, loads + capacity * capacity)
-
-
-@inline
-def implicit_time(spring_time, damping):
-    """Work out the time that makes tangent stiffness an implicit resistance: dampers act in mid-step, [s]."""
-    return spring_time + 0.5 * damper_time(damping)
-
-
-@inline
-def damper_time(damping):
-    """Take the damping of a contact over its tangent stiffness, 0 without damping, [s]."""
-    if damping is None:
-        return 0.0
-    return damping.time_constant

@@ -25,6 +25,28 @@ def row_of(group, lane, width, rows):
 
 
 @inline
+def lane_total(sums, field):
+    """Sum of a field over the lanes."""
+    inner, outer = row_totals(sums, field)
+    return inner + outer
+
+
+@inline
+def row_totals(sums, field):
+    """Sum of a field over the lanes of each row."""
+    half = sums.shape[3] // 2
+    if half == 4:  # without a loop
+        low = sums[0, 0, field, 0] + sums[0, 0, field, 1] + (sums[0, 0, field, 2] + sums[0, 0, field, 3])
+        high = sums[0, 0, field, 4] + sums[0, 0, field, 5] + (sums[0, 0, field, 6] + sums[0, 0, field, 7])
+        return low, high
+    inner, outer = 0.0, 0.0
+    for lane in range(half):
+        inner += sums[0, 0, field, lane]
+        outer += sums[0, 0, field, half + lane]
+    return inner, outer
+
+
+@inline
 def drift_bodies(bodies, step):
     """Move all bodies along their velocities."""
     for body in range(bodies.shape[0]):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from beardyn_core.base.arrays import Float
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.defect import roller_oversize
-from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.modal_body import ModalBody
 from beardyn_core.physics.scatter import crown_errors
 from beardyn_core.physics.statics.equilibria import equilibrium
 from beardyn_core.physics.statics.static import StaticSolution

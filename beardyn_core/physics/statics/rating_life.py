@@ -22,7 +22,7 @@ from beardyn_core.bearing.life import (
     reference_viscosity,
 )
 from beardyn_core.bearing.lubricant import Lubricant
-from beardyn_core.physics.ring_modes import bending_rings
+from beardyn_core.physics.modal_body import bending_rings
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene

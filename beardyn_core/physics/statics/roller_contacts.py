@@ -26,7 +26,7 @@ from beardyn_core.bearing.kinematics import cage_speed, centrifugal_force, rolle
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
-from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.modal_body import ModalBody
 
 ROW_COUNT = 2
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from

@@ -19,7 +19,7 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.effects import LaminaCoupling
-from beardyn_core.physics.ring_modes import ModalBody
+from beardyn_core.physics.modal_body import ModalBody
 from beardyn_core.physics.statics.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 

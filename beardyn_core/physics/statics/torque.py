@@ -22,7 +22,8 @@ from beardyn_core.effects import Rib, RollingResistance
 from beardyn_core.effects.rolling_resistance import RollingKind
 from beardyn_core.physics.bodies.layout import CONE, CUP
 from beardyn_core.physics.pure_rolling import pure_rolling
-from beardyn_core.physics.rib import RibParams, rib_params, sliding_torque
+from beardyn_core.physics.rib import RibParams, rib_params
+from beardyn_core.physics.rib_friction import sliding_torque
 from beardyn_core.physics.rolling_resistance import moving_couple, rolling_params, rolling_torque
 from beardyn_core.physics.statics.static import StaticSolution
 

@@ -10,12 +10,9 @@ kinematic_step    what the fast tiers share of a step
 state             what a run changes and what its steps write
 start             the state a run starts from
 status            status bits and the sentence of each
-snapshot          what a run is frozen in and goes on from
 step_choice       the coarsest step that is converged
 friction_steps    the step that friction asks for, without an equilibrium
 tiers             what each tier computes with
-cage_watch        speeds of the cages over those of pure rolling
-cage_bodies       cages as bodies: free, following the rings, or prescribed
 planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
@@ -28,7 +25,6 @@ build             a scene to parameters; how much of a spring a step takes in
 parameters        named tuples of kernel parameters; an absent effect is None
 tier_parameters   parameters of the tiers without roller dynamics
 tier_bending      bending of the axlebox in these tiers
-pocket_play       rollers in the pockets of cages that turn and hang (quasistatic tier)
 kinematics        world poses, twists and contact forces from the kernel's state
 ================= =====================================================================
 """

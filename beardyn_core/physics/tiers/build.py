@@ -21,7 +21,8 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.bodies.step_stages import new_timers
-from beardyn_core.physics.cage_drag import cage_drag_params
+from beardyn_core.physics.cage.drag import cage_drag_params
+from beardyn_core.physics.cage.parameters import cage_params
 from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params
@@ -29,12 +30,13 @@ from beardyn_core.physics.film import film_params
 from beardyn_core.physics.journal import journal_params
 from beardyn_core.physics.lamina_coupling import coupling_params
 from beardyn_core.physics.lamina_table import lamina_table
-from beardyn_core.physics.pocket import cage_params
-from beardyn_core.physics.rib import rib_params, small_rib_params
-from beardyn_core.physics.ring_modes import body_of, structure_params
+from beardyn_core.physics.modal_body import body_of
+from beardyn_core.physics.rib import rib_params
+from beardyn_core.physics.ring_modes import structure_params
 from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
 from beardyn_core.physics.seal import seal_params
+from beardyn_core.physics.small_rib import small_rib_params
 from beardyn_core.physics.suspension import mounting_params
 from beardyn_core.physics.tiers.parameters import (
     AuditParams,

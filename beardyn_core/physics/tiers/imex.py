@@ -15,14 +15,9 @@ from beardyn_core.physics.bodies.rigid_bodies import (
 )
 from beardyn_core.physics.bodies.stage_timer import mark, time_step
 from beardyn_core.physics.bodies.step_stages import CAGE, LOSS, RINGS
-from beardyn_core.physics.cage_drag import brake_cages
-from beardyn_core.physics.journal import add_bending, axle_energy, kick_journal
-from beardyn_core.physics.land import land_of, push_lands, settle_lands
-from beardyn_core.physics.lanes.lanes import align_stack
-from beardyn_core.physics.ring_modes import kick_structure, show_structure, structure_energy
-from beardyn_core.physics.seal import add_seals
-from beardyn_core.physics.suspension import box_energy, kick_box
-from beardyn_core.physics.tiers.cage_bodies import (
+from beardyn_core.physics.cage.drag import brake_cages
+from beardyn_core.physics.cage.land import land_of, push_lands, settle_lands
+from beardyn_core.physics.cage.motion import (
     cage_energy,
     cage_motions,
     move_cages,
@@ -30,6 +25,11 @@ from beardyn_core.physics.tiers.cage_bodies import (
     place_cages,
     settle_cages,
 )
+from beardyn_core.physics.journal import add_bending, axle_energy, kick_journal
+from beardyn_core.physics.lanes.lanes import align_stack
+from beardyn_core.physics.ring_modes import kick_structure, show_structure, structure_energy
+from beardyn_core.physics.seal import add_seals
+from beardyn_core.physics.suspension import box_energy, kick_box
 from beardyn_core.physics.tiers.roller import step_rollers
 
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import store_vector
-from beardyn_core.physics.bodies.rigid_bodies import body_vector
+from beardyn_core.physics.bodies.rigid_bodies import body_vector, row_totals
 from beardyn_core.physics.journal import hold_axle
 from beardyn_core.physics.tiers.kinematic_bending import hold_bending, kick_modes
-from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 
 # Sums of the tangent stiffness over the rollers, times cosine and sine of the pocket angle.
 STIFF_SUM, STIFF_COSINE, STIFF_SINE, STIFF_CC, STIFF_SS, STIFF_CS = range(

@@ -16,7 +16,7 @@ from beardyn_core.physics.bodies.contact_output import (
     watch_largest,
 )
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
-from beardyn_core.physics.bodies.rigid_bodies import X, Y, Z
+from beardyn_core.physics.bodies.rigid_bodies import X, Y, Z, lane_total
 from beardyn_core.physics.drag import drag_torque
 from beardyn_core.physics.film import film_output, log2_entrainment
 from beardyn_core.physics.seal import seal_torque
@@ -61,28 +61,6 @@ def rotate(direction, angle):
     cosine = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
     sine = angle * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
     return direction[0] * cosine - direction[1] * sine, direction[1] * cosine + direction[0] * sine
-
-
-@inline
-def lane_total(sums, field):
-    """Sum of a field over the lanes."""
-    inner, outer = row_totals(sums, field)
-    return inner + outer
-
-
-@inline
-def row_totals(sums, field):
-    """Sum of a field over the lanes of each row."""
-    half = sums.shape[3] // 2
-    if half == 4:  # without a loop
-        low = sums[0, 0, field, 0] + sums[0, 0, field, 1] + (sums[0, 0, field, 2] + sums[0, 0, field, 3])
-        high = sums[0, 0, field, 4] + sums[0, 0, field, 5] + (sums[0, 0, field, 6] + sums[0, 0, field, 7])
-        return low, high
-    inner, outer = 0.0, 0.0
-    for lane in range(half):
-        inner += sums[0, 0, field, lane]
-        outer += sums[0, 0, field, half + lane]
-    return inner, outer
 
 
 @inline

@@ -14,6 +14,8 @@ from beardyn_core.physics.bodies.layout import (
     REACTION,
     TRENDS_PER_SNAPSHOT,
 )
+from beardyn_core.physics.bodies.rigid_bodies import lane_total, row_totals
+from beardyn_core.physics.cage.rubbing import pocket_torque
 from beardyn_core.physics.defect import find_damage, gap_moments
 from beardyn_core.physics.lanes.lane_math import (
     at_least,
@@ -27,8 +29,7 @@ from beardyn_core.physics.lanes.lane_math import (
 )
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.lanes.vectors import add_scaled
-from beardyn_core.physics.pocket import pocket_torque
-from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rib_friction import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.rolling_waves import fetch_waves, subtract_waviness, wave_places
 from beardyn_core.physics.tiers.kinematic_bending import (
@@ -47,8 +48,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     TORQUE_POCKET,
     TORQUE_RIB,
     TORQUE_ROLLING,
-    lane_total,
-    row_totals,
     show_contacts,
     show_roller,
     watch_loads,

@@ -8,18 +8,20 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from beardyn_core.physics.cage.parameters import CageParams
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams
+from beardyn_core.physics.dry_friction import CoulombParams
 from beardyn_core.physics.film import FilmParams
 from beardyn_core.physics.lamina_coupling import CouplingParams
-from beardyn_core.physics.pocket import CageParams
-from beardyn_core.physics.rib import RibParams, SmallRibParams
+from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.ring_modes import StructureParams
 from beardyn_core.physics.rolling_resistance import RollingParams
 from beardyn_core.physics.seal import SealParams
+from beardyn_core.physics.small_rib import SmallRibParams
 from beardyn_core.physics.suspension import MountingParams
-from beardyn_core.physics.traction import CoulombParams, LoadSharingParams, MixedParams
+from beardyn_core.physics.traction import LoadSharingParams, MixedParams
 
 
 class RacewayParams(NamedTuple):
@@ -85,7 +87,7 @@ class EffectParams(NamedTuple):
     cage: CageParams | None
     structure: StructureParams | None
     seal: SealParams | None
-    cage_drag: Any  # parameters of each effect that brakes the cages, see `physics.cage_drag`, or None
+    cage_drag: Any  # parameters of each effect that brakes the cages, see `physics.cage.drag`, or None
     gravity: GravityParams | None
     faults: FaultParams
     audit: AuditParams | None

@@ -16,7 +16,7 @@ Newton step is their linearly implicit method, IV.7.
 from __future__ import annotations
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.contact_output import damper_time
+from beardyn_core.physics.contact_damping import damper_time
 from beardyn_core.physics.lamina_springs import cup_springs, lamina_springs, most_bend
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive

@@ -6,11 +6,26 @@ from beardyn_core.base.jit import entry, inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import clear_largest, load_vector, store_vector
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
-from beardyn_core.physics.bodies.rigid_bodies import body_vector
+from beardyn_core.physics.bodies.rigid_bodies import body_vector, lane_total
+from beardyn_core.physics.cage.play import (
+    ahead_of,
+    begin_block,
+    cage_rates,
+    clear_cages,
+    drift,
+    keep_loose,
+    kick_cages_across,
+    move_loose,
+    pass_traction,
+    push_loose,
+    rubbing_torque,
+    see_cages,
+    with_cages,
+)
+from beardyn_core.physics.cage.rubbing import pocket_torque
 from beardyn_core.physics.lanes.lane_math import at_least, exp2, log2, where_greater
 from beardyn_core.physics.lanes.vectors import add_scaled
-from beardyn_core.physics.pocket import pocket_torque
-from beardyn_core.physics.rib import sliding_torque
+from beardyn_core.physics.rib_friction import sliding_torque
 from beardyn_core.physics.rolling_resistance import rolling_torque
 from beardyn_core.physics.tiers.kinematic_bending import (
     PLACE,
@@ -44,7 +59,6 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     held_losses,
     keep_losses,
     kept_wrench,
-    lane_total,
     relative_cone,
     show_contacts,
     show_roller,
@@ -65,21 +79,6 @@ from beardyn_core.physics.tiers.planar_roller import (
     damp_reversal,
     free_flight,
     turned_axis,
-)
-from beardyn_core.physics.tiers.pocket_play import (
-    ahead_of,
-    begin_block,
-    cage_rates,
-    clear_cages,
-    drift,
-    keep_loose,
-    kick_cages_across,
-    move_loose,
-    pass_traction,
-    push_loose,
-    rubbing_torque,
-    see_cages,
-    with_cages,
 )
 from beardyn_core.physics.tiers.sliding import add_sliding, creep_of, hold_sliding, rolling_level, store_creep
 

@@ -18,19 +18,19 @@ from beardyn_core.physics.bodies.contact_output import Here, account_gravity, lo
 from beardyn_core.physics.bodies.orbit import Body, angular_velocity, drift, ring_view, rotate_weight
 from beardyn_core.physics.bodies.stage_timer import mark
 from beardyn_core.physics.bodies.step_stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
+from beardyn_core.physics.cage.pocket import prepare_pocket, push_pocket, settle_pocket
 from beardyn_core.physics.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
 from beardyn_core.physics.lanes.solve import inertia_matrix, solve
 from beardyn_core.physics.lanes.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
-from beardyn_core.physics.pocket import prepare_pocket, push_pocket, settle_pocket
-from beardyn_core.physics.point_contact import (
+from beardyn_core.physics.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
+from beardyn_core.physics.ring_modes import about_rigid_cup, bend_cup, bent_cup
+from beardyn_core.physics.rolling_resistance import prepare_rolling, push_rolling, settle_rolling
+from beardyn_core.physics.small_rib import (
     prepare_small_rib,
     push_small_rib,
     settle_small_rib,
     stiffen_small_rib,
 )
-from beardyn_core.physics.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
-from beardyn_core.physics.ring_modes import about_rigid_cup, bend_cup, bent_cup
-from beardyn_core.physics.rolling_resistance import prepare_rolling, push_rolling, settle_rolling
 
 _PI = 3.141592653589793
 

@@ -24,11 +24,11 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.contact_output import store_vector
+from beardyn_core.physics.bodies.rigid_bodies import row_totals
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2
 from beardyn_core.physics.roller_spring import place_on_cup
 from beardyn_core.physics.tiers.kinematic_rings import SLIDING, row_times, sum_matrix
-from beardyn_core.physics.tiers.kinematic_rollers import row_totals
 from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
 from beardyn_core.scene.scene import Scene
 

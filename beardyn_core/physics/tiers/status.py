@@ -28,6 +28,7 @@ from beardyn_core.physics.bodies.layout import (
     RIB,
     ROLLER_STATES,
 )
+from beardyn_core.physics.cage.watch import CageWatch
 from beardyn_core.physics.lanes.vectors import cross, dot
 from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.tiers.friction_steps import LARGEST_CHATTER_INDEX
@@ -89,6 +90,12 @@ def is_fatal(status: int) -> bool:
     """Tell whether the run has to end."""
     fatal = Status.NOT_FINITE | Status.PENETRATION | Status.OFF_RIB
     return bool(Status(status) & fatal)
+
+
+def status_of_cages(cages: CageWatch) -> Status:
+    """Judge the speeds of the cages, once these have turned around."""
+    fast = Status.CAGE_FAST if cages.is_fast else Status.FINE
+    return fast | (Status.CAGE_BACKWARDS if cages.is_backwards else Status.FINE)
 
 
 def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:

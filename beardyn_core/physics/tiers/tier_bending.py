@@ -13,8 +13,8 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.physics.bodies.arrangement import aligned_zeros
 from beardyn_core.physics.bodies.layout import MASK, POCKET_ANGLE
+from beardyn_core.physics.modal_body import ModalBody, body_of
 from beardyn_core.physics.oscillators import exact_oscillators
-from beardyn_core.physics.ring_modes import ModalBody, body_of
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.scene.scene import Scene
 from beardyn_core.structure.mounted_box import seat_of

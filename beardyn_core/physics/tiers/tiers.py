@@ -12,6 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.physics.bodies.arrangement import Arrangement
 from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, TILT
+from beardyn_core.physics.cage.play import loose_params
 from beardyn_core.physics.pure_rolling import kinematic_params
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
 from beardyn_core.physics.rolling_waves import highest_wave, rolling_wave_params
@@ -95,7 +96,7 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         sides=sides,
         highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
-        loose=tier_parameters.loose_params(scene, base.step),
+        loose=loose_params(scene, base.step),
         slide=slide_params(scene),
     )
 

@@ -26,13 +26,24 @@ Johnson and Tevaarwerk (1977): traction in proportion to small slip, up to a lim
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from beardyn_core.base.jit import inline
+from beardyn_core.effects import (
+    Cage,
+    CoulombTraction,
+    EffectSet,
+    KinematicCage,
+    LoadSharingTraction,
+    ShearedFilmTraction,
+)
 from beardyn_core.physics.bodies import layout
-from beardyn_core.physics.defect import pocket_wear
+from beardyn_core.physics.bodies.rigid_bodies import row_totals
+from beardyn_core.physics.cage.pocket_wear import pocket_wear
+from beardyn_core.physics.cage.rubbing import pocket_params
 from beardyn_core.physics.drag import drag_push
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, where_greater
-from beardyn_core.physics.tiers.kinematic_rollers import row_totals
+from beardyn_core.scene.scene import Scene
 
 # Sums over the rollers of a row: force on the cage up and forward [N], moment about its axis [N m], normal
 # forces of the pockets [N].
@@ -43,6 +54,91 @@ TABLE = layout.CHATTER
 PRESSED = layout.CHANGE
 _X, _Z = 0, 2
 _SMALLEST_WAY = 1e-15
+
+_LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
+_SLIDE = 0.01  # slip over rolling speed at which the film reaches it
+_SLOWEST = 0.05  # [m/s]
+_LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
+
+
+class LooseParams(NamedTuple):
+    """Rollers that move in the pockets of their cages, with their cages."""
+
+    stiffness: float  # of both touches of a bar [N/m]
+    damping: float  # [N s/m]
+    half_clearance: float  # along the pitch circle [m]
+    bar_cosine: float  # of the lean of the bars against the radius
+    bar_sine: float
+    friction: float  # of the bars
+    regularisation: float  # [m/s]
+    traction: float  # limit of both raceways' traction over the load on the cone
+    slide: float  # slip over rolling speed at which it is reached
+    slowest: float  # rolling speed below which the slip at the limit stays the same [m/s]
+    mass: float  # of a cage [kg]
+    polar_inertia: float  # [kg m^2]
+    fall: float  # [m/s^2]
+    rubbing: float  # torque on the shaft over the normal force in the pockets [m]
+    rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
+
+
+def loose_params(scene: Scene, step: float) -> LooseParams | None:
+    """Work out the pockets in which rollers move; none without a cage, or with a prescribed one.
+
+    Cages are explicit: against all pockets of a row they follow steps up to a waveform sample. In longer
+    ones, which are for loads and deflections of a held cup, rollers stay in the middle of their pockets.
+
+    Traction is in proportion to the slip up to a limit, see `_limiting_traction`.
+
+    References
+    ----------
+    Johnson and Tevaarwerk (1977), Fig. 4: a film reaches its limit at slips of some percent.
+    """
+    cage, bearing, pocket = scene.effects.cage, scene.bearing, pocket_params(scene)
+    if cage is None or isinstance(cage, KinematicCage) or pocket is None:
+        return None
+    if step > _LONGEST_LOOSE_STEP:
+        return None
+    lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0
+    return LooseParams(
+        stiffness=2.0 * bearing.cage.stiffness,
+        damping=2.0 * bearing.cage.damping,
+        half_clearance=0.5 * (bearing.cage.circumferential_clearance + cage.pocket_wear),
+        bar_cosine=math.cos(lean),
+        bar_sine=math.sin(lean),
+        friction=cage.friction,
+        regularisation=cage.regularisation_speed,
+        traction=2.0 * _limiting_traction(scene.effects),
+        slide=_SLIDE,
+        slowest=_SLOWEST,
+        mass=bearing.cage.mass,
+        polar_inertia=bearing.cage.polar_inertia,
+        fall=scene.effects.gravity.acceleration if scene.effects.gravity else 0.0,
+        rubbing=0.5 * pocket.lever,
+        rubbing_floor=pocket.regularisation,
+    )
+
+
+def _limiting_traction(effects: EffectSet) -> float:
+    """Take the largest friction of a raceway over its load from the law of friction, if it has such a number.
+
+    The coefficient of dry friction where there is no film, the limiting shear stress over the pressure of a
+    film that shears. The other laws, and rollers that only roll, have the usual limiting shear stress: the
+    limit of a blend depends on the film, and that of fits on speed and load.
+
+    References
+    ----------
+    Bair and Winer (1979) for the limiting shear stress.
+    """
+    law = effects.traction
+    if isinstance(law, CoulombTraction):
+        return law.friction
+    if law is not None and effects.film is None:
+        return law.boundary_friction
+    if isinstance(law, ShearedFilmTraction):
+        return law.limiting_shear
+    if isinstance(law, LoadSharingTraction) and law.film_traction == "bair_winer":
+        return law.limiting_shear
+    return _LIMITING_SHEAR
 
 
 @inline

@@ -13,7 +13,6 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.effects import KinematicCage
 from beardyn_core.physics.bodies.layout import CAGE_BODY, RATE
-from beardyn_core.physics.tiers.status import Status
 from beardyn_core.scene.scene import Scene
 
 LARGEST_RATIO = 1.01
@@ -60,13 +59,15 @@ class CageWatch:
         return CageWatch(tuple(float(each) for each in mean), self.turned + turned)
 
     @property
-    def status(self) -> Status:
-        """Judge the cages once they have turned around."""
-        if self.turned < 1.0 or not self.ratio:
-            return Status.FINE
-        found = Status.FINE
-        if max(self.ratio) > LARGEST_RATIO:
-            found |= Status.CAGE_FAST
-        if min(self.ratio) < SMALLEST_RATIO:
-            found |= Status.CAGE_BACKWARDS
-        return found
+    def is_fast(self) -> bool:
+        """Whether a cage that has turned around runs ahead of rolling rollers."""
+        return self._has_turned and max(self.ratio) > LARGEST_RATIO
+
+    @property
+    def is_backwards(self) -> bool:
+        """Whether a cage that has turned around runs against the shaft."""
+        return self._has_turned and min(self.ratio) < SMALLEST_RATIO
+
+    @property
+    def _has_turned(self) -> bool:
+        return self.turned >= 1.0 and bool(self.ratio)

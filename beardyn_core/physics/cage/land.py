@@ -6,13 +6,90 @@ Scalar and in world axes, once per cage and step.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.bodies.layout import CAGE_BODY, ENERGY_LOST, LINEAR, LOSS_LAND, POSITION, RATE
+from beardyn_core.effects import Cage
+from beardyn_core.physics.bodies.layout import (
+    CAGE_BODY,
+    CONE_BODY,
+    CUP_BODY,
+    ENERGY_LOST,
+    LINEAR,
+    LOSS_LAND,
+    POSITION,
+    RATE,
+)
 from beardyn_core.physics.bodies.rigid_bodies import body_vector, full_rotation, ring_direction
+from beardyn_core.physics.cage.step_bounds import least_inertia
 from beardyn_core.physics.lanes.vectors import add, add_scaled, cross, dot, scale, subtract
+from beardyn_core.scene.scene import Scene
 
 _SMALLEST = 1e-30
+
+
+class LandParams(NamedTuple):
+    """Land of a cage in a cylinder of cup or cone."""
+
+    body: float  # row of the ring in the array of bodies
+    outside: float  # +1 when the cage runs inside the ring, -1 around it
+    radius: float  # [m]
+    clearance: float  # radial [m]
+    half_width: float  # [m]
+    place: float  # outward from the cage's centre of mass [m]
+    film: float  # eta R L^3 / (2 C^2) [N s]
+    drag: float  # Petroff's torque over speed [N m s]
+    most_eccentric: float  # bound of the eccentricity ratio in the film's formulas
+    stiffness: float  # of an edge [N/m]
+    damping: float  # [N s/m]
+    friction: float
+    regularisation: float  # [m/s]
+
+
+def land_params(scene: Scene, step: float) -> LandParams | None:
+    """Lay the land that guides a cage; its film resists no more than the cage can follow within a step."""
+    if not isinstance(scene.effects.cage, Cage) or scene.effects.cage.guidance is None:
+        return None
+    options, bearing = scene.effects.cage.guidance, scene.bearing
+    outside = 1.0 if options.on == "cup" else -1.0
+    diameter = options.land_diameter
+    if diameter is None:
+        diameter = bearing.pitch_diameter + 0.5 * outside * bearing.roller_diameter
+    offset = options.land_offset
+    if offset is None:
+        offset = 0.5 * bearing.roller_length * math.cos(bearing.contact_angle)
+    radius, width, clearance = 0.5 * diameter, options.land_width, options.clearance
+    viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
+    # the cage is explicit: a film of cold lubricant may not resist more than it can follow within a step
+    largest = 0.25 * least_inertia(bearing) / step
+    film = min(viscosity * radius * width**3 / (2.0 * clearance**2), 0.5 * largest * clearance / math.pi)
+    drag = 2.0 * math.pi * viscosity * radius**3 * width / clearance
+    return LandParams(
+        body=float(CUP_BODY if options.on == "cup" else CONE_BODY),
+        outside=outside,
+        radius=radius,
+        clearance=clearance,
+        half_width=0.5 * width,
+        place=offset,
+        film=film,
+        drag=min(drag, 0.25 * bearing.cage.polar_inertia / step),
+        most_eccentric=most_eccentric(film / clearance, largest),
+        stiffness=bearing.cage.stiffness,
+        damping=bearing.cage.damping,
+        friction=options.friction,
+        regularisation=options.regularisation_speed,
+    )
+
+
+def most_eccentric(film: float, largest: float) -> float:
+    """Find the eccentricity ratio where a land film resists less than `largest` [N s/m], at most 0.99."""
+    low, high = 0.0, 0.99
+    for _ in range(60):
+        ratio = 0.5 * (low + high)
+        flat = 1.0 - ratio**2
+        resistance = film * (math.pi * (1.0 + 2.0 * ratio**2) / flat**2.5 + 8.0 * ratio / flat**2)
+        low, high = (ratio, high) if resistance < largest else (low, ratio)
+    return low
 
 
 @inline
