@@ -60,6 +60,10 @@ to its end.
 * `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
   handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
   of the simulation alone, `processor_time_per_simulated_time` counts all threads of the process.
+* `pace` is simulated over wall time, without waiting for load, of the last second or so; in the last word of
+  the whole run. `late_blocks` counts blocks that were published more than 40 ms after they were due,
+  `last_late_time` is the simulated time of the last one, `worst_lag` the largest delay. The twin logs them at
+  its end, `beardyn report` reads them from a recording.
 * `tier_note` is there when the tier is a faster one than the scene's for the sake of the pace.
 * `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
   wall time.
