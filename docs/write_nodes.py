@@ -32,8 +32,11 @@ repeats the time at which it stands.
 
 At a `speed_factor` above 0, and in live mode, a scene that leaves effects and tier open runs in its own tier
 if that keeps the pace here, else in the best faster one: the twin simulates its beginning and asks for 1.3
-times the pace, because messages, recorder and monitor take their part. What that costs is in the log, in the
-status and in `truth`: the measured speeds, and the bounds of the errors beside those of the scene's tier.
+times the pace, because messages, recorder and monitor take their part. The order is `full`, `quasistatic`
+with coupled laminae (where rings bend and vibration is asked for), `quasistatic` as chosen for its accuracy,
+`lumped`. What that costs is in the log, in the status and in `truth`: the measured speeds, the bounds of the
+errors with those of the scene's tier, and by how much [third octaves of shipped
+scenes](effects_auto.md#third-octaves-of-the-fast-tiers) were off.
 Name a `tier` to have the same one on every machine; `car_twin` does not choose.
 
 At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
