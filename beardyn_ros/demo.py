@@ -92,6 +92,7 @@ def _demo(args: argparse.Namespace) -> int:
         simulated=float(twin.value("simulated_time") or 0.0),
         real_time_factor=float(twin.value("real_time_factor") or 0.0),
         overall=float(twin.value("pace") or 0.0),
+        late_blocks=int(twin.value("late_blocks") or 0),
     )
     if twin.value("state") != "finished" and pace.simulated < LEAST_REPORTED_S:
         raise ValidityError(twin.message)

@@ -18,7 +18,7 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
-from beardyn_core.monitor.chain import algorithm_named
+from beardyn_core.monitor.chain import MonitorSettings, algorithm_named
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import cloud_times
@@ -77,7 +77,10 @@ class MonitorNode(Node):
         )
 
     def _begin(self) -> None:
-        self._monitor = Monitor(self._orders, self._bearing.roller_count, algorithm=self._algorithm)
+        settings = MonitorSettings(interval=self._values.interval)
+        self._monitor = Monitor(
+            self._orders, self._bearing.roller_count, settings=settings, algorithm=self._algorithm
+        )
         self._tally = Tally()
         self._summed_up = False
 

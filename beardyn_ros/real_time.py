@@ -62,43 +62,71 @@ def keep_pace(
     InputError
         With every mistake in the scene.
     """
-    from beardyn_core.choice.load import choice_for, complete_scene
+    from beardyn_core.choice.load import complete_scene
 
     def whole(found: OpenScene) -> Scene:
         scene = complete_scene(found, outside_load=True)
         return scene if of_box is None else of_box(scene)
 
     scene = whole(usual)
-    found = {scene.tier: usual}
-    best_first = tuple(reversed(TIERS))
-    for tier in best_first[best_first.index(scene.tier) + 1 :]:
-        with suppress(InputError):
-            found[tier] = read(tier)
-    best, *faster = found
+    best, *faster = _candidates(scene.tier, usual, read)
     if not faster:
-        return Kept(scene, best, "")
-    choices = {tier: choice_for(each) for tier, each in found.items()}
+        return Kept(scene, scene.tier, "")
     speeds: dict[str, float] = {}
     needed = MARGIN * pace
 
-    def holds(tier: str) -> bool:
-        if tier not in speeds:
-            speeds[tier] = (measure or measured_speed)(whole(found[tier]))
-        return speeds[tier] >= needed
+    def holds(candidate: _Candidate) -> bool:
+        if candidate.name not in speeds:
+            speeds[candidate.name] = (measure or measured_speed)(whole(candidate.scene))
+        return speeds[candidate.name] >= needed
 
     try:
-        if _SURELY * needed * choices[best].seconds <= 1.0:
+        if _SURELY * needed * best.choice.seconds <= 1.0:
             stays = holds(best)
         else:
             # next to the machine that costs were measured on
-            machine = speeds[faster[0]] * choices[faster[0]].seconds if holds(faster[0]) else 0.0
-            stays = machine >= needed * choices[best].seconds and holds(best)
-        taken = best if stays else next((tier for tier in faster if holds(tier)), faster[-1])
+            machine = speeds[faster[0].name] * faster[0].choice.seconds if holds(faster[0]) else 0.0
+            stays = machine >= needed * best.choice.seconds and holds(best)
+        taken = best if stays else next((each for each in faster if holds(each)), faster[-1])
     except (InputError, ValidityError) as error:
-        return Kept(scene, best, f"tier {best} stays, for the speed of this machine is not known: {error}")
-    if taken == best:
-        return Kept(scene, best, "")
-    return Kept(whole(found[taken]), taken, _note(taken, best, choices, speeds, pace))
+        note = f"tier {scene.tier} stays, for the speed of this machine is not known: {error}"
+        return Kept(scene, scene.tier, note)
+    if taken is best:
+        return Kept(scene, scene.tier, "")
+    return Kept(whole(taken.scene), taken.choice.tier, _note(taken, best, speeds, pace))
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """What a scene may be computed with to keep its pace."""
+
+    name: str
+    scene: OpenScene
+    choice: Choice
+
+
+def _candidates(tier: str, usual: OpenScene, read: Callable[[str], OpenScene]) -> list[_Candidate]:
+    """List the scene as it is and in each faster tier, the best first.
+
+    Before `quasistatic` as it is chosen comes `quasistatic` with coupled laminae, where third octaves are
+    asked for and rings bend, which its bounds were found with.
+    """
+    from beardyn_core.choice.discretisation_error import is_coupled
+    from beardyn_core.choice.load import choice_for, with_coupled_laminae
+
+    found = [_Candidate(f"tier {tier}", usual, choice_for(usual))]
+    best_first = tuple(reversed(TIERS))
+    for faster in best_first[best_first.index(tier) + 1 :]:
+        with suppress(InputError):
+            there = read(faster)
+            plain = _Candidate(f"tier {faster}", there, choice_for(there))
+            coupled = with_coupled_laminae(there)
+            if coupled is not None and plain.choice.effects.lamina_coupling is None:
+                choice = choice_for(coupled)
+                if is_coupled(choice):
+                    found.append(_Candidate(f"tier {faster} with coupled laminae", coupled, choice))
+            found.append(plain)
+    return found
 
 
 def measured_speed(scene: Scene) -> float:
@@ -116,19 +144,24 @@ def measured_speed(scene: Scene) -> float:
     return (simulated - begin) / max(time.perf_counter() - began, 1e-9)
 
 
-def _note(taken: str, best: str, choices: dict[str, Choice], speeds: dict[str, float], pace: float) -> str:
-    reached = f"tier {taken} runs {speeds[taken]:.1f} times as fast as real time here"
-    if speeds[taken] < MARGIN * pace:
+def _note(taken: _Candidate, best: _Candidate, speeds: dict[str, float], pace: float) -> str:
+    from beardyn_core.choice.discretisation_error import third_octaves_found
+
+    reached = f"{taken.name} runs {speeds[taken.name]:.1f} times as fast as real time here"
+    if speeds[taken.name] < MARGIN * pace:
         reached += f", too slow for the pace of {pace:g} that is asked for with a margin of {MARGIN:g}"
-    expected = speeds.get(best, speeds[taken] * choices[taken].seconds / choices[best].seconds)
+    about = "" if best.name in speeds else "about "
+    expected = speeds.get(best.name, speeds[taken.name] * taken.choice.seconds / best.choice.seconds)
     given_up = [
-        f"{name} {_error(name, loose)} in place of {_error(name, choices[best].expected[name])}"
-        for name, loose in choices[taken].expected.items()
-        if loose > choices[best].expected[name]
+        f"{name} {_error(name, loose)} in place of {_error(name, best.choice.expected[name])}"
+        for name, loose in taken.choice.expected.items()
+        if loose > best.choice.expected[name] and name != _DECIBELS
     ]
-    about = "" if best in speeds else "about "
+    if bands := third_octaves_found(taken.choice):
+        kept = _error(_DECIBELS, best.choice.expected[_DECIBELS])
+        given_up.append(f"third octaves {bands} in place of {kept}")
     return (
-        f"{reached}, {best} {about}{expected:.1f} times; bounds of the errors: "
+        f"{reached}, {best.name} {about}{expected:.1f} times; bounds of the errors: "
         f"{', '.join(given_up) or 'no larger'}"
     )
 

@@ -78,6 +78,8 @@ class Outgoing:
         The same in the time of the load, whose first sample may stand anywhere.
     ordered : bool
         Whether the service `step` has ordered this block.
+    due_at : float or None
+        When it was to be published, [s] of `time.monotonic`; ``None``: no pace is asked for.
     """
 
     messages: tuple[tuple[str, bytes], ...]
@@ -85,6 +87,7 @@ class Outgoing:
     clock_ns: int | None = None
     consumed_ns: int = 0
     ordered: bool = False
+    due_at: float | None = None
 
 
 @dataclass
@@ -121,6 +124,8 @@ class SessionReport:
         How late the last block was on the wall clock, [s].
     worst_lag_s : float
         The same of the latest of all blocks, [s].
+    last_late_s : float
+        Simulated time of the last late block; 0 without one, [s].
     waveform_samples : int
         Waveform samples delivered since the start of the run.
     load_lacks : str
@@ -148,6 +153,7 @@ class SessionReport:
     load_age: float = 0.0
     lag_s: float = 0.0
     worst_lag_s: float = 0.0
+    last_late_s: float = 0.0
     waveform_samples: int = 0
     load_lacks: str = ""
     tier_note: str = ""

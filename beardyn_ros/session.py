@@ -65,7 +65,8 @@ class Pacer:
             self._origin_s = 0.0
             self._now_s = 0.0
             self.late_blocks = 0
-            self.lag_s = 0.0  # of the last block behind its due time
+            self.last_late_s = 0.0  # simulated time of the last late block
+            self.lag_s = 0.0  # of the last published block behind its due time
             self.worst_lag_s = 0.0
 
     @property
@@ -92,14 +93,24 @@ class Pacer:
                 return 0.0
             return self._due(end_ns) - time.monotonic()
 
-    def check_late(self, end_ns: int) -> None:
-        """Note how late the block is, and count it when that is more than 40 ms."""
+    def hand_over(self, end_ns: int) -> float | None:
+        """Note the time that the run has reached; when its block was due, [s] of `time.monotonic`.
+
+        ``None`` without a pace.
+        """
         with self._lock:
-            if self._speed_factor > 0.0:
-                self.lag_s = max(time.monotonic() - self._due(end_ns), 0.0)
-                self.worst_lag_s = max(self.worst_lag_s, self.lag_s)
-                self.late_blocks += self.lag_s > LATE_AFTER_S
             self._now_s = end_ns * 1e-9
+            return self._due(end_ns) if self._speed_factor > 0.0 else None
+
+    def check_published(self, end_ns: int, due_at: float | None) -> None:
+        """Note how late a block has just been published; more than 40 ms are counted."""
+        if due_at is None:
+            return
+        with self._lock:
+            self.lag_s = max(time.monotonic() - due_at, 0.0)
+            self.worst_lag_s = max(self.worst_lag_s, self.lag_s)
+            if self.lag_s > LATE_AFTER_S:
+                self.late_blocks, self.last_late_s = self.late_blocks + 1, end_ns * 1e-9
 
     def _due(self, end_ns: int) -> float:
         return self._origin_wall + (end_ns * 1e-9 - self._origin_s) / self._speed_factor
@@ -220,7 +231,7 @@ class TwinSession:
         held = self.feed.live.held() if self.options.mode == "live" else None
         report.load_age = held.age if held else 0.0
         report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
-        report.worst_lag_s = self.pacer.worst_lag_s
+        report.worst_lag_s, report.last_late_s = self.pacer.worst_lag_s, self.pacer.last_late_s
         if len(recent) > 1:
             (wall_0, simulated_0), (wall_1, simulated_1) = recent[0], recent[-1]
             report.window_rtf = (simulated_1 - simulated_0) / max(wall_1 - wall_0, 1e-9)
@@ -291,6 +302,7 @@ class TwinSession:
         self._set_state(RUNNING, "running")
         self.pacer.begin()
         begin, processor_begin, waited = time.monotonic(), time.process_time(), 0.0
+        planned: float | None = None
         while True:
             held, ordered = self._wait_while_paused()
             waited += held
@@ -305,8 +317,8 @@ class TwinSession:
             while (delay := self.pacer.delay(block.end_ns)) > 0.0:
                 self._wait(lambda: False, delay)
             due_at = time.monotonic()
-            self.pacer.check_late(block.end_ns)
-            self._put(outgoing, block)
+            planned = self.pacer.hand_over(block.end_ns)
+            self._put(replace(outgoing, due_at=planned), block)
             now = time.monotonic()
             with self._condition:
                 report = self._report
@@ -318,9 +330,10 @@ class TwinSession:
                 report.recent.append((now, report.simulated_s))
         sentence = "the load stream has ended, every block that it covers is published"
         if self.options.mode == "live":
+            lag = 0.0 if planned is None else max(time.monotonic() - planned, 0.0)
             sentence = (
                 f"the live load has ended at simulated t = {self._report.simulated_s:.3f} s, "
-                f"{self.pacer.lag_s:.2f} s behind the wall clock"
+                f"{lag:.2f} s behind the wall clock"
             )
         self._set_state(FINISHED, sentence)
 

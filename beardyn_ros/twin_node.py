@@ -29,7 +29,7 @@ from beardyn_ros.run_state import END_STATES, FINISHED, LEFT, PAUSED, Outgoing, 
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.services import SimulationServices, StepService, interfaces
 from beardyn_ros.session import TwinSession
-from beardyn_ros.twin_report import TwinReporter, needs_attention
+from beardyn_ros.twin_report import TwinReporter, needs_attention, pace_sentence
 from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers
 
 RigLoader = Callable[[str, str, str], Callable[[], Rig]]
@@ -185,6 +185,7 @@ class TwinNode(LifecycleNode):
             self._trends.drain(TRENDS_TIMEOUT_S)
             self._reporter.tell_left_run(session, self._clock_ns)
             self._over = True
+            self._log_pace(session)
             self._report()
             self._flush()
         self._load.serve(None)
@@ -320,6 +321,7 @@ class TwinNode(LifecycleNode):
         self._description.follow((*outgoing.messages, *trends))
         if outgoing.clock_ns is None:
             return
+        self._session.pacer.check_published(outgoing.clock_ns, outgoing.due_at)
         self._trends.spread(outgoing.trends, self._speed_factor)
         self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
         if self._values.publish_clock:
@@ -378,6 +380,7 @@ class TwinNode(LifecycleNode):
         self._trends.drain(TRENDS_TIMEOUT_S)
         self._flush()
         self._over = True
+        self._log_pace(self._session)
         self._report()
         self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         if self._values.exit_when_done:
@@ -386,6 +389,10 @@ class TwinNode(LifecycleNode):
             self.finished = True
         elif state == FINISHED:
             self.get_logger().info("finished; the service reset starts the scene again")
+
+    def _log_pace(self, session: TwinSession) -> None:
+        if sentence := pace_sentence(session.report(), self._speed_factor):
+            self.get_logger().info(sentence)
 
     def _flush(self) -> None:
         deadline = time.monotonic() + LAST_WORDS_TIMEOUT_S

@@ -103,7 +103,7 @@ def twin_diagnostic(
             ("real_time_factor", f"{report.simulated_s / max(report.busy_s, 1e-9):.4g}"),
             ("kernel_real_time_factor", f"{report.simulated_s / max(report.compute_s, 1e-9):.4g}"),
             ("processor_time_per_simulated_time", f"{report.processor_s / simulated:.4g}"),
-            ("pace", f"{(total if ended else report.window_rtf):.4g}"),
+            ("pace", f"{(total if ended else report.window_rtf):.5g}"),
             ("wall_time", f"{report.wall_s:.3f}"),
             ("waited_for_load", f"{report.waited_for_load_s:.3f}"),
         ]
@@ -117,7 +117,11 @@ def twin_diagnostic(
             ("load_queue_time", f"{report.load_waiting_s:.3f}"),
         ]
     if standing.speed_factor > 0.0:
-        values += [("lag", f"{report.lag_s:.3f}"), ("worst_lag", f"{report.worst_lag_s:.4f}")]
+        values += [
+            ("lag", f"{report.lag_s:.3f}"),
+            ("worst_lag", f"{report.worst_lag_s:.4f}"),
+            ("last_late_time", f"{report.last_late_s:.3f}"),
+        ]
     values.append(("refused_messages", str(refused.count)))
     values += [(f"refused: {reason}", str(count)) for reason, count in refused.by_reason]
     if ended:
@@ -143,6 +147,20 @@ def lag_diagnostic(name: str, report: SessionReport, speed_factor: float) -> Dia
         ("pace", f"{report.window_rtf:.4g}"),
     ]
     return Diagnostic(name, level, sentence, tuple(values))
+
+
+def pace_sentence(report: SessionReport, speed_factor: float) -> str:
+    """Write how a run has kept its pace; empty where no pace was asked for, or nothing was published."""
+    if speed_factor <= 0.0 or not report.blocks:
+        return ""
+    late = "no block was late"
+    if report.late_blocks:
+        late = (
+            f"{report.late_blocks} of {report.blocks} blocks were late, the worst by "
+            f"{1e3 * report.worst_lag_s:.0f} ms, the last at simulated t = {report.last_late_s:.2f} s"
+        )
+    pace = report.simulated_s / max(report.wall_s, 1e-9)
+    return f"pace {pace:.4f} of {speed_factor:g} asked for, waits for load left out; {late}"
 
 
 def needs_attention(report: SessionReport) -> bool:

@@ -32,8 +32,11 @@ repeats the time at which it stands.
 
 At a `speed_factor` above 0, and in live mode, a scene that leaves effects and tier open runs in its own tier
 if that keeps the pace here, else in the best faster one: the twin simulates its beginning and asks for 1.3
-times the pace, because messages, recorder and monitor take their part. What that costs is in the log, in the
-status and in `truth`: the measured speeds, and the bounds of the errors beside those of the scene's tier.
+times the pace, because messages, recorder and monitor take their part. The order is `full`, `quasistatic`
+with coupled laminae (where rings bend and vibration is asked for), `quasistatic` as chosen for its accuracy,
+`lumped`. What that costs is in the log, in the status and in `truth`: the measured speeds, the bounds of the
+errors with those of the scene's tier, and by how much [third octaves of shipped
+scenes](effects_auto.md#third-octaves-of-the-fast-tiers) were off.
 Name a `tier` to have the same one on every machine; `car_twin` does not choose.
 
 At a `speed_factor` above 0 the single samples of a block (`force`, `imu`, `shaft`, `joint_states`) go out
@@ -60,6 +63,10 @@ to its end.
 * `real_time_factor` is that of the whole node: simulated time over the time from load to a block that is
   handed over, with encoding and publishing, without waiting for the pace; `kernel_real_time_factor` is that
   of the simulation alone, `processor_time_per_simulated_time` counts all threads of the process.
+* `pace` is simulated over wall time, without waiting for load, of the last second or so; in the last word of
+  the whole run. `late_blocks` counts blocks that were published more than 40 ms after they were due,
+  `last_late_time` is the simulated time of the last one, `worst_lag` the largest delay. The twin logs them at
+  its end, `beardyn report` reads them from a recording.
 * `tier_note` is there when the tier is a faster one than the scene's for the sake of the pace.
 * `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
   wall time.

@@ -16,6 +16,8 @@ from numba.core import types
 from numba.core.registry import CPUDispatcher
 
 from beardyn_core.choice import load_scene
+from beardyn_core.choice.load import complete_scene, with_coupled_laminae
+from beardyn_core.config import read_scene
 from beardyn_core.rail.build import load_of_run
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
@@ -49,9 +51,15 @@ def zero_of(kind: Any) -> Any:
 
 
 def scenes() -> Iterator[Scene]:
-    """Give the scene with the tier that is chosen when none is named, and in every tier."""
+    """Give the scene with the tier that is chosen when none is named, in every tier, and what a twin takes.
+
+    That is `quasistatic` with coupled laminae where `full` does not keep real time.
+    """
     for tier in (None, *TIERS):
         yield load_scene(SCENE, tier=tier)
+    coupled = with_coupled_laminae(read_scene(SCENE, {("tier",): "quasistatic"}))
+    if coupled is not None:
+        yield complete_scene(coupled, outside_load=True)
 
 
 def main() -> None:

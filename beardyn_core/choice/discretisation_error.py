@@ -14,7 +14,7 @@ from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_exponent
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
-from beardyn_core.choice.rule import Influence, Verdict, percent
+from beardyn_core.choice.rule import Choice, Influence, Verdict, percent
 from beardyn_core.choice.usual_step import refine_for_sensors, with_modes
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
@@ -40,8 +40,9 @@ _POCKETS = {"quasistatic": 0.7, "lumped": 2.0}
 # What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz of a healthy bearing, to
 # 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
 QUIET_BAND, IN_QUIET_BAND = 400.0, 1.1
-MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 3.5, "lumped": 7.5}
-BEYOND = {"quasistatic": 20.5, "lumped": 19.5}
+MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 6.0, "lumped": 13.0}
+BEYOND = {"quasistatic": 8.5, "lumped": 18.5}
+COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND = 5.5, 8.5  # of `quasistatic` with coupled laminae
 
 
 def laminae(evidence: Evidence, count: int) -> Verdict:
@@ -190,6 +191,34 @@ def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
     )
     return Verdict(
         reason, {**influence, "deflection": deflection, "roller_load": influence["roller_load"] + roller_load}
+    )
+
+
+def third_octaves_found(choice: Choice) -> str:
+    """Write by how much third octaves of shipped scenes were off in the tier of a choice; empty for `full`.
+
+    Also empty where a choice has no vibration to judge.
+    """
+    if choice.tier == "full" or not choice.expected.get("vibration", 0.0) > 0.0:
+        return ""
+    low, high = IN_MIDDLE_BAND[choice.tier], BEYOND[choice.tier]
+    if is_coupled(choice):
+        low, high = COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND
+    above = f", {high:g} dB above" if choice.vibration_to > MIDDLE_BAND else ""
+    return f"up to {low:g} dB to {1e-3 * MIDDLE_BAND:g} kHz{above}"
+
+
+def is_coupled(choice: Choice) -> bool:
+    """Check whether a choice is `quasistatic` with coupled laminae and vibration of a box that bends.
+
+    That is what the figures of coupled laminae were found with.
+    """
+    effects = choice.effects
+    return (
+        choice.tier == "quasistatic"
+        and effects.lamina_coupling is not None
+        and effects.structure is not None
+        and choice.expected.get("vibration", 0.0) > 0.0
     )
 
 

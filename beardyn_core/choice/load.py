@@ -153,6 +153,13 @@ def with_usual_step(found: OpenScene, outside_load: bool = False) -> OpenScene:
     return replace(found, scene=replace(scene, numerics=replace(scene.numerics, steps_per_sample=steps)))
 
 
+def with_coupled_laminae(found: OpenScene) -> OpenScene | None:
+    """Fix coupled laminae in a scene that leaves open whether it has them; ``None`` where it does not."""
+    if "lamina_coupling" not in found.free.effects:
+        return None
+    return replace(found, free=replace(found.free, effects=found.free.effects - {"lamina_coupling"}))
+
+
 def choice_for(found: OpenScene) -> Choice:
     """Choose for a scene as it is read, or find what was chosen for it before."""
     scene = found.scene

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated as A
 
 import numpy as np
+from scipy.fft import next_fast_len
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
@@ -65,6 +66,15 @@ def run_monitor(monitor: Monitor, inputs: Iterable[MonitorInput]) -> Iterator[ch
         result = monitor.take(part)
         if result is not None:
             yield result
+
+
+def fast_length(count: int) -> int:
+    """Find the largest number of samples up to a count of which Fourier transforms are fast.
+
+    A length with a large prime factor takes 4 to 10 times as long, and transforms are most of an analysis.
+    From 5000 samples on at most 1.6 % are left out, from 20 000 on at most 1 %.
+    """
+    return next((length for length in range(count, 0, -1) if next_fast_len(length) == length), 0)
 
 
 class _Samples:
@@ -313,7 +323,8 @@ class Monitor:
                 revolutions=revolutions,
             )
         self._analysed_ns = ended_ns
-        acceleration, angle = acceleration[begin + legs.samples], legs.angle
+        kept = fast_length(len(legs.samples))
+        acceleration, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
         load_time, load = self._load.joined()
         load = load[load_time <= last]
         stretch = chain.Stretch(

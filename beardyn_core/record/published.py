@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from math import isfinite
 from typing import Annotated as A
 
 from beardyn_core.record.messages import Diagnostic
@@ -74,6 +76,31 @@ def last_published(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -
         if status.name == name:
             found = published_counts(status, namespace) or found
     return found
+
+
+def kept_pace(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -> tuple[float | None, int | None]:
+    """Find the last that the twin of a namespace says of its pace: the pace itself, and its late blocks.
+
+    Both are ``None`` where no pace was asked for, or a recording does not say.
+    """
+    name = f"{namespace.strip('/')}/twin".lstrip("/")
+    last = None
+    for status in statuses:
+        if status.name == name and status.value("pace") is not None:
+            last = status
+    if last is None or not _read_number(last.value("speed_factor")):
+        return None, None
+    late = last.value("late_blocks") or ""
+    counted = late.isdecimal() and len(late) <= LONGEST_COUNT
+    return _read_number(last.value("pace")), int(late) if counted else None
+
+
+def _read_number(text: str | None) -> float | None:
+    """Read a finite number; ``None`` for what is none, as a foreign diagnostic may have it."""
+    with suppress(ValueError):
+        number = float(text or "")
+        return number if isfinite(number) else None
+    return None
 
 
 def published_before(first_ns: Mapping[str, int], parts: int = 1) -> dict[str, int]:

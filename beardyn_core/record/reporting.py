@@ -17,6 +17,7 @@ from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
 from beardyn_core.record.published import (
     MissingMessages,
+    kept_pace,
     last_published,
     missing_messages,
     missing_sentence,
@@ -79,6 +80,8 @@ class Report:
     fault_frequencies_per_rev: Mapping[str, float]
     mean_shaft_speed: A[float | None, "[rad/s]"]
     real_time_factor: A[float | None, "mean"]
+    pace: A[float | None, "simulated over wall time of the whole run; ``None``: none was asked for"]
+    late_blocks: A[int | None, "published more than 40 ms after they were due; ``None``: not known"]
     energy_residual: A[float | None, "last value"]
     budget: A[TorqueBudget | None, "losses by source after the start has settled, if the recording says"]
     monitor: A[str | None, "last verdict of the monitor"]
@@ -130,6 +133,8 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         collect_diagnostic(run, "real_time_factor"),
         collect_diagnostic(run, "energy_residual"),
     )
+    statuses = (each for _, told in run.diagnostics for each in told)
+    pace, late = kept_pace(statuses, namespace_in(name for name, _ in times))
     return Report(
         path=str(scan.path),
         size_bytes=scan.size_bytes,
@@ -152,6 +157,8 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         fault_frequencies_per_rev=description.shape.fault_frequencies if description else {},
         mean_shaft_speed=float(speed.mean()) if len(speed) else None,
         real_time_factor=float(np.mean(factors)) if factors else None,
+        pace=pace,
+        late_blocks=late,
         energy_residual=residuals[-1] if residuals else None,
         budget=recorded_budget(run),
         monitor=run.results[-1][1][0].message if run.results and run.results[-1][1] else None,
@@ -249,6 +256,9 @@ def _lines(r: Report) -> list[str]:
             lines.append("         " + ", ".join(entries))
     if r.real_time_factor is not None:
         lines.append(f"computed at {r.real_time_factor:.2f} x real time on average")
+    if r.pace is not None:
+        late = "" if r.late_blocks is None else f", {r.late_blocks or 'no'} blocks late"
+        lines.append(f"pace     {r.pace:.4f} simulated seconds in a second of wall time{late}")
     if r.energy_residual is not None:
         lines.append(f"energy residual {r.energy_residual:.2e}")
     if r.budget is not None:

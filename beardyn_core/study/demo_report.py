@@ -44,6 +44,7 @@ class Pace:
     simulated: A[float, "[s]"]
     real_time_factor: A[float, "simulated time over the time spent in the twin"]
     overall: A[float | None, "simulated time over wall time with all running; ``None``: not measured"] = None
+    late_blocks: A[int | None, "published more than 40 ms after they were due"] = None
 
 
 def demo_folder(given: Path | None, say: Say, *, inputs: Sequence[Path] = (), force: bool = False) -> Path:
@@ -155,11 +156,13 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
     description = run.described()
     factor = f"{pace.real_time_factor:.2f}"
     if pace.overall is not None:
-        factor += f" in the twin, {pace.overall:.2f} with all nodes running"
+        factor += f" in the twin, {pace.overall:.3f} with all nodes running"
     rows = [
         ("scene", f"{description.scene}, bearing {description.shape.name}"),
         ("real-time factor", f"{factor} ({pace.simulated:.2f} s simulated)"),
     ]
+    if pace.late_blocks is not None:
+        rows.append(("late blocks", str(pace.late_blocks)))
     finding = conclusion.finding
     if finding is None:
         rows.append(("monitor", "has not had enough signal for a verdict"))

@@ -122,10 +122,14 @@ def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
     text = bands.PAGE.read_text(encoding="utf-8")
     section = text[text.index(bands.TITLE) : text.index(bands.NEXT)]
     rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
-    assert len(rows) == len(bands.SCENES) * len(bands.TIERS)
+    assert len(rows) == len(bands.SCENES) * (len(bands.TIERS) + 1)
+    middle_of = {f"`{tier}`": error for tier, error in discretisation_error.IN_MIDDLE_BAND.items()}
+    beyond_of = {f"`{tier}`": error for tier, error in discretisation_error.BEYOND.items()}
+    middle_of[bands.COUPLED] = discretisation_error.COUPLED_IN_MIDDLE_BAND
+    beyond_of[bands.COUPLED] = discretisation_error.COUPLED_BEYOND
     for name, tier, *cells in rows:
         low, quiet, middle, high, beyond = (abs(float(cell.split()[0])) for cell in cells)
-        assert max(low, quiet, middle, high) <= discretisation_error.IN_MIDDLE_BAND[tier.strip("`")], name
-        assert beyond <= discretisation_error.BEYOND[tier.strip("`")], name
+        assert max(low, quiet, middle, high) <= middle_of[tier], name
+        assert beyond <= beyond_of[tier], name
         if not load_scene(name.strip("`"), effects="standard").faults:
             assert max(low, quiet) <= discretisation_error.IN_QUIET_BAND, name

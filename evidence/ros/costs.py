@@ -14,6 +14,7 @@ from typing import Annotated as A
 import yaml
 
 from beardyn_core.config.folders import find
+from beardyn_ros.rig import SCENE_OWN
 from test.ros.graph import Graph
 
 NODES = ("twin", "load", "recorder", "monitor")
@@ -33,7 +34,7 @@ class Cost:
 
 
 def costs(
-    graph: Graph, scene: str, duration: float, output: Path
+    graph: Graph, scene: str, duration: float, output: Path, tier: str = SCENE_OWN
 ) -> tuple[float, list[Cost], dict[str, str]]:
     """Run all nodes in real time and measure them.
 
@@ -46,6 +47,8 @@ def costs(
         Simulated time that is measured, [s].
     output : Path
         Of the recorder.
+    tier : str
+        Of the twin; by default the best that keeps the pace.
 
     Returns
     -------
@@ -54,7 +57,7 @@ def costs(
         `late_blocks` are those since the start-up; `pace` and `most_lag` are over the time measured, the lag
         as the diagnostic shows it every 0.2 s.
     """
-    start_all(graph, scene, output, 1.0, duration=duration + 2.0 * START_S, loop=False)
+    start_all(graph, scene, output, 1.0, tier, duration=duration + 2.0 * START_S, loop=False)
     begin, before = _at(graph, START_S)
     first = dict(graph.statuses("twin")[-1].values)
     lags: list[float] = []
@@ -67,7 +70,9 @@ def costs(
     return end - begin, found, values
 
 
-def start_all(graph: Graph, scene: str, output: Path, speed: float, **replay: object) -> None:
+def start_all(
+    graph: Graph, scene: str, output: Path, speed: float, tier: str = SCENE_OWN, **replay: object
+) -> None:
     """Start all nodes, the load when everybody listens.
 
     Parameters
@@ -79,13 +84,15 @@ def start_all(graph: Graph, scene: str, output: Path, speed: float, **replay: ob
         Of the recorder.
     speed : float
         Speed factor.
+    tier : str
+        Of the twin.
     **replay
         Parameters of the load node.
     """
     if scene == FAKE:
         graph.fake_twin(speed_factor=speed)
     else:
-        graph.node_process("twin", scene=scene, speed_factor=speed)
+        graph.node_process("twin", scene=scene, speed_factor=speed, tier=tier)
     graph.node_process("recorder", output=str(output))
     graph.node_process("monitor")
     listeners = ("recorder", "monitor")
@@ -148,17 +155,22 @@ def main(words: Sequence[str] | None = None) -> int:
     """Measure and print a table."""
     parser = argparse.ArgumentParser(prog="python -m evidence.ros.costs", description=__doc__)
     parser.add_argument("--scene", default=FAKE, help=f"scene by name or path; default {FAKE}: no physics")
+    parser.add_argument("--tier", default=SCENE_OWN, help="of the twin; default: as it chooses")
     parser.add_argument("--auto", action="store_true", help="with `numerics: auto` in the scene")
     parser.add_argument("--seconds", type=float, default=60.0, help="simulated time (default 60)")
     args = parser.parse_args(words)
     with tempfile.TemporaryDirectory(prefix="costs-") as name, Graph(Path(name)) as graph:
         scene = automatic(args.scene, Path(name)) if args.auto else args.scene
-        span, found, values = costs(graph, scene, args.seconds, Path(name) / "run.mcap")
-    told = ", ".join(f"{key} {values.get(key)}" for key in ("pace", "late_blocks", "most_lag"))
+        span, found, values = costs(graph, scene, args.seconds, Path(name) / "run.mcap", args.tier)
+    keys = ("pace", "late_blocks", "last_late_time", "most_lag")
+    told = ", ".join(f"{key} {values.get(key)}" for key in keys)
     print(f"{args.scene}{' with numerics: auto' if args.auto else ''}: {span:.1f} s simulated, {told}")
+    if values.get("tier_note"):
+        print(values["tier_note"])
     for each in found:
         print(
-            f"{each.node:10}{each.cpu:7.3f} CPU-s/s {each.memory_before:8.1f} ->{each.memory_after:7.1f} MB"
+            f"{each.node:10}{each.cpu:7.3f} CPU-s/s,{each.cpu / found[0].cpu:6.2f} of the twin's "
+            f"{each.memory_before:8.1f} ->{each.memory_after:7.1f} MB"
         )
     print(f"{'others':10}{sum(each.cpu for each in found if each.node != 'twin'):7.3f} CPU-s/s")
     return 0

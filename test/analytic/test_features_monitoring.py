@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.monitor.chain import REFERENCE, MonitorResult, MonitorSettings, Stretch
-from beardyn_core.monitor.streaming import Monitor
+from beardyn_core.monitor.streaming import Monitor, fast_length
 from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal, feed_monitor
 
 
@@ -199,3 +199,15 @@ def test_another_algorithm_takes_the_place_of_the_example():
     results = feed_monitor(Monitor(ORDERS, ROLLERS, algorithm=mine), fault_signal(None, 12, duration=2.0))
     assert results[-1].verdict == "roller"
     assert all(two.end_ns > one.end_ns for one, two in itertools.pairwise(results))
+
+
+@pytest.mark.parametrize("count", [5000, 20_011, 80_123, 131_071])
+def test_a_window_is_cut_to_a_length_with_a_fast_transform(count: int) -> None:
+    length = fast_length(count)
+    assert 0.984 * count <= length <= count
+    rest = length
+    for prime in (2, 3, 5, 7, 11):
+        while rest % prime == 0:
+            rest //= prime
+    assert rest == 1
+    assert fast_length(0) == 0

@@ -173,7 +173,10 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         malformed_messages={"load/blocks": 1},
         boxes={"axle_1_left": "healthy"},
         measured=MEASURED,
+        pace=0.9998,
+        late_blocks=3,
     )
+    assert "pace     0.9998 simulated seconds in a second of wall time, 3 blocks late" in full.to_text()
     found = read(json_text("report", report_command.json_object(full, ())))
     assert found["defects"][0]["growth"]["width_grows"] is True
     assert found["defects"][0]["width_m"] == 6e-3

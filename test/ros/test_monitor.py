@@ -17,7 +17,7 @@ HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
 def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_not(graph: Graph) -> None:
     graph.listen("monitor/result")
     graph.fake_twin(speed_factor=2.0)
-    graph.node_process("monitor", bearing="HS130x230")
+    graph.node_process("monitor", bearing="HS130x230", interval=0.5)
     graph.until(
         lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
         "the monitor's connection",
@@ -62,7 +62,9 @@ def test_a_fault_heard_with_the_data_of_another_bearing_is_unexplained_on_the_to
 def test_algorithm_of_ones_own_takes_the_place_of_the_chain(graph: Graph) -> None:
     graph.listen("monitor/result")
     graph.fake_twin(speed_factor=4.0)
-    graph.node_process("monitor", bearing="HS130x230", algorithm="test.ros.always_roller:always")
+    graph.node_process(
+        "monitor", bearing="HS130x230", interval=0.5, algorithm="test.ros.always_roller:always"
+    )
     graph.until(
         lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
         "the monitor's connection",

@@ -8,6 +8,12 @@ from typing import Any
 import pytest
 
 from beardyn_core.base.errors import ValidityError
+from beardyn_core.choice.discretisation_error import (
+    BEYOND,
+    COUPLED_BEYOND,
+    COUPLED_IN_MIDDLE_BAND,
+    IN_MIDDLE_BAND,
+)
 from beardyn_core.config import read_scene
 from beardyn_core.config.load import OpenScene
 from beardyn_core.scene.scene import Scene
@@ -56,6 +62,46 @@ def test_the_best_tier_with_a_margin_is_taken_and_no_other_is_compiled(
         assert f"tier {taken} runs {speeds[taken]:.1f} times" in found.note
         assert ("too slow" in found.note) == (speeds[taken] < MARGIN)
         assert "% in place of" in found.note
+
+
+COUPLED, PLAIN = "quasistatic, coupled", "quasistatic"
+
+
+@pytest.mark.parametrize(
+    ("speeds", "taken", "measured"),
+    [
+        ({"full": 1.4, COUPLED: 7.0}, "full", [COUPLED, "full"]),
+        ({"full": 1.2, COUPLED: 7.0}, COUPLED, [COUPLED, "full"]),
+        ({COUPLED: 1.2, PLAIN: 1.4}, PLAIN, [COUPLED, PLAIN]),
+        ({COUPLED: 0.5, PLAIN: 0.6, "lumped": 2.0}, "lumped", [COUPLED, PLAIN, "lumped"]),
+    ],
+)
+def test_where_rings_bend_quasistatic_with_coupled_laminae_comes_before_without(
+    speeds: dict[str, float], taken: str, measured: list[str]
+) -> None:
+    asked = []
+
+    def read_spall(tier: str) -> OpenScene:
+        given: dict[Any, Any] = {("effects",): "auto", ("tier",): tier}
+        return read_scene("cup_spall", given)
+
+    def measure(scene: Scene) -> float:
+        asked.append(COUPLED if scene.effects.lamina_coupling and scene.tier == PLAIN else scene.tier)
+        assert scene.tier == "full" or scene.numerics.steps_per_sample == 2
+        return speeds[asked[-1]]
+
+    found = keep_pace(read_spall("full"), read_spall, 1.0, measure)
+    assert asked == measured
+    assert (found.tier, found.scene.effects.lamina_coupling is not None) == (
+        taken.partition(",")[0],
+        taken == COUPLED,
+    )
+    if taken == COUPLED:
+        bounds = f"up to {COUPLED_IN_MIDDLE_BAND:g} dB to 5 kHz, {COUPLED_BEYOND:g} dB above"
+        assert "tier quasistatic with coupled laminae runs 7.0 times" in found.note
+        assert f"third octaves {bounds} in place of 1.1 dB" in found.note
+    if taken == PLAIN:
+        assert f"up to {IN_MIDDLE_BAND[PLAIN]:g} dB to 5 kHz, {BEYOND[PLAIN]:g} dB above" in found.note
 
 
 def test_a_slow_pace_has_the_full_tier_without_compiling_another() -> None:

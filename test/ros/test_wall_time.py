@@ -172,6 +172,9 @@ def test_a_node_that_cannot_keep_up_says_so_in_its_real_time_factor_and_its_lag(
     assert running[-1] > running[0] > 0.1
     assert any("s behind its pace" in status.message for status in lags)
     assert float(lags[-1].value("worst_lag")) == pytest.approx(1.6 / pace - 1.6, abs=0.3)
+    assert int(twin.value("late_blocks")) > 70  # all of 80 but the first
+    assert float(twin.value("last_late_time")) == pytest.approx(1.6)
+    assert f"{twin.value('late_blocks')} of 80 blocks were late" in graph.processes.log("twin")
 
 
 SHALLOW_READER = """

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
 
-from beardyn_core.base.arrays import Float
+from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.features import analytic_part, real_part, squared_magnitude
@@ -66,6 +66,11 @@ class Stretch:
 
     @cached_property
     def _envelopes(self) -> dict[tuple[float, float], Float]:
+        return {}
+
+    @cached_property
+    def struck(self) -> dict[tuple[tuple[float, float], ...], Bool]:
+        """Sectors found by `chain.wheel.struck_sectors` so far, by the bands of their settings."""
         return {}
 
     def squared_envelope(self, band: tuple[float, float]) -> Float:

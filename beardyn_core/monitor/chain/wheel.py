@@ -6,6 +6,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Bool, Float
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.features import hann
 
 SECTORS = 64
 # power of a sector over that of the usual one: a strike, and its ringing beside
@@ -36,13 +37,20 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     so its lines lie at whole orders plus and minus that of BPFO, where those of BPFI with their sidebands
     are: the two orders add up to the number of rollers.
     """
+    bands = settings.strike_bands
+    if bands not in stretch.struck:
+        stretch.struck[bands] = _find_struck(stretch, bands)
+    return stretch.struck[bands]
+
+
+def _find_struck(stretch: Stretch, bands: tuple[tuple[float, float], ...]) -> Bool:
     turned = (stretch.shaft_angle - stretch.shaft_angle[0]) / (2.0 * np.pi)
     revolutions = int(turned[-1])
     if revolutions < _LEAST_REVOLUTIONS:
         return np.zeros(SECTORS, dtype=bool)
     edges = np.searchsorted(turned, np.arange(revolutions * SECTORS + 1) / SECTORS)
     struck = np.zeros(SECTORS, dtype=bool)
-    for low, high in settings.strike_bands:
+    for low, high in bands:
         if low < 0.5 * stretch.rate:
             power = stretch.squared_envelope((low, min(high, 0.5 * stretch.rate)))
             sums = np.concatenate(([0.0], np.cumsum(power)))
@@ -91,7 +99,7 @@ def without_wheel(power: Float, struck: Bool, loud: Float | None = None) -> Floa
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal Process.
     25, section 3.1 (time synchronous averaging).
     """
-    weight = np.hanning(power.size + 1)[:-1].reshape(power.shape)
+    weight = hann(power.size).reshape(power.shape)
     loud = power if loud is None else loud
     rest = loud - np.sum(weight * loud, axis=0) / np.sum(weight, axis=0)
     if len(power) >= _LEAST_REVOLUTIONS:
