@@ -151,6 +151,9 @@ def json_object(result: TrialResult) -> dict[str, Any]:
                 "found": _rate(row.found),
                 "wrong": row.wrong,
                 "score_dB": _spread(row.score),
+                "surfaces": [
+                    {"surface": surface, "found": _rate(found)} for surface, found in row.on_surfaces
+                ],
             }
             for row in result.sizes()
         ],

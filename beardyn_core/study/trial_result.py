@@ -57,6 +57,7 @@ class SizeRow:
     found: A[Rate, "the right part named"]
     wrong: A[int, "another part named"]
     score: A[tuple[float, float, float], "smallest, median and largest of the part's own score, [dB]"]
+    on_surfaces: A[tuple[tuple[str, Rate], ...], "the right part named, by surface of the matrix"] = ()
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,11 @@ class TrialResult:
             pairs = [(c, r) for c, r in self.runs if (c.fault, c.size) == (fault, size) and r.complete]
             wrong = sum(run.verdict in PARTS and run.verdict != fault for _, run in pairs)
             scores = _spread([own_score(cell, run) for cell, run in pairs] if fault in PARTS else [])
-            rows.append(SizeRow(fault, size, detection(pairs), wrong, scores))
+            on_surfaces = tuple(
+                (surface, detection([pair for pair in pairs if pair[0].surface == surface]))
+                for surface in self.trial.surfaces
+            )
+            rows.append(SizeRow(fault, size, detection(pairs), wrong, scores, on_surfaces))
         return rows
 
     def smallest(self) -> list[Smallest]:

@@ -15,13 +15,14 @@ from typing import Any
 
 from beardyn_core.monitor.chain import MonitorSettings
 from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.trial import growth_picture
 from evidence.trial.rivals import EVERY, Judged, orders, table
 
 HERE = Path(__file__).parent
 PAGE = DOCS / "trial.md"
 PICTURE = PICTURES / "trial.png"
 COLOURS = 64
-DEFAULT = "default"
+DEFAULT, GROWTH = "default", "growth"
 NEXT = "## The monitor\n"
 # of another trial, or of other monitors
 _SECTION = re.compile(
@@ -54,6 +55,9 @@ def main() -> None:
         text = with_old_sections(page(found[0]), text)
         save_small(folders[0] / "trial.png", PICTURE, COLOURS)
     others = [each for each in found if each["trial"] != DEFAULT]
+    for each in others:
+        if each["trial"] == GROWTH:
+            growth_picture.draw(each)
     for section in (heard, *map(other_trial, others), beside):
         text = with_section_of(text, section)
     PAGE.write_text(text, encoding="utf-8")
@@ -107,6 +111,8 @@ def _results(found: dict[str, Any]) -> dict[str, Any]:
     return {
         **{name: found[name] for name in ("trial", "purpose", "run_count", "tier")},
         "sizes": [_size_row(row) for row in found["sizes"]],
+        "surfaces": [each["surface"] for each in found["sizes"][0]["surfaces"]] if found["sizes"] else [],
+        "on_surfaces": [_surface_row(row) for row in found["sizes"]],
         "smallest": [_smallest(row) for row in found["smallest"]],
         "slices": [(row["name"], _rate(row["found"]), _rate(row["false_alarms"])) for row in found["slices"]],
         "analyses": _analyses(found),
@@ -117,7 +123,8 @@ def _results(found: dict[str, Any]) -> dict[str, Any]:
 
 def other_trial(found: dict[str, Any]) -> str:
     """Write the section of another trial."""
-    return render(HERE / "other_trial.md", _results(found))
+    picture = f"pictures/{growth_picture.PICTURE.name}" if found["trial"] == GROWTH else ""
+    return render(HERE / "other_trial.md", {**_results(found), "picture": picture})
 
 
 def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> str:
@@ -156,6 +163,11 @@ def _size_row(row: dict[str, Any]) -> tuple[str, ...]:
     low, middle, high = row["score_dB"].values()
     score = "-" if middle is None else f"{middle:.1f} ({low:.1f} to {high:.1f})"
     return row["fault"], f"{1e3 * row['width_m']:g}", _rate(row["found"]), str(row["wrong"]), score
+
+
+def _surface_row(row: dict[str, Any]) -> tuple[str, ...]:
+    rates = (each["found"] for each in row["surfaces"])
+    return row["fault"], f"{1e3 * row['width_m']:g}", *(f"{each['count']}/{each['total']}" for each in rates)
 
 
 def _smallest(row: dict[str, Any]) -> str:

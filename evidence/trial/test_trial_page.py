@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from beardyn_core.choice import load_trial
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
-from evidence.trial.page import beside_standard, page, with_old_sections, with_section_of
+from evidence.trial import growth_picture
+from evidence.trial.page import beside_standard, other_trial, page, with_old_sections, with_section_of
 from evidence.trial.rivals import Judged, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
@@ -34,6 +37,18 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     assert "## `quasistatic` against `full`" in text
     assert "did not come to their end" not in text
     assert "## `quick`" not in text
+
+
+def test_what_grows_has_a_picture_and_a_column_for_each_surface(tmp_path: Path) -> None:
+    trial = load_trial("growth")
+    runs = [run_of(cell, cell.fault if cell.surface == "fine" else "healthy") for cell in trial.cells()]
+    found = json.loads(json_text("trial", json_object(TrialResult.of(trial, "", runs))))
+    section = other_trial(found)
+    assert "(pictures/growth.png)" in section
+    assert "| cup | 0.6 | 6/6 | 0/6 | 0/6 |" in section
+    growth_picture.draw(found, tmp_path / "growth.png")
+    with Image.open(tmp_path / "growth.png") as picture:
+        assert picture.size == (growth_picture.WIDTH_PX, growth_picture.HEIGHT_PX)
 
 
 def test_sections_of_other_trials_are_put_in_replaced_and_kept() -> None:

@@ -148,6 +148,17 @@ def test_surfaces_are_runs_of_their_own_and_without_them_keys_stay_as_they_were(
     assert {"fine surface", "coarse surface"} <= {name for name, _ in slices(TrialResult.of(trial, "", []))}
 
 
+def test_sizes_are_counted_on_each_surface(quick: Trial) -> None:
+    trial = replace(quick, surfaces=("fine", "coarse"), check=None)
+    runs = [run_of(cell, cell.fault if cell.surface == "fine" else "healthy") for cell in trial.cells()]
+    result = TrialResult.of(trial, "", runs)
+    for row in result.sizes():
+        on = dict(row.on_surfaces)
+        assert on["fine"].count == on["fine"].total == row.found.count > 0 == on["coarse"].count
+    told = json_object(result)["sizes"][0]["surfaces"]
+    assert [each["surface"] for each in told] == ["fine", "coarse"]
+
+
 def test_a_monitor_that_fails_costs_no_other_run(monkeypatch: pytest.MonkeyPatch, quick: Trial) -> None:
     one, other = quick.cells()[:2]
 
