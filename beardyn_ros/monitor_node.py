@@ -16,6 +16,7 @@ from rclpy.node import Node
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
 from beardyn_core.monitor.chain import MonitorSettings, algorithm_named
@@ -40,7 +41,6 @@ from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
-ZERO_CELSIUS = 273.15
 
 
 class MonitorNode(Node):
@@ -77,7 +77,10 @@ class MonitorNode(Node):
         )
 
     def _begin(self) -> None:
-        settings = MonitorSettings(interval=self._values.interval)
+        values = self._values
+        settings = MonitorSettings(
+            interval=values.interval, warm=values.warm + ZERO_CELSIUS, hot=values.hot + ZERO_CELSIUS
+        )
         self._monitor = Monitor(
             self._orders, self._bearing.roller_count, settings=settings, algorithm=self._algorithm
         )

@@ -229,6 +229,18 @@ MONITOR = (
         minimum=0.1,
         maximum=3600.0,
     ),
+    NodeParameter(
+        "warm",
+        90.0,
+        "temperature of the axlebox from which it is called warm; assumed, bd.heat_interval gives that of a "
+        "scene",
+        "degC",
+        minimum=0.0,
+        maximum=300.0,
+    ),
+    NodeParameter(
+        "hot", 120.0, "and from which it is a hot box; assumed", "degC", minimum=0.0, maximum=300.0
+    ),
     EXIT_WHEN_DONE,
 )
 

@@ -15,6 +15,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 Load = float | Sequence[float]
 
-_KN, _MM, _RPM, _ZERO_CELSIUS = 1e3, 1e3, math.pi / 30.0, 273.15
+_KN, _MM, _RPM = 1e3, 1e3, math.pi / 30.0
 _SLOWEST = 1e-6  # [m/s]
 LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": (0.0, 1.0, "")}
 
@@ -398,7 +399,7 @@ def limit_problem(name: str, value: float, shown: str = "") -> str:
 def _kelvin(temperature_C: float) -> float:
     if problem := limit_problem("temperature_C", temperature_C):
         raise InputError(problem)
-    return temperature_C + _ZERO_CELSIUS
+    return temperature_C + ZERO_CELSIUS
 
 
 def _film(supply: str) -> LineFilm:

@@ -12,7 +12,7 @@ from beardyn_core.api.making import scene as make_scene
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.units import STANDARD_GRAVITY
+from beardyn_core.base.units import STANDARD_GRAVITY, ZERO_CELSIUS
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.follow.inference import stretches_of
@@ -70,7 +70,7 @@ def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> S
     if "end_play" in told:
         keys["end_play_mm"] = 1e3 * told["end_play"]
     if "temperature" in told:
-        keys["temperature_C"] = told["temperature"] - 273.15
+        keys["temperature_C"] = told["temperature"] - ZERO_CELSIUS
     faults: list[Mapping[str, Any]] = []
     if part not in ("", HEALTHY) and "width" in told:
         length = 1e3 * told["length"] if "length" in told else _USUAL_LENGTH_MM

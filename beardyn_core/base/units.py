@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+ZERO_CELSIUS = 273.15  # [K]
+
 
 class Unit(NamedTuple):
     """A unit at the edge and how a number in it comes to SI: ``value * times / over + plus``."""
@@ -87,7 +89,7 @@ UNITS = {
     "m2": Unit("square metres"),
     "Hz": Unit("hertz"),
     "mm": Unit("millimetres", over=1e3),
-    "C": Unit("degrees Celsius", plus=273.15),
+    "C": Unit("degrees Celsius", plus=ZERO_CELSIUS),
     "s": Unit("seconds"),
     "t": Unit("tonnes", times=1e3),
     "m": Unit("metres"),

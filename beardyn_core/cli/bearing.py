@@ -12,6 +12,7 @@ from typing import Annotated as A
 
 from beardyn_core.api.statics import equilibrium, life
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.cli.bearing_options import operation_of
 from beardyn_core.cli.generated_parser import add_parameter, parameters_of
 from beardyn_core.cli.json_output import json_text
@@ -31,7 +32,6 @@ _RINGS = {
 _TEMPERATURE = parameters_of(life)["temperature_C"].default  # of the lubricant, [degrees Celsius]
 _BAR_WIDTH = 28
 _RPM = 2.0 * math.pi / 60.0
-_ZERO_CELSIUS = 273.15
 
 
 def add_parser(subparsers: Any) -> None:
@@ -135,7 +135,7 @@ def _life(case: _Case) -> RatingLife | None:
         case.bearing,
         (LoadClass(1.0, case.load, (0.0, 0.0, 0.0), abs(case.speed)),),
         load_lubricant(args.lubricant),
-        (_TEMPERATURE if args.temperature is None else args.temperature) + _ZERO_CELSIUS,
+        (_TEMPERATURE if args.temperature is None else args.temperature) + ZERO_CELSIUS,
         end_play=case.end_play,
         tilt=args.tilt,
         contamination=USUAL_CONTAMINATION if args.contamination is None else args.contamination,

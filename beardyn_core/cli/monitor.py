@@ -14,6 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 # of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
 _LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
+_LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees Celsius]
+_COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -55,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_json(parser)
     add_plates(parser, "default that of the recording")
     add_certainty(parser)
+    add_limits(parser)
     add_trend(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
@@ -81,6 +85,21 @@ def add_certainty(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_limits(parser: argparse.ArgumentParser) -> None:
+    """Declare the limits of temperature."""
+    group = parser.add_argument_group(
+        "temperature", "limits of the vehicle; a scene's own by bd.heat_interval(scene).warm_from(air)"
+    )
+    for name, what in (("warm", "called warm"), ("hot", "an alarm, a hot box")):
+        group.add_argument(
+            f"--{name}",
+            type=float,
+            metavar="CELSIUS",
+            default=_LIMITS[name],
+            help=f"temperature of the axlebox from which it is {what}; default %(default)g, which is assumed",
+        )
+
+
 def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
     """Make the settings of the monitor; raises `InputError` with every mistake."""
     from beardyn_core.config import load_plate
@@ -104,9 +123,22 @@ def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
             neighbours.append(load_plate(name).frequencies)
         except InputError as error:
             problems += [f"--neighbour {name}: {each}" for each in error.problems]
+    for name in _LIMITS:
+        if not _COLDEST_LIMIT <= getattr(args, name) <= _HOTTEST_LIMIT:
+            problems.append(
+                f"--{name} is {getattr(args, name):g}; it must be from {_COLDEST_LIMIT:g} to "
+                f"{_HOTTEST_LIMIT:g} degrees Celsius"
+            )
+    if args.warm > args.hot:
+        problems.append(f"--warm is {args.warm:g}; it must be at most --hot, which is {args.hot:g}")
     if problems:
         raise InputError(problems)
-    return MonitorSettings(speed_uncertainty=uncertainty, neighbours=tuple(neighbours))
+    return MonitorSettings(
+        speed_uncertainty=uncertainty,
+        neighbours=tuple(neighbours),
+        warm=args.warm + ZERO_CELSIUS,
+        hot=args.hot + ZERO_CELSIUS,
+    )
 
 
 def run(args: argparse.Namespace) -> int:

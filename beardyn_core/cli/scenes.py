@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 
@@ -29,7 +30,6 @@ KINDS = (
     "backgrounds",
     "plates",
 )
-_ZERO_CELSIUS = 273.15
 _GROUPS = (
     "healthy bearing under a train",
     "healthy bearing, defect of wheel or rail",
@@ -179,8 +179,8 @@ def _lubricant(name: str) -> dict[str, Any]:
     lubricant = load_lubricant(name)
     return {
         "purpose": lubricant.description,
-        "viscosity_40_C_m2_per_s": lubricant.kinematic_viscosity(40.0 + _ZERO_CELSIUS),
-        "viscosity_100_C_m2_per_s": lubricant.kinematic_viscosity(100.0 + _ZERO_CELSIUS),
+        "viscosity_40_C_m2_per_s": lubricant.kinematic_viscosity(40.0 + ZERO_CELSIUS),
+        "viscosity_100_C_m2_per_s": lubricant.kinematic_viscosity(100.0 + ZERO_CELSIUS),
     }
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.api.simulating import simulate
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import recording_problems
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.cli.files import check_inputs, tell_doubts
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
-_ZERO_CELSIUS = 273.15  # [K]
 _RINGS = {
     "elastic": "elastic: the cup bends in its housing (effect structure)",
     "rigid": "rigid: only the contacts yield (no effect structure)",
@@ -204,7 +204,7 @@ def text(summary: RunSummary, recording: Path | None) -> str:
         ("status", summary.status),
     ]
     if summary.temperatures:
-        parts = (f"{part} {kelvin - _ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
+        parts = (f"{part} {kelvin - ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
         lines.insert(-1, ("temperatures", f"{', '.join(parts)} °C"))
     if summary.life is not None:
         lines.insert(-1, ("rating life", life_sentence(summary.life)))

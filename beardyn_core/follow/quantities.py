@@ -8,6 +8,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.base.units import ZERO_CELSIUS
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,14 @@ QUANTITIES = (
     Quantity("lateral_load", "mean lateral load on the journal", "load_fy_N_mean", "N", "kN", 1e-3, False),
     Quantity("end_play", "end play of the bearing as mounted", "end_play_m", "m", "mm", 1e3, False),
     Quantity(
-        "temperature", "temperature of the bearing", "temperature_K", "K", "°C", 1.0, False, offset=273.15
+        "temperature",
+        "temperature of the bearing",
+        "temperature_K",
+        "K",
+        "°C",
+        1.0,
+        False,
+        offset=ZERO_CELSIUS,
     ),
     Quantity(
         "width",

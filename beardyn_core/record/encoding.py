@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Int
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.record.clouds import CloudTemplate, column_dtype, fill, points_of
@@ -19,7 +20,6 @@ from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_FIELDS, LARGEST, Block, EnergyAudit
 from beardyn_core.sensors.summary import NUMERICAL
 
-ZERO_CELSIUS = 273.15
 TEMPERATURE_EVERY = 10  # blocks
 DIAGNOSTICS_EVERY = 10
 USUAL_NAME = "beardyn twin"

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.record import arrays
 from beardyn_core.record.clouds import cloud_times, cloud_to_arrays
@@ -22,7 +23,6 @@ from beardyn_core.record.encoding import (
     ACCELERATION_AXES,
     POSE_AXES,
     TWIST_AXES,
-    ZERO_CELSIUS,
     force_template,
     imu_template,
     joint_template,

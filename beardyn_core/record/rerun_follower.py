@@ -11,6 +11,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.record.arrays import Told
 from beardyn_core.record.rerun_bearing import TIMELINE, send
 
@@ -22,7 +23,7 @@ _CURVES = ("estimate", "50 % interval, from", "to", "90 % interval, from", "to "
 _COLOURS = ((80, 145, 255), *2 * ((120, 170, 235),), *2 * ((150, 165, 190),))
 _HEARD, _TWIN, _TOLERANCE, _FRAME = (80, 145, 255), (230, 155, 30), (230, 155, 30, 110), (128, 134, 148)
 # ending of a key -> unit that is shown, factor from SI to it, and what is taken away before
-_SHOWN = {"N": ("kN", 1e-3, 0.0), "m": ("mm", 1e3, 0.0), "K": ("°C", 1.0, 273.15)}
+_SHOWN = {"N": ("kN", 1e-3, 0.0), "m": ("mm", 1e3, 0.0), "K": ("°C", 1.0, ZERO_CELSIUS)}
 _SHOWN_OF = {"depth_m": ("µm", 1e6, 0.0)}
 _DECADES = (100.0, 1000.0, 10_000.0)
 _LEVEL_STEP = 20.0  # of the labels, [dB]

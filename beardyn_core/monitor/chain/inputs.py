@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from scipy.fft import rfft
 
 from beardyn_core.base.arrays import Bool, Float
+from beardyn_core.base.errors import InputError
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.features import analytic_part, real_part, squared_magnitude
@@ -168,3 +170,10 @@ class MonitorSettings:
     hot: A[float, "and from which it is hot, [K]"] = 393.15
     heating: A[float, "rise of the temperature from which the box counts as hot, [K/s]"] = 5.0 / 60.0
     heating_floor: A[float, "below this temperature a rise is warming up, [K]"] = 333.15
+
+    def __post_init__(self) -> None:
+        if self.warm > self.hot:
+            raise InputError(
+                f"warm is {self.warm - ZERO_CELSIUS:g} degrees Celsius; it must be at most hot, which is "
+                f"{self.hot - ZERO_CELSIUS:g}"
+            )

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from math import isnan, log
 from typing import Annotated as A
 
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.monitor.chain.competing_orders import is_related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
 from beardyn_core.monitor.chain.explanations import Explanation, explanations
@@ -14,7 +15,6 @@ from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 
 HEALTHY, UNEXPLAINED, HOT_BOX = "healthy", "unexplained", "hot_box"
 UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
-_ZERO_CELSIUS = 273.15
 _RPM = 60.0  # of a hertz
 NEIGHBOUR = "another bearing on this shaft explains more"
 _SURER = 1.6  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
@@ -222,6 +222,6 @@ def _healthy_sentence(best: Candidate, contradiction: str) -> str:
 
 def _hot_sentence(stretch: Stretch) -> str:
     return (
-        f"hot box: {stretch.temperature - _ZERO_CELSIUS:.0f} °C, "
+        f"hot box: {stretch.temperature - ZERO_CELSIUS:.0f} °C, "
         f"rising by {60.0 * stretch.heating:.1f} K a minute"
     )
