@@ -141,6 +141,10 @@ class MonitorNode(Node):
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
         self._summed_up = True
+        if (
+            self._tally.conclusion().finding is None
+        ):  # shorter than the interval: judge what there is
+            self._report_finding(Finding.of(self._monitor.result()))
         conclusion = self._tally.conclusion()
         finding = conclusion.finding or Finding(WAITING, "not enough signal for a verdict", 0.0)
         counts = (("agreeing", str(conclusion.agreeing)), ("analyses", str(conclusion.analyses)))
