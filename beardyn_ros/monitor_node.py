@@ -141,9 +141,7 @@ class MonitorNode(Node):
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
         self._summed_up = True
-        if (
-            self._tally.conclusion().finding is None
-        ):  # shorter than the interval: judge what there is
+        if self._tally.conclusion().finding is None:  # shorter than the interval: judge what there is
             self._report_finding(Finding.of(self._monitor.result()))
         conclusion = self._tally.conclusion()
         finding = conclusion.finding or Finding(WAITING, "not enough signal for a verdict", 0.0)
