@@ -32,7 +32,7 @@ def gravity(evidence: Evidence) -> Rule:
     drive = losses.drive(scene.effects.traction, scene.effects.film)
     # idle rollers lie on the cage, which loaded ones have to push
     slip = abs(drive.slip - light.drive(scene.effects.traction, scene.effects.film).slip)
-    torque = abs(losses.total - light.total)
+    torque = evidence.pressed * abs(losses.total - light.total)
     if drive.skids:
         # the way up and down brakes and drives rollers that hardly stick: mean amount along the orbit
         part = drive.share(scene.roller_total * bar_weight(bearing, effect.acceleration))

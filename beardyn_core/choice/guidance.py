@@ -20,14 +20,11 @@ from beardyn_core.choice.rule import (
     on_or_off,
     percent,
 )
-from beardyn_core.effects import Cage, CageModel, KinematicCage, ModalStructure, Rib, RotatingCage
+from beardyn_core.effects import Cage, CageModel, KinematicCage, Rib, RotatingCage
 
 # Torque that a cage which cannot sink leaves out, over that of the pockets of idle rollers: 1.2 to 1.3 in
 # runs of three spalled scenes, tried by `make automatic`.
 _HELD_UP = 1.35
-# Torque of dry pockets over the estimate, which is of idle rollers, in a box by modes: between its two lobes
-# of load rollers press on their bars, 1.7 in smooth_run, 1.4 in freight_100 (`test/choice/test_verified.py`).
-_PRESSED_BY_BOX = 1.8
 MOST_SLIP = 1.0
 
 
@@ -114,14 +111,13 @@ def cage(evidence: Evidence) -> Rule:
         reason += f"; a pocket is worn by {1e3 * max(defect.clearance for defect in worn):.2g} mm"
     if drive.needed == 0.0:
         reason = "nothing turns the cage"
-    pressed = _PRESSED_BY_BOX if isinstance(effects.structure, ModalStructure) else 1.0
-    pocket = evidence.torque_share(pressed * losses.pocket)
+    pocket = evidence.torque_share(evidence.pressed * losses.pocket)
     knock = MOST_DB if worn else decibels(1.0 + losses.pocket_force / max(_excitation(evidence), 1.0))
     costs = evidence.costs
     basic = costs.saved("cage")
     # what idle rollers lay on the cage makes loaded ones slip: other pockets, another slip
     weighed = abs(losses.total - evidence.losses_without_weight.total)
-    left = {"torque": max(pocket, evidence.torque_share(weighed))}
+    left = {"torque": max(pocket, evidence.torque_share(evidence.pressed * weighed))}
     # where the raceways hardly drive the rollers, pockets decide at which speed they go
     if drive.skids:
         left = {"torque": pocket + evidence.torque_share(drive.torque), **evidence.slipping(0.5)}
