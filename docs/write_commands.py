@@ -67,6 +67,7 @@ def section(name: str, parser: argparse.ArgumentParser, purpose: str) -> Iterato
     for action in parser._actions:
         if not isinstance(action, argparse._HelpAction) and action.help != argparse.SUPPRESS:
             text = (action.help or "").replace("%(default)s", str(action.default))
+            text = text.replace("%(default)g", f"{action.default:g}" if "%(default)g" in text else "")
             yield f"| {invocation(action)} | {plain(text)} |"
     yield ""
 

@@ -45,8 +45,8 @@ runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come f
 bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
 only the box that rings, so each is computed with those that it [needs](effects_auto.md) to stay
 within 5 % of the full model;
-[the choices](choices.md). `bogie` names the tier `lumped`, so that its four boxes keep up: it misses 5 %,
-and says by how much.
+[the choices](choices.md). `bogie` names the tier `quasistatic`, so that its four boxes keep up: it misses
+5 %, and says by how much.
 
 Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The

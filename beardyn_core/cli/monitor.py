@@ -88,7 +88,8 @@ def add_certainty(parser: argparse.ArgumentParser) -> None:
 def add_limits(parser: argparse.ArgumentParser) -> None:
     """Declare the limits of temperature."""
     group = parser.add_argument_group(
-        "temperature", "limits of the vehicle; a scene's own by bd.heat_interval(scene).warm_from(air)"
+        "temperature",
+        "limits of the vehicle; a scene's, in kelvin: bd.heat_interval(scene).warm_from(air in kelvin)",
     )
     for name, what in (("warm", "called warm"), ("hot", "an alarm, a hot box")):
         group.add_argument(

@@ -149,10 +149,14 @@ def spectrum_band(irregularity: Irregularity) -> tuple[float, float]:
     assert irregularity.path is not None
     covered = _density_table(irregularity.path)["wavelength_m"]
     shortest, longest = irregularity.shortest_wavelength, irregularity.longest_wavelength
-    return (
-        max(float(covered[0]), SHORTEST_WAVE) if shortest is None else shortest,
-        float(covered[-1]) if longest is None else longest,
-    )
+    shortest = max(float(covered[0]), SHORTEST_WAVE) if shortest is None else shortest
+    longest = float(covered[-1]) if longest is None else longest
+    if shortest >= longest:
+        raise InputError(
+            f"{irregularity.path}: covers {covered[0]:g} to {covered[-1]:g} m; it would be taken from "
+            f"{shortest:g} to {longest:g} m: change shortest or longest wavelength, or extend it"
+        )
+    return shortest, longest
 
 
 def target_density(irregularity: Irregularity, wavenumber: Float, direction: str = "vertical") -> Float:

@@ -210,6 +210,13 @@ def test_a_density_of_a_table_is_taken_to_its_own_ends(tmp_path):
     assert power[inside].max() < 1e-3 * power[below].max()
 
 
+@pytest.mark.parametrize("band", [{"shortest_wavelength": 45.0}, {"longest_wavelength": 1.0}])
+def test_a_band_that_the_ends_of_a_file_turn_round_is_refused(tmp_path, band):
+    path = written(tmp_path, "wavelength_m,vertical_mm2_m\n3,1\n40,10\n")
+    with pytest.raises(InputError, match="covers 3 to 40 m; it would be taken from"):
+        rail_profile(Irregularity("density_csv", path=path, **band), 100.0, 1)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
