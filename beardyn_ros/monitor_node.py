@@ -41,6 +41,9 @@ from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
+_UNJUDGED = (
+    0.25  # of the interval: when a run ends, more than that since the last analysis has one of its own
+)
 
 
 class MonitorNode(Node):
@@ -141,7 +144,8 @@ class MonitorNode(Node):
     def _sum_up(self) -> None:
         """Log the last word about the run: the most frequent verdict."""
         self._summed_up = True
-        if self._tally.conclusion().finding is None:  # shorter than the interval: judge what there is
+        latest = self._tally.latest
+        if latest is None or self._monitor.behind(latest.time) > _UNJUDGED * self._values.interval:
             self._report_finding(Finding.of(self._monitor.result()))
         conclusion = self._tally.conclusion()
         finding = conclusion.finding or Finding(WAITING, "not enough signal for a verdict", 0.0)

@@ -233,7 +233,7 @@ MONITOR = (
         "warm",
         90.0,
         "temperature of the axlebox from which it is called warm; assumed, bd.heat_interval gives that of a "
-        "scene",
+        "scene, in kelvin",
         "degC",
         minimum=0.0,
         maximum=300.0,

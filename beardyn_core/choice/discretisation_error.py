@@ -207,8 +207,10 @@ def third_octaves_found(choice: Choice) -> str:
     low, high = IN_MIDDLE_BAND[choice.tier], BEYOND[choice.tier]
     if is_coupled(choice):
         low, high = COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND
+    if choice.vibration_to <= QUIET_BAND:
+        low = min(low, choice.expected["vibration"])
     above = f", {high:g} dB above" if choice.vibration_to > MIDDLE_BAND else ""
-    return f"up to {low:g} dB to {1e-3 * MIDDLE_BAND:g} kHz{above}"
+    return f"up to {low:.2g} dB to {1e-3 * min(choice.vibration_to, MIDDLE_BAND):g} kHz{above}"
 
 
 def is_coupled(choice: Choice) -> bool:

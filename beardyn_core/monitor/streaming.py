@@ -293,6 +293,12 @@ class Monitor:
         self._next_ns += interval * (1 + (end - self._next_ns) // interval)
         return self.result()
 
+    def behind(self, time: float) -> float:
+        """Compute how much has come in with shaft angle since a time [s], [s]."""
+        if not len(self._vibration) or not len(self._shaft):
+            return 0.0
+        return 1e-9 * min(self._vibration.last_ns, self._shaft.last_ns) - time
+
     def result(self) -> chain.MonitorResult:
         """Analyse the samples so far, due or not."""
         if not len(self._vibration) or not len(self._shaft) or self.rate is None:

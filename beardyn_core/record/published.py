@@ -78,17 +78,21 @@ def last_published(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -
     return found
 
 
-def kept_pace(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -> tuple[float | None, int | None]:
-    """Find the last that the twin of a namespace says of its pace: the pace itself, and its late blocks.
+_GOES_ON = (None, "running", "paused", "waiting for load")  # states of a twin that has not ended
 
-    Both are ``None`` where no pace was asked for, or a recording does not say.
+
+def kept_pace(statuses: Iterable[Diagnostic], namespace: str = NAMESPACE) -> tuple[float | None, int | None]:
+    """Find what the twin of a namespace says of its pace when it has ended: the pace, and its late blocks.
+
+    Both are ``None`` where no pace was asked for, or where the twin has had no last word: while it runs its
+    pace is that of the last second.
     """
     name = f"{namespace.strip('/')}/twin".lstrip("/")
     last = None
     for status in statuses:
         if status.name == name and status.value("pace") is not None:
             last = status
-    if last is None or not _read_number(last.value("speed_factor")):
+    if last is None or last.value("state") in _GOES_ON or not _read_number(last.value("speed_factor")):
         return None, None
     late = last.value("late_blocks") or ""
     counted = late.isdecimal() and len(late) <= LONGEST_COUNT

@@ -257,7 +257,7 @@ def _lines(r: Report) -> list[str]:
     if r.real_time_factor is not None:
         lines.append(f"computed at {r.real_time_factor:.2f} x real time on average")
     if r.pace is not None:
-        late = "" if r.late_blocks is None else f", {r.late_blocks or 'no'} blocks late"
+        late = "" if r.late_blocks is None else f"; late blocks: {r.late_blocks}"
         lines.append(f"pace     {r.pace:.4f} simulated seconds in a second of wall time{late}")
     if r.energy_residual is not None:
         lines.append(f"energy residual {r.energy_residual:.2e}")

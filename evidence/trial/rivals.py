@@ -26,7 +26,7 @@ from beardyn_core.study.trial_result import Rate
 from evidence.measured.run import METHODS
 from evidence.runner import write_json
 
-EVERY = 11  # no divisor of the 36 runs of a size: it walks through speeds, tracks and wheels
+EVERY = 11  # no divisor of the 27 runs of a size: it walks through speeds, wheels and surfaces
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.choice import explain_scene, load_scene, load_trial, scene_from_mapping, trial_scene
+from beardyn_core.choice.discretisation_error import third_octaves_found
 from beardyn_core.choice.sampling import rate_for
 from beardyn_core.cli.explain import text
 from beardyn_core.config import read_scene
@@ -176,3 +179,19 @@ def test_samples_have_their_true_time(rate: float) -> None:
     time = np.concatenate([each.waveform_time_ns for each in blocks])
     np.testing.assert_array_equal(time, np.arange(len(time)) * 1_000_000_000 // round(rate))
     assert all(np.array_equal(each.acceleration[0], each.vibration[0].acceleration) for each in blocks)
+
+
+@pytest.mark.parametrize(
+    ("to", "expected", "words"),
+    [
+        (300.0, 1.1, "up to 1.1 dB to 0.3 kHz"),
+        (300.0, 20.0, "up to 13 dB to 0.3 kHz"),  # behind a spall
+        (4000.0, 13.0, "up to 13 dB to 4 kHz"),
+        (10_000.0, 18.5, "up to 13 dB to 5 kHz, 18.5 dB above"),
+    ],
+)
+def test_a_bound_of_third_octaves_is_of_the_bands_asked_for(to: float, expected: float, words: str) -> None:
+    choice: Any = SimpleNamespace(
+        tier="lumped", effects=None, expected={"vibration": expected}, vibration_to=to
+    )
+    assert third_octaves_found(choice) == words

@@ -176,7 +176,7 @@ def test_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         pace=0.9998,
         late_blocks=3,
     )
-    assert "pace     0.9998 simulated seconds in a second of wall time, 3 blocks late" in full.to_text()
+    assert "pace     0.9998 simulated seconds in a second of wall time; late blocks: 3" in full.to_text()
     found = read(json_text("report", report_command.json_object(full, ())))
     assert found["defects"][0]["growth"]["width_grows"] is True
     assert found["defects"][0]["width_m"] == 6e-3

@@ -10,7 +10,7 @@ from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.published import kept_pace
 from beardyn_ros import session
 from beardyn_ros.load_gate import RefusalReport
-from beardyn_ros.run_state import FINISHED, SessionReport
+from beardyn_ros.run_state import FINISHED, RUNNING, SessionReport
 from beardyn_ros.session import LATE_AFTER_S, Pacer
 from beardyn_ros.twin_report import NodeStanding, pace_sentence, twin_diagnostic
 
@@ -73,5 +73,8 @@ def test_the_last_word_and_the_log_state_pace_and_late_blocks() -> None:
     assert kept_pace([status]) == (0.8, 3)
     foreign = Diagnostic("axlebox/twin", 0, "", (("pace", "x"), ("speed_factor", "1"), ("late_blocks", "-")))
     assert kept_pace([status, foreign]) == (None, None)
+    report.state = RUNNING  # killed: what it said last is of one second
+    assert kept_pace([twin_diagnostic("axlebox/twin", report, NONE_REFUSED, paced)]) == (None, None)
+    report.state = FINISHED
     unpaced = twin_diagnostic("axlebox/twin", report, NONE_REFUSED, STANDING)
     assert kept_pace([unpaced]) == (None, None) == kept_pace([])
