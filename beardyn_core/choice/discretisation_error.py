@@ -16,7 +16,7 @@ from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Choice, Influence, Verdict, percent
 from beardyn_core.choice.usual_step import refine_for_sensors, with_modes
-from beardyn_core.effects import EffectSet, LaminaCoupling, ModalStructure
+from beardyn_core.effects import EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.journal import bending_give
 from beardyn_core.physics.lamina_table import surface_radius
@@ -36,10 +36,7 @@ _BAND = 0.2316
 _QUASISTATIC_SHARE = 0.005
 # Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
 # every effect: see evidence/automatic/torque.py.
-_POCKETS = {"quasistatic": 0.7, "lumped": 2.0}
-# The same in a box by modes, whose two lobes of load press rollers against their bars: at most 3.2 and 1.9
-# in smooth_run, healthy_300, freight_100 and service_metro.
-_POCKETS_OF_BENT_BOX = {"quasistatic": 3.3, "lumped": 2.0}
+POCKETS = {"quasistatic": 0.8, "lumped": 2.0}
 # What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz of a healthy bearing, to
 # 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
 QUIET_BAND, IN_QUIET_BAND = 400.0, 1.1
@@ -237,9 +234,7 @@ def _without_roller_inertia(evidence: Evidence, name: str) -> tuple[dict[str, fl
     # response of a mass on springs over that of the springs alone, at the end of the band
     ratio = 1.0 / abs(1.0 - min((evidence.band / bounce) ** 2, 0.999))
     reason = f"its rollers do not bounce, which they do at {bounce / 1e3:.3g} kHz"
-    bends = isinstance(evidence.scene.effects.structure, ModalStructure)
-    of_pockets = _POCKETS_OF_BENT_BOX if bends else _POCKETS
-    pockets = evidence.torque_share(of_pockets[name] * evidence.losses.pocket)
+    pockets = evidence.torque_share(POCKETS[name] * evidence.losses.pocket)
     rings = IN_MIDDLE_BAND[name] if evidence.band <= MIDDLE_BAND else BEYOND[name]
     if evidence.band <= QUIET_BAND and not evidence.patches:
         rings = IN_QUIET_BAND

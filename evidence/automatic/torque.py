@@ -6,11 +6,14 @@ of the automatic choice bound what is found here.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import beardyn_core as bd
+from beardyn_core.choice.discretisation_error import POCKETS
 from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.config import load_effects
+from beardyn_core.effects import Audit, ModalStructure
 from beardyn_core.sensors.summary import RunSummary
 from evidence.pages import DOCS, write_section
 
@@ -22,15 +25,16 @@ SECONDS = 0.8
 PAGE = DOCS / "effects_auto.md"
 TITLE, NEXT = "## Torque of the fast tiers\n", "## How good the estimates are\n"
 ABOUT = """
-Written by `python -m evidence.automatic.torque`: {seconds} s of shipped scenes with every effect in a rigid
-box (`full`), in each tier, means over the last whole turns of the cage. *Creep*: what the raceways lose by
-sliding over what the ribs lose, by the audit of `full`, with its films and with `dry`. *Pockets*: their
-torque over all, by the audit and as the rules estimate it. *Off*: torque of a tier over that of `full`, less
-one; in brackets over the pockets' estimate, of which the rules allow 0.7 in `quasistatic` and 2 in `lumped`.
-The rollers of `static_5kN` slip: what fast tiers miss there is judged by that, not by the pockets.
+Written by `python -m evidence.automatic.torque`: {seconds} s of shipped scenes with every effect, in each
+tier, in a rigid box (the set `all`) and in the box of finite elements that a scene names (*modes*); means
+over the last whole turns of the cage. *Creep*: what the raceways lose by sliding over what the ribs lose,
+by the audit of `full`, with its films and with `dry`. *Pockets*: their torque over all, by the audit and as
+the rules estimate it. *Off*: torque of a tier over that of `full`, less one; in brackets over the pockets'
+estimate, of which the rules allow {quasistatic:g} in `quasistatic` and {lumped:g} in `lumped`. The rollers
+of `static_5kN` slip: what fast tiers miss there is judged by that, not by the pockets.
 
-| scene | torque N m | creep % | dry % | pockets % | estimate % | `quasistatic` off % | `lumped` off % |
-|---|--:|--:|--:|--:|--:|--:|--:|
+| scene | box | torque N m | creep % | dry % | pockets % | estimate % | `quasistatic` off % | `lumped` off % |
+|---|---|--:|--:|--:|--:|--:|--:|--:|
 """
 
 
@@ -56,18 +60,25 @@ def _creep(summary: RunSummary) -> float:
     return parts["raceway_sliding"] / parts["rib"]
 
 
-def found(name: str) -> Found:
-    """Run a scene in every tier."""
+def found(name: str, modes: bool) -> Found:
+    """Run a scene in every tier, in its own box or in a rigid one."""
+    own = bd.scene(name).effects.structure if modes else None
+
+    def effects_of(preset: str, **more: Any) -> Any:
+        effects = replace(load_effects(preset), **more)
+        return replace(effects, structure=own) if modes else effects
+
     every = {
-        tier: bd.simulate(name, effects="all", tier=tier, duration=SECONDS).summary
+        tier: bd.simulate(name, effects=effects_of("all"), tier=tier, duration=SECONDS).summary
         for tier in ("full", "quasistatic", "lumped")
     }
-    dry = bd.simulate(name, effects={"preset": "dry", "audit": {}}, tier="full", duration=SECONDS).summary
-    losses = Evidence(bd.scene(name, effects=load_effects("all"), tier="full")).losses
+    dry = effects_of("dry", audit=Audit())
+    without = bd.simulate(name, effects=dry, tier="full", duration=SECONDS).summary
+    losses = Evidence(bd.scene(name, effects=effects_of("all"), tier="full")).losses
     return Found(
         -every["full"].shaft_torque,
         _creep(every["full"]),
-        _creep(dry),
+        _creep(without),
         _parts(every["full"])["pocket"],
         losses.pocket,
         -every["quasistatic"].shaft_torque,
@@ -75,7 +86,7 @@ def found(name: str) -> Found:
     )
 
 
-def row(name: str, of: Found) -> str:
+def row(name: str, box: str, of: Found) -> str:
     """Write a scene as a row of the table."""
 
     def off(torque: float) -> str:
@@ -83,16 +94,18 @@ def row(name: str, of: Found) -> str:
 
     shares = (of.creep, of.dry, of.pockets / of.full, of.estimate / of.full)
     cells = [f"{of.full:.2f}", *(f"{100 * each:.1f}" for each in shares), off(of.quasistatic), off(of.lumped)]
-    return f"| `{name}` | {' | '.join(cells)} |"
+    return f"| `{name}` | {box} | {' | '.join(cells)} |"
 
 
 def main() -> None:
     """Run, print and write."""
     rows = []
     for name in SCENES:
-        rows.append(row(name, found(name)))
-        print(rows[-1], flush=True)
-    text = TITLE + ABOUT.format(seconds=SECONDS) + "\n".join(rows) + "\n\n"
+        boxes = (False, True) if isinstance(bd.scene(name).effects.structure, ModalStructure) else (False,)
+        for modes in boxes:
+            rows.append(row(name, "modes" if modes else "rigid", found(name, modes)))
+            print(rows[-1], flush=True)
+    text = TITLE + ABOUT.format(seconds=SECONDS, **POCKETS) + "\n".join(rows) + "\n\n"
     write_section(PAGE, TITLE, text, NEXT)
 
 

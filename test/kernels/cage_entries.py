@@ -6,6 +6,7 @@ from typing import Any
 
 from beardyn_core.base.jit import entry
 from beardyn_core.physics.cage.land import land_contact, short_bearing
+from beardyn_core.physics.cage.play import bar_loads
 from beardyn_core.physics.cage.pocket import kinematic_pocket, rotating_pocket
 from test.kernels.entries import pocket_of, store_walls
 
@@ -24,6 +25,16 @@ def kinematic_pockets(lanes: Any, states: Any, out: Any, roller: Any, cage: Any)
     for case in range(states.shape[0]):
         contact = kinematic_pocket(pocket_of(lanes, states, case, 0.0, 0.0), cage, cage.kinematic)
         store_walls(lanes, out, case, contact.walls)
+
+
+@entry
+def bars(lanes: Any, cases: Any, out: Any, spin: Any, radius: Any, step: Any, loose: Any) -> None:
+    """Load and friction of the nearer bar; depth and speed of closing of each case."""
+    for case in range(cases.shape[0]):
+        depth, closing = lanes.load(cases, case, 0), lanes.load(cases, case, 1)
+        load, friction = bar_loads(depth, closing, spin, radius, step, loose)
+        lanes.store(out, case, 0, load)
+        lanes.store(out, case, 1, friction)
 
 
 @entry

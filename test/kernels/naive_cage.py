@@ -54,6 +54,26 @@ def shear_resistance(viscosity: float, radius: float, gap: float) -> float:
     return _trapezoid(viscosity / (gap + x**2 / (2.0 * radius)), x)
 
 
+def wall_loads(
+    depth: float, rate: float, rolling: float, sliding: float, radius: float, cage: Any, film: Any
+) -> tuple[float, float]:
+    """Load of one wall [N], and its friction over the sliding speed [N s/m]."""
+    way = max(abs(rate) * cage.step, 1e-15)  # a contact that begins or ends within it
+    inside = depth if depth >= way else 0.5 * depth * (1.0 + depth / way)
+    pressed = cage.stiffness * inside + cage.damping * rate if depth > 0.0 else 0.0
+    load, viscous = max(pressed, 0.0), 0.0
+    solid = load
+    if film is not None:
+        gap = max(-depth, film.thinnest)
+        layer = max(1.0 - gap * film.inverse_layer, 0.0)
+        resistance = film.squeeze * layer * (radius / gap) ** 1.5
+        resistance = 1.0 / (1.0 / resistance + film.share) if resistance > 0.0 else 0.0
+        load = max(pressed + film.wedge * layer * rolling * radius / gap + resistance * rate, 0.0)
+        solid = min(max(pressed, 0.0), load)
+        viscous = film.shear * layer * math.sqrt(radius / gap)
+    return load, cage.friction * solid / math.hypot(sliding, cage.regularisation) + viscous
+
+
 def pocket_wrench(
     motion: Motion, tilt: Float, advance: float, azimuth: float, roller: Any, cage: Any
 ) -> Wrench:
@@ -80,22 +100,9 @@ def pocket_wrench(
         slip = motion.slip(motion.centre + arm)
         rate = float(slip @ normal)
         sliding = slip - rate * normal
-        way = max(abs(rate) * cage.step, 1e-15)  # a contact that begins or ends within it
-        inside = depth if depth >= way else 0.5 * depth * (1.0 + depth / way)
-        pressed = cage.stiffness * inside + cage.damping * rate if depth > 0.0 else 0.0
-        load, viscous = max(pressed, 0.0), 0.0
-        solid = load
-        if film is not None:
-            gap = max(-depth, film.thinnest)
-            layer = max(1.0 - gap * film.inverse_layer, 0.0)
-            rolling = abs(float(slip @ np.cross(motion.axis, normal)))
-            resistance = film.squeeze * layer * (radius / gap) ** 1.5
-            resistance = 1.0 / (1.0 / resistance + film.share) if resistance > 0.0 else 0.0
-            load = max(pressed + film.wedge * layer * rolling * radius / gap + resistance * rate, 0.0)
-            solid = min(max(pressed, 0.0), load)
-            viscous = film.shear * layer * math.sqrt(radius / gap)
-        dry = cage.friction * solid / math.hypot(float(np.linalg.norm(sliding)), cage.regularisation)
-        total.push(-load * normal - (dry + viscous) * sliding, arm)
+        rolling = abs(float(slip @ np.cross(motion.axis, normal)))
+        load, friction = wall_loads(depth, rate, rolling, float(np.linalg.norm(sliding)), radius, cage, film)
+        total.push(-load * normal - friction * sliding, arm)
         total.energy += 0.5 * cage.stiffness * max(depth, 0.0) ** 2
 
     senses: tuple[float, ...] = (1.0, -1.0)

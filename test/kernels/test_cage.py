@@ -25,10 +25,11 @@ from beardyn_core.physics.bodies.layout import (
     TILT,
 )
 from beardyn_core.physics.cage.land import LandParams
+from beardyn_core.physics.cage.play import loose_params
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.tiers.parameters import Parameters
 from test.kernels import naive_cage, naive_step
-from test.kernels.cage_entries import journals, kinematic_pockets, lands, rotating_pockets
+from test.kernels.cage_entries import bars, journals, kinematic_pockets, lands, rotating_pockets
 from test.kernels.casting import through
 from test.kernels.entries import pockets
 from test.kernels.naive import Motion
@@ -300,3 +301,27 @@ def test_bound_of_the_land_film_keeps_its_resistance_below_what_the_step_bears()
     out = np.zeros((1, 3))
     journals(case, out, land)
     assert 0.0 < -out[0, 1] / 0.1 * p.step / cage.mass < 0.3
+
+
+@pytest.mark.parametrize("spin", [-12.0, 0.02, 5.0])
+@pytest.mark.parametrize("kind", ["dry", "lubricated"])
+def test_the_bar_of_a_loose_roller_is_two_touches_of_the_full_cage(
+    kind: str, spin: float, lanes: Any
+) -> None:
+    """Depths down to twice the layer of the film apart; a roller that does not skew feels both ends alike."""
+    scene = replace(standard_scene(), effects=replace(standard_scene().effects, cage=CAGES[kind]))
+    p = parameters_of(scene)
+    loose, cage, radius = loose_params(scene, p.step), p.effects.cage, p.roller.radius
+    assert loose is not None
+    assert cage is not None
+    rng = np.random.default_rng(7)
+    depth = np.concatenate([rng.uniform(-8e-4, 3e-5, 60), rng.uniform(-2e-6, 2e-6, 60)])
+    cases = np.stack([depth, rng.normal(0.0, 0.05, 120)], axis=1)
+    found = through(lanes, bars, cases, 2, spin, radius, p.step, loose)
+    carried = 0
+    for (deep, rate), (load, friction) in zip(cases, found, strict=True):
+        expected = naive_cage.wall_loads(deep, rate, abs(spin), abs(spin), radius, cage, cage.film)
+        assert load == pytest.approx(2.0 * expected[0], rel=1e-9, abs=1e-12)
+        assert friction == pytest.approx(-2.0 * expected[1] * spin, rel=1e-9, abs=1e-12)
+        carried += int(deep < 0.0 and load > 0.0)
+    assert (carried > 20) == (kind == "lubricated")

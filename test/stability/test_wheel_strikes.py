@@ -18,15 +18,26 @@ GRAVITY = 9.80665
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("wheelset", "least"), [("rigid", 25.0), ("elastic", 15.0)])
+@pytest.mark.parametrize(
+    ("box", "wheelset", "least"),
+    [
+        ("rigid", "rigid", 25.0),
+        ("rigid", "elastic", 15.0),
+        ("rings", "rigid", 15.0),
+        ("rings", "elastic", 25.0),
+    ],
+)
 def test_a_healthy_bearing_under_a_wheel_flat_shakes_once_a_revolution_and_gives_no_alarm(
-    wheelset: str, least: float
+    box: str, wheelset: str, least: float
 ) -> None:
     """Field figures for axleboxes over flats and joints are 50 to 200 g; a 35 mm flat is a small one.
 
-    An axle that bends spares the box a part of so short a blow: 20 g instead of 32 g.
+    An axle that bends spares a rigid box a part of so short a blow: 26 g instead of 32 g. In a box that
+    rings it is the other way round, 35 g instead of 21 g.
     """
     scene = load_scene("wheel_flat")
+    if box == "rigid":
+        scene = dataclasses.replace(scene, effects=dataclasses.replace(scene.effects, structure=None))
     assert isinstance(scene.operation, QuarterVehicleOperation)
     scene = dataclasses.replace(scene, operation=dataclasses.replace(scene.operation, wheelset=wheelset))
     assert isinstance(scene.operation, QuarterVehicleOperation)

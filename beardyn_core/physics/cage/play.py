@@ -14,8 +14,8 @@ its table by a small angle.
 The bars lean. That is what centres the cage: upright ones leave it to whirl with its rollers, and to slip
 twice as much.
 
-Neglected: skew, pocket ends, films in the pockets, lands that guide cages, what the
-cup's film takes an idle roller along with, and the whirl of cages out of their plane.
+Neglected: skew, pocket ends, lands that guide cages, what the cup's film takes an idle roller along with,
+and the whirl of cages out of their plane.
 
 References
 ----------
@@ -39,21 +39,27 @@ from beardyn_core.effects import (
 )
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.rigid_bodies import row_totals
+from beardyn_core.physics.cage.pocket_film import (
+    PocketFilmParams,
+    along_bar,
+    pocket_film_params,
+    pocket_loads,
+)
 from beardyn_core.physics.cage.pocket_wear import pocket_wear
-from beardyn_core.physics.cage.rubbing import pocket_params
+from beardyn_core.physics.cage.rubbing import surface_speed
+from beardyn_core.physics.cage.walls import partial_contact_mean
 from beardyn_core.physics.drag import drag_push
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, where_greater
 from beardyn_core.scene.scene import Scene
 
-# Sums over the rollers of a row: force on the cage up and forward [N], moment about its axis [N m], normal
-# forces of the pockets [N].
-CAGE_UP, CAGE_FORWARD, CAGE_ABOUT, CAGE_PRESSED = range(layout.REACTION + 14, layout.REACTION + 18)
+# Sums over the rollers of a row: force on the cage up and forward [N], moment about its axis [N m], and
+# friction of the bars on the rollers that spin there [N].
+CAGE_UP, CAGE_FORWARD, CAGE_ABOUT, CAGE_RUBBED = range(layout.REACTION + 14, layout.REACTION + 18)
 # Fields of the rollers' state that the full tier has for its chatter index: azimuth of the tables, and in the
-# state of a cage: normal forces of its pockets, summed since torques were worked out.
+# state of a cage: friction of its bars, summed since torques were worked out.
 TABLE = layout.CHATTER
-PRESSED = layout.CHANGE
+RUBBED = layout.CHANGE
 _X, _Z = 0, 2
-_SMALLEST_WAY = 1e-15
 
 _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
@@ -77,8 +83,8 @@ class LooseParams(NamedTuple):
     mass: float  # of a cage [kg]
     polar_inertia: float  # [kg m^2]
     fall: float  # [m/s^2]
-    rubbing: float  # torque on the shaft over the normal force in the pockets [m]
-    rubbing_floor: float  # shaft speed below which it falls to zero [rad/s]
+    rubbing: float  # torque on the shaft over the friction of the bars [m]
+    film: PocketFilmParams | None  # of a whole bar
 
 
 def loose_params(scene: Scene, step: float) -> LooseParams | None:
@@ -93,8 +99,8 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
     ----------
     Johnson and Tevaarwerk (1977), Fig. 4: a film reaches its limit at slips of some percent.
     """
-    cage, bearing, pocket = scene.effects.cage, scene.bearing, pocket_params(scene)
-    if cage is None or isinstance(cage, KinematicCage) or pocket is None:
+    cage, bearing = scene.effects.cage, scene.bearing
+    if cage is None or isinstance(cage, KinematicCage):
         return None
     if step > _LONGEST_LOOSE_STEP:
         return None
@@ -113,8 +119,8 @@ def loose_params(scene: Scene, step: float) -> LooseParams | None:
         mass=bearing.cage.mass,
         polar_inertia=bearing.cage.polar_inertia,
         fall=scene.effects.gravity.acceleration if scene.effects.gravity else 0.0,
-        rubbing=0.5 * pocket.lever,
-        rubbing_floor=pocket.regularisation,
+        rubbing=surface_speed(bearing),
+        film=along_bar(pocket_film_params(scene, step)),
     )
 
 
@@ -209,7 +215,7 @@ def clear_cages(lanes, sums, loose):
     """Start the sums of the forces on the cages."""
     if loose is None:
         return
-    for field in (CAGE_UP, CAGE_FORWARD, CAGE_ABOUT, CAGE_PRESSED):
+    for field in (CAGE_UP, CAGE_FORWARD, CAGE_ABOUT, CAGE_RUBBED):
         lanes.store(sums, 0, field, lanes.constant(0.0))
 
 
@@ -236,6 +242,22 @@ def see_cages(lanes, bodies, side, loose):
 
 
 @inline
+def bar_loads(depth, closing, spin, radius, step, loose):
+    """Work out what the nearer bar presses a roller with, and its friction against the spin, [N].
+
+    Spring, damper, film and friction are those of both touches of a bar in the full cage, see `walls`.
+    ``depth``: approach beyond touching, negative for a gap [m]; ``closing``: its speed; ``spin``: speed of
+    the roller's surface along the bar [m/s].
+    """
+    inside = at_least(depth, 0.0)
+    spring = loose.stiffness * partial_contact_mean(inside, closing, step)
+    damper = where_greater(depth, 0.0, loose.damping * closing, 0.0 * closing)
+    load, solid, shear = pocket_loads(depth, spring + damper, closing, magnitude(spin), radius, loose.film)
+    dry = loose.friction / math.sqrt(spin * spin + loose.regularisation * loose.regularisation)
+    return load, -spin * (dry * solid + shear)
+
+
+@inline
 def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, speeds, load, counted, p, loose):
     """Change the speed of a block of rollers, and sum what they do to their cages.
 
@@ -259,11 +281,8 @@ def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, spe
     outgoing = lanes.load(rollers, block, layout.VELOCITY) - (cosine * rise + sine * advance)
     depth = loose.bar_cosine * (magnitude(offset) - play) + loose.bar_sine * radial
     closing = loose.bar_cosine * (towards * going) + loose.bar_sine * outgoing
-    inside = at_least(depth, 0.0)
-    way = at_least(magnitude(closing) * step, _SMALLEST_WAY)
-    spring = loose.stiffness * inside * (1.0 - 0.5 * at_least(1.0 - inside / way, 0.0))
-    pressed = at_least(spring + loose.damping * closing, 0.0)
-    pressed = where_greater(depth, 0.0, pressed, 0.0 * pressed)
+    spin = k.spin_ratio * speeds[1] * p.base.roller.radius
+    pressed, rubbed = bar_loads(depth, closing, spin, p.base.roller.radius, step, loose)
     push = loose.bar_cosine * (towards * pressed)
 
     medium = drag_push(speeds, k, p.base.effects.drag)
@@ -279,13 +298,12 @@ def push_loose(lanes, rollers, sums, block, direction, cages, motion, shake, spe
     after = coasting + (step / mass) * drive
     lanes.store(rollers, block, layout.VELOCITY + 1, after)
 
-    spin = k.spin_ratio * speeds[1] * p.base.roller.radius
-    outward = -loose.friction * spin / math.sqrt(spin * spin + loose.regularisation * loose.regularisation)
-    onward, lift = counted * push, counted * (outward * push + loose.bar_sine * pressed)
+    outward = loose.bar_cosine * (towards * rubbed)
+    onward, lift = counted * push, counted * (outward + loose.bar_sine * pressed)
     _add(lanes, sums, CAGE_UP, lift * cosine - onward * sine)
     _add(lanes, sums, CAGE_FORWARD, lift * sine + onward * cosine)
     _add(lanes, sums, CAGE_ABOUT, k.radius * onward)
-    _add(lanes, sums, CAGE_PRESSED, counted * pressed)
+    _add(lanes, sums, CAGE_RUBBED, counted * rubbed)
     return counted * drive, (counted * mass) * ((after - speed) * p.motion.rate + aside)
 
 
@@ -329,9 +347,9 @@ def kick_cages_across(bodies, sums, step, before, loose):
     if loose is None:
         return
     up, forward = row_totals(sums, CAGE_UP), row_totals(sums, CAGE_FORWARD)
-    about, pressed = row_totals(sums, CAGE_ABOUT), row_totals(sums, CAGE_PRESSED)
-    first = (up[0], forward[0], about[0], pressed[0])
-    last = (up[1], forward[1], about[1], pressed[1])
+    about, rubbed = row_totals(sums, CAGE_ABOUT), row_totals(sums, CAGE_RUBBED)
+    first = (up[0], forward[0], about[0], rubbed[0])
+    last = (up[1], forward[1], about[1], rubbed[1])
     if bodies.shape[0] == layout.CAGE_BODY + 1:
         _kick_cage(bodies, layout.CAGE_BODY, add_four(first, last), before[0], step, loose)
         return
@@ -350,7 +368,7 @@ def _kick_cage(bodies, body, push, rate, step, loose):
     bodies[body, layout.LINEAR + _Z] += step * (push[0] / loose.mass - loose.fall)
     bodies[body, layout.LINEAR + _X] += step * (push[1] / loose.mass)
     bodies[body, layout.RATE] = rate + step * push[2] / loose.polar_inertia
-    bodies[body, PRESSED] += push[3]
+    bodies[body, RUBBED] += push[3]
 
 
 @inline
@@ -362,16 +380,15 @@ def cage_rates(bodies, loose):
 
 
 @inline
-def rubbing_torque(bodies, speeds, steps, k, loose):
+def rubbing_torque(bodies, steps, loose):
     """Work out the torque of the pockets since it was last asked for, along the shaft's rotation, [N m]."""
     if loose is None:
         return 0.0
-    pressed = 0.0
+    rubbed = 0.0
     for body in range(layout.CAGE_BODY, bodies.shape[0]):
-        pressed += bodies[body, PRESSED]
-        bodies[body, PRESSED] = 0.0
-    floor = loose.rubbing_floor
-    return loose.rubbing * (pressed / steps) * (speeds[0] / math.sqrt(speeds[0] * speeds[0] + floor * floor))
+        rubbed += bodies[body, RUBBED]
+        bodies[body, RUBBED] = 0.0
+    return loose.rubbing * (rubbed / steps)
 
 
 @inline

@@ -15,7 +15,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class PocketFilmParams(NamedTuple):
-    """Lubricant between roller and bar at one of two abscissae; see `pocket_loads`."""
+    """Lubricant between roller and bar, at one of two abscissae unless said otherwise; see `pocket_loads`."""
 
     wedge: float  # load over rolling speed and radius over gap [N s/m]
     squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
@@ -50,6 +50,26 @@ def pocket_film_params(scene: Scene, step: float) -> PocketFilmParams | None:
     )
 
 
+def along_bar(film: PocketFilmParams | None) -> PocketFilmParams | None:
+    """Take the films of both abscissae as one, for a roller that does not skew."""
+    if film is None:
+        return None
+    return film._replace(
+        wedge=2.0 * film.wedge,
+        squeeze=2.0 * film.squeeze,
+        shear=2.0 * film.shear,
+        share=0.5 * film.share,
+    )
+
+
+@inline
+def rolling_speed(slip, direction, axis, film):
+    """Work out the speed of the roller's surface along a wall, which feeds the film, [m/s]; 0 without one."""
+    if film is None:
+        return 0.0
+    return magnitude(dot(slip, cross(axis, direction)))
+
+
 @inline
 def is_reached(depth, film):
     """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
@@ -59,7 +79,7 @@ def is_reached(depth, film):
 
 
 @inline
-def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
+def pocket_loads(depth, pressed, rate, rolling, radius, film):
     """Split the load of a wall into that of its film, that which rubs solid on solid, and viscous friction.
 
     An isoviscous film between rigid faces carries the bar until the gap has closed to `film.thinnest`, where
@@ -68,10 +88,9 @@ def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     wider than the lubricant's layer is not bridged. Neglects side leakage and the heating of the film.
 
     ``depth``: approach beyond touching, negative for a gap [m]; ``pressed``: spring and damper of the dry
-    wall [N]; ``rate``: speed of approach [m/s]; ``slip``: of the roller's surface against the bar [m/s];
-    ``direction``: normal of the wall, towards it; ``shape``: axis of the
-    roller, and its radius here [m]. Returns ``load``, ``solid`` [N]; ``shear``: friction force of the film
-    over slip [N s/m].
+    wall [N]; ``rate``: speed of approach [m/s]; ``rolling``: speed of the roller's surface along the wall
+    [m/s]; ``radius``: of the roller here [m]. Returns ``load``, ``solid`` [N]; ``shear``: friction force of
+    the film over slip [N s/m].
 
     References
     ----------
@@ -83,12 +102,10 @@ def pocket_loads(depth, pressed, rate, slip, direction, shape, film):
     if film is None:
         load = at_least(pressed, 0.0)
         return load, load, 0.0
-    axis, radius = shape
     gap = at_least(-depth, film.thinnest)
     bridged = at_least(1.0 - film.inverse_layer * gap, 0.0)
     ratio = radius / gap
     root = sqrt(ratio)
-    rolling = magnitude(dot(slip, cross(axis, direction)))
     squeeze = film.squeeze * bridged * ratio * root
     # the cage is explicit: a pocket may not resist more than its share of the cage can follow within a step
     squeeze = squeeze / (1.0 + film.share * squeeze)

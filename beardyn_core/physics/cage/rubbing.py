@@ -28,13 +28,18 @@ def pocket_params(scene: Scene) -> PocketParams | None:
     cage, bearing = scene.effects.cage, scene.bearing
     if cage is None or isinstance(cage, KinematicCage):
         return None
-    spin = 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
+    spin = surface_speed(bearing)
     fall = scene.effects.gravity.acceleration if scene.effects.gravity else 0.0
     return PocketParams(
         weight=bar_weight(bearing, fall),
         lever=2.0 * cage.friction * spin,
         regularisation=cage.regularisation_speed / spin,
     )
+
+
+def surface_speed(bearing: Bearing) -> float:
+    """Work out the speed of a roller's surface against its bar over that of the shaft, [m]."""
+    return 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
 
 
 def bar_weight(bearing: Bearing, gravity: float) -> float:

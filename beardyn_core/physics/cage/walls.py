@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.physics.cage.pocket_film import is_reached, pocket_loads
+from beardyn_core.physics.cage.pocket_film import is_reached, pocket_loads, rolling_speed
 from beardyn_core.physics.lanes.lane_math import at_least, magnitude, sqrt, where_greater
 from beardyn_core.physics.lanes.vectors import Vector, add, add_scaled, cross, dot, scale, subtract
 
@@ -80,9 +80,11 @@ def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
     inside = at_least(depth, 0.0)
     rate = dot(slip, direction)
     stored = 0.5 * cage.stiffness * inside * inside
-    spring = cage.stiffness * _partial_contact_mean(inside, rate, cage.step)
+    spring = cage.stiffness * partial_contact_mean(inside, rate, cage.step)
     damping = where_greater(depth, 0.0, cage.damping + 0.0 * depth, 0.0 * depth)
-    load, solid, shear = pocket_loads(depth, spring + damping * rate, rate, slip, direction, shape, film)
+    axis, radius = shape
+    rolling = rolling_speed(slip, direction, axis, film)
+    load, solid, shear = pocket_loads(depth, spring + damping * rate, rate, rolling, radius, film)
     tangential = add_scaled(slip, -rate, direction)
     speed = sqrt(dot(tangential, tangential) + cage.regularisation * cage.regularisation)
     friction = cage.friction * solid / speed + shear
@@ -92,7 +94,7 @@ def _press_wall(walls, arm, slip, direction, depth, cage, shape, film):
 
 
 @inline
-def _partial_contact_mean(inside, rate, step):
+def partial_contact_mean(inside, rate, step):
     """Take what a wall's spring presses with where its contact begins or ends within a step, [m].
 
     A whole step of the force at the first or last instant of contact takes or gives k d (u h - d) / 2 more

@@ -315,7 +315,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         rib = lane_total(sums, RIB_SUM)
         if due:
             losses = held_losses(sums, speeds, rib, p)
-            rubbing = rubbing_torque(bodies, speeds, stride, p.kinematic, loose)
+            rubbing = rubbing_torque(bodies, stride, loose)
             losses = (losses[0] + rubbing, losses[1])
             keep_losses(energy, sums, speeds, rubbing, stride * p.step, p)
             hold_stiffness(lanes, sums, direction, response, p, bending)
