@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from beardyn_core.measured.about import Mounted
     from beardyn_core.measured.options import Reading
 
-_PLATE = ("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg")
+_PLATE = (
+    *("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg"),
+    *("bpfo", "bpfi", "bsf", "ftf"),
+)
 USUAL_LABEL = "bearing"
 
 
@@ -40,8 +43,9 @@ def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
         metavar="[LABEL=]NAME[@SENSOR]",
         action="append",
         default=[],
-        help="bearing data: shipped (`beardyn scenes plates`, `beardyn scenes bearings`) or a YAML file; "
-        "again for each bearing on the shaft, with a label, and with the accelerometer that measures it; "
+        help="designation of the catalogue (`beardyn scenes catalogue`), with any endings of seals, cage and "
+        "clearance, a shipped bearing (`beardyn scenes bearings`) or a YAML file; again for each bearing "
+        "on the shaft, with a label, and with the accelerometer that measures it; "
         f"{default}",
     )
     for place in places(NamePlate):
