@@ -24,8 +24,12 @@ def catalogue(
 
     Parameters
     ----------
-    bore_mm, outside_mm, width_mm : float, optional
-        Dimension that a bearing must have, to 0.05 mm, [mm]; default any.
+    bore_mm : float, optional
+        Bore of the bearings, to 0.05 mm; default any.
+    outside_mm : float, optional
+        Outside diameter of the bearings, to 0.05 mm; default any.
+    width_mm : float, optional
+        Width of their inner ring, to 0.05 mm; default any.
     kind : str
         Kind that a bearing must have, such as tapered roller, or a word of it; default any.
     maker : str

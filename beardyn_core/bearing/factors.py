@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
 from typing import Annotated as A
 from typing import NamedTuple
@@ -39,6 +39,18 @@ class Factors:
     def given(self) -> dict[str, float]:
         """List the factors that are known."""
         return {name: value for name in SYMBOLS if not isnan(value := getattr(self, name))}
+
+    def rounding(self, name: str) -> float:
+        """Half of the last digit that a factor is written with; NaN where it is not known.
+
+        A list has as many digits for all passes and spins: 2 next to 3.585 is 2.000. Of the cage it may have
+        fewer.
+        """
+        if isnan(getattr(self, name)):
+            return nan
+        if name == "ftf":
+            return 0.5 * 10.0 ** -max(2, _digits(self.ftf))
+        return 0.5 * 10.0 ** -max(1, *map(_digits, (self.bpfo, self.bpfi, self.bsf)))
 
 
 class Derived(NamedTuple):
@@ -106,10 +118,11 @@ def _count_of(known: Factors) -> int:
     if isfinite(known.bpfo + known.bpfi):
         return round(known.bpfo + known.bpfi)
     exact = 0.5 * (1.0 - known.ratio * math.cos(known.angle))  # NaN without diameters
-    cage, doubt = (exact, 0.0) if isfinite(exact) else (known.ftf, _rounding(known.ftf))
-    for order, share in ((known.bpfo, cage), (known.bpfi, 1.0 - cage)):
+    cage, doubt = (exact, 0.0) if isfinite(exact) else (known.ftf, known.rounding("ftf"))
+    for name, share in (("bpfo", cage), ("bpfi", 1.0 - cage)):
+        order = getattr(known, name)
         if isfinite(order + share):
-            wide = order / share * (_rounding(order) / order + doubt / share + _SLACK)
+            wide = order / share * (known.rounding(name) / order + doubt / share + _SLACK)
             fitting = range(math.ceil(order / share - wide), math.floor(order / share + wide) + 1)
             return fitting[0] if len(fitting) == 1 else 0
     return 0
@@ -120,7 +133,7 @@ def _gamma_of(known: Factors) -> _Gamma | None:
     count, found = _count_of(known), []
     if isfinite(known.ratio * known.angle):
         found.append(_Gamma(known.ratio * math.cos(known.angle), 0.0, "the diameters"))
-    out, inner = _rounding(known.bpfo), _rounding(known.bpfi)
+    out, inner = known.rounding("bpfo"), known.rounding("bpfi")
     if count and isfinite(known.bpfo + known.bpfi):
         found.append(_Gamma((known.bpfi - known.bpfo) / count, (out + inner) / count, "bpfo and bpfi"))
     elif count and isfinite(known.bpfo):
@@ -128,7 +141,7 @@ def _gamma_of(known: Factors) -> _Gamma | None:
     elif count and isfinite(known.bpfi):
         found.append(_Gamma(2.0 * known.bpfi / count - 1.0, 2.0 * inner / count, "bpfi"))
     if isfinite(known.ftf):
-        found.append(_Gamma(1.0 - 2.0 * known.ftf, 2.0 * _rounding(known.ftf), "ftf"))
+        found.append(_Gamma(1.0 - 2.0 * known.ftf, 2.0 * known.rounding("ftf"), "ftf"))
     return min(found, key=lambda each: each.doubt, default=None)
 
 
@@ -150,8 +163,10 @@ def contradictions(known: Factors) -> Iterator[str]:
             f"bpfo is {known.bpfo:g} and bpfi is {known.bpfi:g}; bpfo must be less than bpfi: are they "
             "exchanged?"
         )
-    if any(value <= 0.0 for value in given.values()) or known.ftf >= 0.5:
+    if any(value <= 0.0 for value in given.values()):
         return
+    if known.ftf >= 0.5:
+        known = replace(known, ftf=nan)
     yield from _against_count(known)
     yield from _against_cage(known)
     yield from _against_diameters(known)
@@ -171,7 +186,7 @@ def _against_count(known: Factors) -> Iterator[str]:
                         f"between {low:g} and {high:g} then"
                     )
         return
-    doubt = _rounding(known.bpfo) + _rounding(known.bpfi) + _SLACK
+    doubt = known.rounding("bpfo") + known.rounding("bpfi") + _SLACK
     wanted = known.roller_count or round(total)
     if abs(total - wanted) > doubt:
         what = f"roller_count, {wanted}" if known.roller_count else "a whole number"
@@ -187,7 +202,7 @@ def _against_cage(known: Factors) -> Iterator[str]:
         return
     for name, order, share in (("bpfo", known.bpfo, known.ftf), ("bpfi", known.bpfi, 1.0 - known.ftf)):
         if isfinite(order):
-            doubt = count * _rounding(known.ftf) + _rounding(order) + _SLACK * order
+            doubt = count * known.rounding("ftf") + known.rounding(name) + _SLACK * order
             if abs(order - count * share) > doubt:
                 law = "ftf" if name == "bpfo" else "(1 - ftf)"
                 yield (
@@ -207,7 +222,11 @@ def _against_diameters(known: Factors) -> Iterator[str]:
         ("ftf", known.ftf, 0.5 * (1.0 - gamma)),
     ):
         count = 1 if name == "ftf" else known.roller_count
-        if isfinite(order) and count and abs(order - count * share) > _rounding(order) + _COARSEST * order:
+        if (
+            isfinite(order)
+            and count
+            and abs(order - count * share) > known.rounding(name) + _COARSEST * order
+        ):
             yield f"{name} is {order:g}; from the diameters it is {count * share:.5g}"
 
 
@@ -217,7 +236,7 @@ def _against_spin(known: Factors) -> Iterator[str]:
         return
     g = gamma.value
     largest = 0.5 * (1.0 - g**2) / g
-    doubt = gamma.doubt / g + _rounding(known.bsf) / known.bsf + _COARSEST
+    doubt = gamma.doubt / g + known.rounding("bsf") / known.bsf + _COARSEST
     cosine = known.bsf / largest
     if isfinite(known.angle) and abs(cosine / math.cos(known.angle) - 1.0) <= doubt:
         return
@@ -239,9 +258,6 @@ def _against_spin(known: Factors) -> Iterator[str]:
         )
 
 
-def _rounding(value: float) -> float:
-    """Half of the last digit that a number is written with; NaN of NaN."""
-    if not isfinite(value):
-        return nan
-    digits = f"{value:.6g}".partition(".")[2]
-    return 0.5 * 10.0 ** -max(1 if value >= 1.0 else 2, len(digits))
+def _digits(value: float) -> int:
+    """Count the digits behind the point that a number is written with."""
+    return len(f"{value:.6g}".partition(".")[2]) if isfinite(value) else 0

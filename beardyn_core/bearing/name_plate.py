@@ -83,7 +83,7 @@ class NamePlate:
         yield from wrong
         if not wrong and known.given() and isnan(self.frequencies.bpfo) and isnan(self.frequencies.bpfi):
             yield (
-                f"{' and '.join(known.given())} alone give neither bpfo nor bpfi; give one of them, or "
+                f"neither bpfo nor bpfi follows from {' and '.join(known.given())}; give one of them, or "
                 "roller_count with ftf to three digits"
             )
 

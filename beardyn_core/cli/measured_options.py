@@ -116,6 +116,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
 
 
 def _plate_of(args: argparse.Namespace) -> NamePlate | None:
+    from beardyn_core.bearing.factors import SYMBOLS
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.config.nouns import read_noun
 
@@ -123,7 +124,13 @@ def _plate_of(args: argparse.Namespace) -> NamePlate | None:
     given = {key: value for key, value in given.items() if value is not None}
     if not given:
         return None
-    return _in_words_of_options(lambda: read_noun(NamePlate, given, "bearing of the options"), list(_PLATE))
+    try:
+        made: NamePlate = read_noun(NamePlate, given, "bearing of the options")
+    except InputError as error:
+        factors = rf"\b({'|'.join(SYMBOLS)})\b"
+        problems = [in_options(each, list(_PLATE)) for each in error.problems]
+        raise InputError([re.sub(factors, r"--\1", each) for each in problems]) from None
+    return made
 
 
 def _in_words_of_options(make: Callable[[], Any], keys: list[str]) -> Any:

@@ -28,6 +28,7 @@ _EQUAL = 0.9  # of the evidence of the best, from which a bearing explains a com
 _ALIKE = 0.006  # orders that differ by less are of one comb, [-]
 _NEAR = 0.01  # slip of an order beyond which a comb is rather that of another bearing, [-]
 _BIN = 0.01  # patterns whose orders differ by less are laid as one, [-]
+_FINER = 1.5  # times its order is below that of a pattern: a comb has lines between those of the pattern
 _CAGE_BIN = 0.004  # and those whose cage orders do
 
 
@@ -127,13 +128,12 @@ class BearingSearch:
         power = REFERENCE.envelope(REFERENCE.whiten(stretch, settings), band)
         tracked = REFERENCE.track(power, stretch, settings)
         found = lay_patterns(tracked, list(self._alike), stretch.shaft_frequency, settings)
-        # without odd harmonics it is a comb of twice its order
-        whole = [each for each in found.candidates if each.odd > 0.0 or each.score < each.threshold]
-        surest = max(whole or found.candidates, key=lambda each: each.evidence)
+        surest = _surest(found.candidates, settings)
         measured = with_strikes(replace(found, candidates=(surest,)), stretch, band, settings)
         passed = surest.score >= surest.threshold and strikes(measured.candidates[0], settings)
         for bare in measured.combs[:1]:
-            if bare.evidence <= surest.evidence or is_same_comb(bare, surest):
+            between = bare.order * _FINER < surest.order and surest.pattern.divided == 1
+            if bare.evidence <= surest.evidence or (is_same_comb(bare, surest) and not between):
                 continue
             passed = False
             loudest = max(measured.combs, key=lambda each: each.strikes)
@@ -226,7 +226,7 @@ class BearingSearch:
             near = f"; nearest is the {PART_NAMES[part]} of {name}, {100.0 * away:.2g} % off" if name else ""
             return answer(NONE, f"{comb} is that of no part of {self.searched} bearings{near}")
         nearest = fits[0]
-        part = " and ".join(f"{PART_NAMES[each.part]} ({each.order:.3f})" for each in nearest.parts)
+        part = " and ".join(PART_NAMES[each.part] for each in nearest.parts)
         off = f"{100.0 * nearest.deviation:.2g} % off"
         if len(fits) == 1:
             return answer(ONE, f"{comb} is that of the {part} of {nearest.name} alone, {off}", fits)
@@ -262,3 +262,23 @@ class BearingSearch:
                 parts.sort(key=lambda each: -each.evidence)
                 found.append(BearingFit(name, tuple(parts), share))
         return found
+
+
+def _surest(candidates: Sequence[Candidate], settings: MonitorSettings) -> Candidate:
+    """Find the pattern that names the comb.
+
+    Without odd harmonics it is a comb of twice its order; with sure ones a comb of twice or three times that
+    order is the same, its every second or third line stronger than those between.
+    """
+    whole = [each for each in candidates if each.odd > 0.0 or each.score < each.threshold]
+    surest = max(whole or candidates, key=lambda each: each.evidence)
+    chance = -log(settings.false_alarm_rate)
+    parts = [
+        each
+        for each in whole
+        for part in (2, 3)
+        if each.score >= each.threshold
+        and each.odd > chance
+        and abs(surest.order / (part * each.order) - 1.0) <= _ALIKE
+    ]
+    return max(parts, key=lambda each: each.evidence, default=surest)

@@ -109,7 +109,8 @@ class Chain:
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         score = {each.pattern.fault: each.score for each in found.candidates}
-        if unknown := [PART_NAMES[part] for part in FAULTS if part not in score]:
+        unknown = [PART_NAMES[part] for part in FAULTS if part not in score]
+        if unknown and verdict.name not in FAULTS:
             cannot = f"cannot tell: {', '.join(unknown)}, whose order is not known"
             verdict = replace(verdict, reason=f"{verdict.reason}; {cannot}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
