@@ -89,7 +89,7 @@ def which_bearing(
     InputError
         With every mistake, or where no bearing of the catalogue has such dimensions.
     """
-    from beardyn_core.study.bearing_of_vibration import bearing_search, search_in_run
+    from beardyn_core.study.fitting_bearing import bearing_search, search_in_run
 
     several = catalogue(bore_mm=bore_mm, outside_mm=outside_mm, width_mm=width_mm, kind=kind, maker=maker)
     return search_in_run(run, bearing_search(several), sensor, settings)

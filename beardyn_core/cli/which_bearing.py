@@ -69,7 +69,7 @@ def chosen_entries(args: argparse.Namespace) -> tuple[CatalogueEntry, ...]:
 def run_which_bearing(args: argparse.Namespace, *, recorded: bool) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.measured.survey import survey
-    from beardyn_core.study.bearing_of_vibration import bearing_search, search_in_files, search_in_run
+    from beardyn_core.study.fitting_bearing import bearing_search, search_in_files, search_in_run
 
     problems = option_problems(args)
     try:
