@@ -172,9 +172,9 @@ def find_bearing(designation: str) -> CatalogueEntry:
     near = [known[name] for name in _nearest(own, known)]
     hint = f"nearest are {', '.join(near)}; " if near else ""
     raise InputError(
-        f"there is no bearing {designation!r} in the catalogue; {hint}`beardyn scenes catalogue` lists all; "
-        "give the maker's factors (bpfo, bpfi, bsf, ftf), inner dimensions, or the path of a file ending in "
-        ".yaml"
+        f"there is no bearing {designation!r} in the catalogue; {hint}`beardyn scenes catalogue` lists all, "
+        f"shipped whole bearings are {', '.join(shipped_names('bearings'))}; give the "
+        "maker's factors (bpfo, bpfi, bsf, ftf), inner dimensions, or the path of a file ending in .yaml"
     )
 
 
