@@ -69,6 +69,7 @@ def chosen_entries(args: argparse.Namespace) -> tuple[CatalogueEntry, ...]:
 def run_which_bearing(args: argparse.Namespace, *, recorded: bool) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.measured.survey import survey
+    from beardyn_core.monitor.bearing_search import SEVERAL
     from beardyn_core.study.fitting_bearing import bearing_search, search_in_files, search_in_run
 
     problems = option_problems(args)
@@ -97,7 +98,8 @@ def run_which_bearing(args: argparse.Namespace, *, recorded: bool) -> int:
     if args.json:
         print(json_text("monitor", {"files": args.files, "which_bearing": _object(found)}))
     else:
-        print("\n".join(_lines(found)))
+        fewer = found.answer == SEVERAL and not size_options(args)
+        print("\n".join(_lines(found)) + ("; --bore-mm and --outside-mm leave fewer" if fewer else ""))
     return 0
 
 

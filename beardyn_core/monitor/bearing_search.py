@@ -15,7 +15,14 @@ from beardyn_core.monitor.chain.chain import REFERENCE
 from beardyn_core.monitor.chain.competing_orders import is_related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import ROLLER, Candidate, Pattern, fault_patterns, lay_patterns
+from beardyn_core.monitor.chain.fault_lines import (
+    CONE,
+    ROLLER,
+    Candidate,
+    Pattern,
+    fault_patterns,
+    lay_patterns,
+)
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -95,8 +102,9 @@ class BearingSearch:
     A comb is what the monitor calls one: lines beyond chance that strike. The surest pattern of all bearings
     names it. A bearing fits where one of its parts has the order of the comb within 1 % of slip and the
     uncertainty of the speed, and at least 0.9 of the evidence of the surest; sidebands count, so that a cone
-    is told from a cup. Without the lines of that comb, other parts of the bearings that fit are sought.
-    Bearings with like orders explain a comb equally well, and nothing in the vibration tells them apart.
+    with sidebands is told from a cup. Without the lines of that comb, other parts of the bearings that fit
+    are sought. Bearings with like orders explain a comb equally well, and nothing in the vibration tells
+    them apart.
     """
 
     def __init__(self, bearings: Mapping[str, FaultFrequencies]) -> None:
@@ -156,7 +164,7 @@ class BearingSearch:
         parts: dict[str, list[FittingPart]] = defaultdict(list)
         near = _NEAR + settings.speed_uncertainty
         for each, alike in zip(candidates, self._alike.values(), strict=True):
-            if abs(each.order / comb.order - 1.0) > _ALIKE or each.evidence < _EQUAL * comb.evidence:
+            if abs(each.order / comb.order - 1.0) > _ALIKE or _strength(each) < _EQUAL * comb.evidence:
                 continue
             for name, pattern in alike:
                 away = abs(comb.order / pattern.order - 1.0)
@@ -194,10 +202,10 @@ class BearingSearch:
                 replace(found, candidates=(comb, each), combs=()), stretch, band, settings
             )
             if strikes(measured.candidates[1], settings):
-                for name in names:
-                    parts[name].append(
-                        FittingPart(each.pattern.fault, each.order, each.pattern.order, each.evidence)
-                    )
+                own = FittingPart(each.pattern.fault, each.order, each.pattern.order, each.evidence)
+                for name in names:  # at one speed: a stated one is wrong for all parts alike
+                    if abs(own.deviation - parts[name][0].deviation) <= _ALIKE:
+                        parts[name].append(own)
 
     def conclude(self) -> BearingSearchResult:
         """Sum up all analyses."""
@@ -219,7 +227,6 @@ class BearingSearch:
                 "and nothing else in the vibration names a bearing",
             )
         fits = sorted(self._fits(struck), key=lambda each: (-len(each.parts), each.deviation, each.name))
-        fits = [each for each in fits if len(each.parts) == len(fits[0].parts)]
         comb = f"a comb of order {order:.3f}"
         if not fits:
             away, name, part = min(self._nearest, default=(nan, "", ""))
@@ -233,7 +240,7 @@ class BearingSearch:
         return answer(
             SEVERAL,
             f"{comb} is that of a part of {len(fits)} of {self.searched} bearings; nearest is the {part} of "
-            f"{nearest.name}, {off}; bore and outside diameter leave fewer",
+            f"{nearest.name}, {off}",
             fits,
         )
 
@@ -262,6 +269,11 @@ class BearingSearch:
                 parts.sort(key=lambda each: -each.evidence)
                 found.append(BearingFit(name, tuple(parts), share))
         return found
+
+
+def _strength(each: Candidate) -> float:
+    """Give the evidence of a pattern; an inner ring may strike alike all round, without sidebands."""
+    return max(each.evidence, each.alone) if each.pattern.fault == CONE else each.evidence
 
 
 def _surest(candidates: Sequence[Candidate], settings: MonitorSettings) -> Candidate:
