@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, train
     from beardyn_core.api.exporting import export
+    from beardyn_core.api.finding import catalogue, which_bearing
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import heat_interval, steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
@@ -98,17 +99,19 @@ __all__ += [
     "bearing",
     "blocks",
     "calibrate",
+    "catalogue",
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
 __all__ += ["read_measured", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
-__all__ += ["torque", "train", "trend"]
+__all__ += ["torque", "train", "trend", "which_bearing"]
 
 _MODULES = {
     "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
     "api.exporting": ("export",),
+    "api.finding": ("catalogue", "which_bearing"),
     "api.following": ("Following",),
     "api.heat": ("heat_interval", "steady_heat"),
     "api.making": ("lubricant", "name_plate"),

@@ -17,9 +17,10 @@ from rclpy.node import Node
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import ZERO_CELSIUS
-from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.config import load_bearing
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_plate
 from beardyn_core.monitor.chain import MonitorSettings, algorithm_named
+from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.streaming import Monitor
 from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import cloud_times
@@ -33,7 +34,7 @@ from beardyn_core.record.topics import WRENCH
 from beardyn_core.study.monitored_recording import HOT_BOX, UNEXPLAINED, WAITING, Finding, Tally
 from beardyn_ros.diagnostics import MONITOR, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.node_parameters import PARAMETERS
+from beardyn_ros.node_parameters import FACTORS, PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.train_signals import Hearer, TrainSignals
@@ -46,6 +47,12 @@ _UNJUDGED = (
 )
 
 
+def _bearing_of(values: ParameterValues) -> NamePlate:
+    """Take the factors that are given, else the bearing of the name."""
+    given = {each.name: value for each in FACTORS if (value := getattr(values, each.name))}
+    return NamePlate(**given) if given else load_plate(values.bearing)
+
+
 class MonitorNode(Node):
     """Shows vibration, shaft and load to a `Monitor` and publishes what it says."""
 
@@ -56,7 +63,7 @@ class MonitorNode(Node):
         self._values = ParameterValues(self, PARAMETERS["monitor"])
         problems = []
         try:
-            self._bearing = load_bearing(self._values.bearing)
+            self._bearing = _bearing_of(self._values)
         except InputError as error:
             problems += [f"node monitor, parameter 'bearing': {each}" for each in error.problems]
         try:
@@ -65,7 +72,7 @@ class MonitorNode(Node):
             problems += [f"node monitor, parameter 'algorithm': {each}" for each in error.problems]
         if problems:
             raise InputError(problems)
-        self._orders = fault_frequencies(self._bearing)
+        self._orders = self._bearing.frequencies
         self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
         hearer = Hearer(self._begin, self._push_vibration, self._push_shaft, self._push_temperature)
         self._signals = TrainSignals(
@@ -78,6 +85,8 @@ class MonitorNode(Node):
             f"{self._bearing.name}: BPFO {self._orders.bpfo:.4f}, BPFI {self._orders.bpfi:.4f}, "
             f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
         )
+        for part, why in self._bearing.cannot_tell.items():
+            self.get_logger().warning(f"cannot tell, {PART_NAMES[part]}: {why}")
 
     def _begin(self) -> None:
         values = self._values

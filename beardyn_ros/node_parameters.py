@@ -212,9 +212,36 @@ RECORDER = (
 BEARING = NodeParameter(
     "bearing", "HS130x230", "bearing data: shipped bearing by name, or path of a bearing file"
 )
+MONITORED = NodeParameter(
+    "bearing",
+    "HS130x230",
+    "bearing data: shipped bearing or designation of the catalogue, or path of a file of bearing data",
+)
+FACTORS = (
+    NodeParameter(
+        "bpfo",
+        0.0,
+        "maker's factor of the outer ring, and so on; those given stand in place of bearing; 0: not given",
+        minimum=0.0,
+        maximum=100.0,
+    ),
+    NodeParameter("bpfi", 0.0, "maker's factor of the inner ring; 0: not given", minimum=0.0, maximum=100.0),
+    NodeParameter(
+        "bsf",
+        0.0,
+        "maker's factor of a rolling element, not twice it; 0: not given",
+        minimum=0.0,
+        maximum=100.0,
+    ),
+    NodeParameter("ftf", 0.0, "maker's factor of the cage; 0: not given", minimum=0.0, maximum=1.0),
+    NodeParameter(
+        "roller_count", 0, "rolling elements of one row, with factors; 0: not given", minimum=0, maximum=200
+    ),
+)
 EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
 MONITOR = (
-    BEARING,
+    MONITORED,
+    *FACTORS,
     NodeParameter(
         "algorithm",
         "",

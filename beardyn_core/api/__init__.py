@@ -3,6 +3,7 @@
 ============= ===================================================================
 module        responsibility
 ============= ===================================================================
+finding       bearings of the catalogue by dimensions, and those that fit a vibration
 making        bearings, lubricants and scenes from a handful of arguments
 simulating    simulate a scene
 reading       read a recording, let a monitor judge a run

@@ -150,15 +150,16 @@ def _ring(inner_mm: float, outer_mm: float, width_mm: float) -> tuple[float, flo
 
 
 def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
-    """Give shipped bearing data, one of a file, that of a bearing, or one made in code.
+    """Give bearing data of the catalogue, of a file, of a bearing, or made in code.
 
     Parameters
     ----------
     name : str or Path, optional
-        Shipped bearing data or bearing, or YAML file.
+        Designation in the catalogue, shipped bearing, or YAML file.
     **keys
-        ``roller_count``, ``roller_diameter_mm``, ``pitch_diameter_mm``, ``contact_angle_deg``: without a name
-        all but the angle, with one in place of what the file gives.
+        Inner dimensions ``roller_count``, ``roller_diameter_mm``, ``pitch_diameter_mm``,
+        ``contact_angle_deg`` (default 0), or maker's factors ``bpfo``, ``bpfi``, ``bsf``, ``ftf``, or both,
+        in place of what the name gives. What is not given and does not follow is NaN in ``frequencies``.
 
     Raises
     ------
@@ -167,8 +168,10 @@ def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
 
     Examples
     --------
-    >>> round(name_plate("6205").frequencies.bpfo, 4)
+    >>> round(name_plate("6205-2RS JEM").frequencies.bpfo, 4)
     3.5848
+    >>> name_plate(bpfo=8.24, bpfi=10.76).roller_count
+    19
     """
     known = {} if name is None else write_noun(load_plate(name))
     known.pop("sources", None)

@@ -181,9 +181,14 @@ def write_noun(noun: Any) -> dict[str, Any]:
         value = getattr(noun, place.field)
         if place.key == "sources":
             found["sources"] = dict(value)
-        elif value is not None and not (place.at.absent and value == place.default):
+        elif value is not None and not is_absent(place, value):
             found[place.key] = written_value(value, place.at)
     return noun.as_written(found) if hasattr(noun, "as_written") else found
+
+
+def is_absent(place: Place, value: Any) -> bool:
+    """Tell whether a value stands for a key that is not given; NaN stands for itself."""
+    return place.at.absent and (value == place.default or (value != value and place.default != place.default))
 
 
 def written_value(value: Any, at: At) -> Any:
@@ -233,7 +238,7 @@ def outside(noun: Any) -> Iterator[Problem]:
     """Find values of a noun beyond their limits, not finite, or no word that is allowed."""
     for place in places(type(noun)):
         value = getattr(noun, place.field)
-        if value is None or (place.at.absent and value == place.default):
+        if value is None or is_absent(place, value):
             continue
         if place.at.one_of and isinstance(value, str) and value not in place.at.one_of:
             yield Problem(f"{place.key} is {value!r}; allowed are {', '.join(place.at.one_of)}")

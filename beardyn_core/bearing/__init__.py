@@ -8,6 +8,8 @@ geometry           `Bearing`: numbers of its file, material, apex closure, rib, 
 consistency        `check`: refuses numbers that contradict each other
 kinematics         speeds of cage and roller, fault frequencies
 name_plate         `NamePlate`: what the fault frequencies of any rolling bearing need
+factors            maker's factors: what follows from those that are given, what contradicts
+catalogue_entry    `CatalogueEntry`: a bearing with its dimensions, maker and sources
 contact_law        line contact (Palmgren), point contact (Hertz), rib of a bearing with its ellipse
 lamina_coupling    laminae coupled through the half-space, also those partly over a patch
 holed_line         load that a line contact loses over holes, from a half-space

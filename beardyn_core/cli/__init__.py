@@ -11,6 +11,7 @@ options          options that several commands have
 quantities       numbers with units in options
 demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
+catalogue_list   bearings of the catalogue, all or those of some dimensions
 new              a copy of a shipped file to start from
 simulate         a desk run
 simulate_train   the same of several axleboxes at once
@@ -30,6 +31,7 @@ bearing          static answers about one bearing
 bearing_options  load, end play and speed that they are for
 structure        modes of an axlebox
 trend            levels of many records: `beardyn monitor --trend`
+which_bearing    bearings that fit a vibration: `beardyn monitor --which-bearing`
 trial            a monitor over a matrix of scenes
 contacts         the contact laboratory
 sweep            sets of labelled runs over a population of bearings

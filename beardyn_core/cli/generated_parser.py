@@ -190,7 +190,7 @@ def flag(key: str) -> str:
 
 
 def _usual(place: Place) -> str:
-    if not isinstance(place.default, int | float):
+    if not isinstance(place.default, int | float) or place.at.absent:
         return "none"
     return f"{place.at.scale.to_edge(place.default) if place.at.unit else place.default:g}"
 

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from beardyn_core.measured.about import Mounted
     from beardyn_core.measured.options import Reading
 
-_PLATE = ("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg")
+_PLATE = (
+    *("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg"),
+    *("bpfo", "bpfi", "bsf", "ftf"),
+)
 USUAL_LABEL = "bearing"
 
 
@@ -40,8 +43,9 @@ def add_plates(parser: argparse.ArgumentParser, default: str) -> None:
         metavar="[LABEL=]NAME[@SENSOR]",
         action="append",
         default=[],
-        help="bearing data: shipped (`beardyn scenes plates`, `beardyn scenes bearings`) or a YAML file; "
-        "again for each bearing on the shaft, with a label, and with the accelerometer that measures it; "
+        help="designation of the catalogue (`beardyn scenes catalogue`), with any endings of seals, cage and "
+        "clearance, a shipped bearing (`beardyn scenes bearings`) or a YAML file; again for each bearing "
+        "on the shaft, with a label, and with the accelerometer that measures it; "
         f"{default}",
     )
     for place in places(NamePlate):
@@ -112,6 +116,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
 
 
 def _plate_of(args: argparse.Namespace) -> NamePlate | None:
+    from beardyn_core.bearing.factors import SYMBOLS
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.config.nouns import read_noun
 
@@ -119,7 +124,13 @@ def _plate_of(args: argparse.Namespace) -> NamePlate | None:
     given = {key: value for key, value in given.items() if value is not None}
     if not given:
         return None
-    return _in_words_of_options(lambda: read_noun(NamePlate, given, "bearing of the options"), list(_PLATE))
+    try:
+        made: NamePlate = read_noun(NamePlate, given, "bearing of the options")
+    except InputError as error:
+        factors = rf"\b({'|'.join(SYMBOLS)})\b"
+        problems = [in_options(each, list(_PLATE)) for each in error.problems]
+        raise InputError([re.sub(factors, r"--\1", each) for each in problems]) from None
+    return made
 
 
 def _in_words_of_options(make: Callable[[], Any], keys: list[str]) -> Any:

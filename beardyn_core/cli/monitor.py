@@ -28,6 +28,7 @@ from beardyn_core.cli.measured_options import (
 )
 from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
+from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing, size_options
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
@@ -60,6 +61,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_certainty(parser)
     add_limits(parser)
     add_trend(parser)
+    add_which_bearing(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
 
@@ -145,11 +147,16 @@ def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
+    from beardyn_core.monitor.chain.explanations import PART_NAMES
 
     if args.trend:
         return run_trend(args)
     if args.memory:
         raise InputError("--memory is that of --trend; give both")
+    if args.which_bearing:
+        return run_which_bearing(args, recorded=_is_recorded(args))
+    if sizes := size_options(args):
+        raise InputError(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
     algorithm = algorithm_named(args.monitor)
     recorded = _is_recorded(args)
     problems = _picture_problems(args)
@@ -177,6 +184,8 @@ def run(args: argparse.Namespace) -> int:
             print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
     for mounted, findings in heard.items():
         print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
+        for part, why in mounted.plate.cannot_tell.items():
+            print(f"{f'{mounted.label} ' if labelled else ''}cannot tell, {PART_NAMES[part]}: {why}")
     return _exit_code(heard)
 
 
@@ -338,7 +347,8 @@ def _monitor_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> d
         if not bearings:
             numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
             problems.append(
-                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}"
+                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
+                "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
             )
     except InputError as error:
         problems += error.problems
@@ -383,6 +393,7 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
                 "findings": [keyed_fields(finding) for finding in findings],
+                "cannot_tell": mounted.plate.cannot_tell,
             }
         )
     verdict = worst(each["verdict"] for each in every)

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import argparse
 import re
+import textwrap
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import as_a_whole, file_problems
+from beardyn_core.cli.catalogue_list import CATALOGUE
 from beardyn_core.cli.options import add_force
 from beardyn_core.cli.scenes import KINDS
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 
 _NAME_KEY = {"scenes": "scene", "trials": "trial", "sweeps": "sweep"}
 _HOW = {
@@ -24,7 +30,7 @@ _HOW = {
     "structures": "beardyn structure {file}",
     "sensors": "in a sensor of a scene beside it: type: {file}",
     "backgrounds": "in a scene beside it: background: {file}",
-    "plates": "beardyn monitor MEASURED_FILE --bearing {file}",
+    CATALOGUE: "beardyn monitor MEASURED_FILE --bearing {file}",
 }
 # What else a scene may say: shown as comments where the scene does not say it.
 POSSIBLE = {
@@ -61,7 +67,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="file to write; default NAME.yaml in this folder",
     )
     parser.add_argument(
-        "--kind", choices=KINDS, help="where to look for NAME; default everywhere, scenes first"
+        "--kind", choices=(*KINDS, CATALOGUE), help="where to look for NAME; default everywhere, scenes first"
     )
     add_force(parser)
     parser.set_defaults(run=run)
@@ -72,6 +78,8 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.config.folders import find
 
     kind = args.kind or kind_of(args.name)
+    if kind == CATALOGUE:
+        return _copy_bearing_data(args)
     source = find(kind, args.name)
     target = args.output or Path(f"{args.name}.yaml")
     files = {target: copied_text(kind, source, target).encode()}
@@ -89,8 +97,49 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
+def _copy_bearing_data(args: argparse.Namespace) -> int:
+    """Write a line of the catalogue as a file of bearing data."""
+    from beardyn_core.config.catalogue import catalogue_file, find_bearing
+
+    entry = find_bearing(args.name)
+    target = args.output or Path(f"{re.sub(r'[^A-Za-z0-9.-]+', '_', entry.name)}.yaml")
+    content = bearing_data_text(entry, target).encode()
+    _refuse({target: content}, target, catalogue_file(), args.force)
+    try:
+        with as_a_whole(target, replace=args.force) as fresh:
+            fresh.write_bytes(content)
+    except OSError as error:
+        raise InputError(f"{target}: cannot be written: {error.strerror or error}") from None
+    print(f"{target} written")
+    print(_HOW[CATALOGUE].format(file=_show_path(target)))
+    return 0
+
+
+def bearing_data_text(entry: CatalogueEntry, target: Path) -> str:
+    """Write a bearing of the catalogue as a file of its own, every number with its source."""
+    import yaml
+
+    from beardyn_core.base.edge import write_noun
+
+    keys = write_noun(entry.plate)
+    keys.pop("sources", None)
+    if _WORD.fullmatch(target.stem):
+        keys["name"] = target.stem
+    said = {key: {"value": value, "source": entry.place} for key, value in keys.items()}
+    said |= {key: keys[key] for key in ("name", "description")}
+    heading = [
+        f"# {entry.name} of the catalogue of bearings. Units stand in the keys.",
+        *textwrap.wrap(f"Source: {entry.source}.", 108, initial_indent="# ", subsequent_indent="# "),
+        "# Every key with its meaning, unit, limits and default: docs/reference.md; for editors:",
+        "# `beardyn schema plate`.",
+        f"# {_HOW[CATALOGUE].format(file=_show_path(target))}",
+    ]
+    text = yaml.safe_dump(said, sort_keys=False, allow_unicode=True, width=110)
+    return "\n".join([*heading, "", text])
+
+
 def kind_of(name: str) -> str:
-    """Find the kind of the shipped thing of a name, scenes first.
+    """Find the kind of the shipped thing of a name, scenes first, the catalogue of bearings last.
 
     Raises
     ------
@@ -99,10 +148,14 @@ def kind_of(name: str) -> str:
     """
     from beardyn_core.base.spelling import closest
     from beardyn_core.config import shipped_names
+    from beardyn_core.config.catalogue import find_bearing
 
     names = {kind: shipped_names(kind) for kind in KINDS}
     if found := [kind for kind in KINDS if name in names[kind]]:
         return found[0]
+    with suppress(InputError):
+        find_bearing(name)
+        return CATALOGUE
     guess = closest(name, [each for members in names.values() for each in members])
     hint = f"did you mean {guess}? " if guess else ""
     raise InputError(f"nothing shipped is called {name!r}; {hint}`beardyn scenes all` lists the names")

@@ -11,6 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import ZERO_CELSIUS
+from beardyn_core.cli.catalogue_list import (
+    CATALOGUE,
+    FORMER,
+    add_catalogue_options,
+    refuse_sizes,
+    run_catalogue,
+)
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 
@@ -28,7 +35,6 @@ KINDS = (
     "structures",
     "sensors",
     "backgrounds",
-    "plates",
 )
 _GROUPS = (
     "healthy bearing under a train",
@@ -48,7 +54,6 @@ _USE = {
     "structures": "modes: beardyn structure NAME",
     "sensors": "in a scene: sensors: [{name: top, type: NAME}]",
     "backgrounds": "in a scene: background: NAME",
-    "plates": "of measured files: beardyn monitor FILE --bearing NAME",
 }
 
 
@@ -58,17 +63,27 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "scenes",
         help="list the shipped scenes, bearings, lubricants, vehicles, effects, trials, sweeps, boxes, ...",
         description="List what is shipped, with what each is for. Every name is a YAML file that "
-        "`beardyn new NAME` copies.",
+        "`beardyn new NAME` copies. The catalogue holds data of ball and roller bearings of test rigs, "
+        "machines and railways; all leaves it out.",
     )
     parser.add_argument(
-        "kind", nargs="?", choices=(*KINDS, "all"), default="scenes", help="what to list; default scenes"
+        "kind",
+        nargs="?",
+        choices=(*KINDS, CATALOGUE, "all"),
+        type=lambda text: CATALOGUE if text == FORMER else text,
+        default="scenes",
+        help="what to list; default scenes",
     )
     add_json(parser)
+    add_catalogue_options(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    if args.kind == CATALOGUE:
+        return run_catalogue(args)
+    refuse_sizes(args)
     lists = {kind: entries(kind) for kind in (KINDS if args.kind == "all" else (args.kind,))}
     if args.json:
         print(json_text("scenes", lists))
@@ -257,19 +272,6 @@ def _background(name: str) -> dict[str, Any]:
     return {"purpose": background.description, "parts": parts}
 
 
-def _plate(name: str) -> dict[str, Any]:
-    from beardyn_core.config import load_plate
-
-    plate = load_plate(name)
-    return {
-        "purpose": plate.description,
-        "roller_count": plate.roller_count,
-        "roller_diameter_m": plate.roller_diameter,
-        "pitch_diameter_m": plate.pitch_diameter,
-        "contact_angle_rad": plate.contact_angle,
-    }
-
-
 _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "scenes": _scene,
     "bearings": _bearing,
@@ -281,7 +283,6 @@ _DESCRIBE: dict[str, Callable[[str], dict[str, Any]]] = {
     "structures": _structure,
     "sensors": _sensor,
     "backgrounds": _background,
-    "plates": _plate,
 }
 
 
@@ -361,8 +362,4 @@ _FIGURES: dict[str, Callable[[dict[str, Any]], list[str]]] = {
     "structures": lambda entry: [f"for {entry['bearing']}"],
     "sensors": _sensor_figures,
     "backgrounds": lambda entry: [", ".join(entry["parts"])],
-    "plates": lambda entry: [
-        f"{entry['roller_count']} x {entry['roller_diameter_m'] * 1e3:g} mm",
-        f"on {entry['pitch_diameter_m'] * 1e3:g} mm",
-    ],
 }

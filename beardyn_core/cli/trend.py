@@ -59,6 +59,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     given = {
         "--bearing": (args.bearing, bearing),
         **dict.fromkeys(plate_options(args), (True, bearing)),
+        "--which-bearing": (args.which_bearing, bearing),
         "--box": (args.box, "reads measured files, which have no axleboxes"),
         "--monitor": (args.monitor, "watches levels itself, without a monitor"),
         "--picture": (args.picture, "analyses nothing that could be drawn"),

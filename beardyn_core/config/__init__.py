@@ -16,6 +16,7 @@ missing      rows and rollers that are not there
 boxes        the scene of one axlebox of several; a scene mirrored
 nouns        files of one noun: bearings, lubricants, boxes, effects, trials
 load         scenes: references resolved, every mistake found
+catalogue    the catalogue of bearings: by designation, by dimensions
 plates       bearing data by name
 schema       JSON schema for editors
 ============ ==================================================================

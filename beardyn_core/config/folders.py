@@ -20,7 +20,6 @@ KINDS = (
     "structures",
     "sensors",
     "backgrounds",
-    "plates",
 )
 _SUFFIXES = (".yaml", ".yml")
 _AUTO = "auto"  # in place of a set of effects

@@ -1,34 +1,45 @@
-"""Bearing data by name: shipped ones, those of files, those of whole bearings."""
+"""Bearing data by name: those of the catalogue, of files, of whole bearings."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config.catalogue import find_bearing
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.nouns import bearing_from_mapping, load_bearing, read_noun
 from beardyn_core.config.yaml_text import read_file
 
 
 def load_plate(name: str | Path) -> NamePlate:
-    """Load shipped bearing data or that of a file, or take that of a whole bearing.
+    """Load bearing data of the catalogue or of a file, or take that of a whole bearing.
 
     Raises
     ------
     InputError
-        With every mistake, or the names there are.
+        With every mistake, or the nearest names there are.
     """
     text = str(name)
-    if text not in shipped_names("plates") and text in shipped_names("bearings"):
+    if text in shipped_names("bearings"):
         return NamePlate.of(load_bearing(text))
-    try:
-        path = find("plates", text)
-    except InputError as error:
-        bearings = ", ".join(shipped_names("bearings"))
-        raise InputError([f"{each}; bearings are {bearings}" for each in error.problems]) from None
+    if not (Path(text).suffix in (".yaml", ".yml") or os.sep in text or "/" in text) or _is_designation(text):
+        return find_bearing(text).plate
+    path = find("plates", text)
     data = read_file(path)
     if "row_spacing_mm" in data or "cage" in data:
         return NamePlate.of(bearing_from_mapping(data, str(path)))
     plate: NamePlate = read_noun(NamePlate, data, str(path))
     return plate
+
+
+def _is_designation(text: str) -> bool:
+    """Tell whether a slash is that of a designation, 22228 CC/W33, and not of a path."""
+    first = text.partition("/")[0]
+    return (
+        Path(text).suffix not in (".yaml", ".yml")
+        and not Path(text).exists()
+        and first[:1].isalnum()
+        and any(each.isdigit() for each in first)
+        and not Path(first).is_dir()
+    )

@@ -56,11 +56,15 @@ def doubt_of(estimator: Estimator, bearing: Bearing | NamePlate) -> str:
 def alike(one: Bearing | NamePlate, other: Bearing | NamePlate) -> bool:
     """Tell whether two bearings are of the same sizes."""
     sizes = ("roller_count", "pitch_diameter", "roller_diameter")
+    if not all(isinstance(each, Bearing) or each.has_dimensions for each in (one, other)):
+        return False
     return all(abs(getattr(one, name) / getattr(other, name) - 1.0) < _ALIKE for name in sizes)
 
 
 def sizes_text(bearing: Bearing | NamePlate) -> str:
     """Write the sizes by which bearings are told apart."""
+    if isinstance(bearing, NamePlate) and not bearing.has_dimensions:
+        return "maker's factors without diameters"
     pitch, roller = 1e3 * bearing.pitch_diameter, 1e3 * bearing.roller_diameter
     return f"{bearing.roller_count} rollers of {roller:.1f} mm on {pitch:.0f} mm"
 

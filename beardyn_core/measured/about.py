@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isnan, nan
 from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.factors import SYMBOLS
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
@@ -84,10 +86,14 @@ def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:
             plate = NamePlate(
                 name=str(keys["name"]),
                 description=str(keys["description"]),
-                roller_count=int(keys["roller_count"]),
-                roller_diameter=float(keys["roller_diameter_m"]),
-                pitch_diameter=float(keys["pitch_diameter_m"]),
-                contact_angle=float(keys["contact_angle_rad"]),
+                roller_count=int(keys["roller_count"] or 0),
+                roller_diameter=_number(keys["roller_diameter_m"]),
+                pitch_diameter=_number(keys["pitch_diameter_m"]),
+                contact_angle=_number(keys["contact_angle_rad"]),
+                bpfo=_number(keys.get("bpfo")),
+                bpfi=_number(keys.get("bpfi")),
+                bsf=_number(keys.get("bsf")),
+                ftf=_number(keys.get("ftf")),
             )
         except (KeyError, TypeError, ValueError) as error:
             raise InputError(
@@ -103,9 +109,18 @@ def _write_bearing(mounted: Mounted) -> dict[str, Any]:
     return {
         "name": plate.name,
         "description": plate.description,
-        "roller_count": plate.roller_count,
-        "roller_diameter_m": plate.roller_diameter,
-        "pitch_diameter_m": plate.pitch_diameter,
-        "contact_angle_rad": plate.contact_angle,
+        "roller_count": plate.roller_count or None,
+        "roller_diameter_m": _known(plate.roller_diameter),
+        "pitch_diameter_m": _known(plate.pitch_diameter),
+        "contact_angle_rad": _known(plate.contact_angle),
+        **{each: value for each in SYMBOLS if (value := _known(getattr(plate, each))) is not None},
         "sensor": mounted.sensor or None,
     }
+
+
+def _number(value: Any) -> float:
+    return nan if value is None else float(value)
+
+
+def _known(value: float) -> float | None:
+    return None if isnan(value) else value

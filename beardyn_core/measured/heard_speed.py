@@ -37,6 +37,12 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
             "needs the bearing: "
             "give --bearing"
         )
+    if doubtful := [each.plate.name for each in bearings if each.plate.cannot_tell]:
+        raise InputError(
+            f"{path}: the speed of the shaft is sought in the vibration (--speed-range-rpm); that needs all "
+            f"orders of the bearing, and those of {', '.join(doubtful)} are not all known: give bpfo, bpfi, "
+            "bsf and ftf, or its inner dimensions"
+        )
     plates = {each.plate.frequencies: each.plate.name for each in bearings}
     orders, names = tuple(plates), tuple(plates.values())
     rate, times, found = survey.rate(survey.sensors[0]), [], []

@@ -13,5 +13,6 @@ speed_rivals      other speeds that the same lines fit
 trend             levels of many records against the bearing's own baseline
 streaming         the streaming monitor around an algorithm, and what it is fed with
 chain             the reference monitoring algorithm: a stretch of signal to a verdict
+bearing_search    which of many bearings the combs of a vibration fit
 ================= ====================================================================
 """

@@ -111,6 +111,11 @@ def severity_of(
     """
     if fault not in ("cup", "cone"):
         return _severity_unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
+    if not plate.has_dimensions:
+        return _severity_unmeasured(
+            "the bearing data are maker's factors; give roller_count, roller_diameter_mm and "
+            "pitch_diameter_mm, from which the distance of two rollers follows"
+        )
     if plate.roller_diameter < _LEAST_ROLLER:
         return _severity_unmeasured(
             f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "

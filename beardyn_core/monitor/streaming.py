@@ -141,9 +141,9 @@ class Monitor:
     Parameters
     ----------
     orders : FaultFrequencies
-        Of one row, per shaft revolution, from geometry.
+        Of one row, per shaft revolution, from bearing data; NaN where one is not known, not all.
     roller_count : int
-        Rollers of one row.
+        Rollers of one row; 0 where that is not known.
     rate : float, optional
         Of the vibration, by default as its first block is stamped, [Hz].
     algorithm : function, optional

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.factors import SYMBOLS
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
@@ -293,9 +294,19 @@ def _measured_lines(measured: Mapping[str, Any]) -> list[str]:
         return []
     lines = [f"measured {sentence}" for sentence in measured.get("understood", ())]
     for label, plate in measured.get("bearings", {}).items():
-        lines.append(
-            f"{label:8} {plate.get('name')}: {plate.get('roller_count')} rolling elements of "
-            f"{1e3 * plate.get('roller_diameter_m', np.nan):g} mm on a circle of "
-            f"{1e3 * plate.get('pitch_diameter_m', np.nan):g} mm"
-        )
+        lines.append(f"{label:8} {plate.get('name')}: {_bearing_text(plate)}")
     return lines
+
+
+def _bearing_text(plate: Mapping[str, Any]) -> str:
+    """Describe recorded bearing data: inner dimensions, or maker's factors."""
+    diameter, pitch = plate.get("roller_diameter_m"), plate.get("pitch_diameter_m")
+    sizes = (
+        []
+        if diameter is None or pitch is None
+        else [f"{1e3 * diameter:g} mm on a circle of {1e3 * pitch:g} mm"]
+    )
+    count = plate.get("roller_count")
+    known = [f"{count} rolling elements{' of ' + sizes[0] if sizes else ''}"] if count else []
+    known += [f"{name.upper()} {plate[name]:g}" for name in SYMBOLS if plate.get(name) is not None]
+    return ", ".join(known)

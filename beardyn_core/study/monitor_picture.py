@@ -42,6 +42,8 @@ def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencie
     fundamentals = {"cup": orders.bpfo, "cone": orders.bpfi, "roller": 2.0 * orders.bsf}
     for part, symbol, colour in _PARTS:
         step = result.fault_order if part == result.verdict else fundamentals[part]
+        if not np.isfinite(step):
+            continue  # an order that the bearing data do not give
         for harmonic in range(1, int(order[-1] / step) + 1):
             name = f"{part}, {symbol}" if harmonic == 1 else None
             axes.axvline(harmonic * step, color=colour, linewidth=0.9, alpha=0.6, label=name)

@@ -9,6 +9,7 @@ run                monitors over the records, and what is right, wrong or missed
 page               docs/monitor_measured.md
 wrong_inputs       docs/monitor_wrong_inputs.md: the monitor given a wrong speed or a wrong bearing
 speed              how often the interval of the speed from vibration holds, on records it was not fitted on
+bearing_ranks      at which place the true bearing is among those that fit a record
 cycbd              blind deconvolution, aimed at an order
 spectra            other spectra than the chain's, on the part for choosing
 run_to_failure     docs/run_to_failure.md: when the trend alarms

@@ -36,6 +36,7 @@ from beardyn_core.study.monitored_recording import EXIT_CODES
 from beardyn_core.study.trial_report import json_object as trial_object
 from beardyn_core.study.trial_result import TrialResult
 from test.cli.json_page import PAGE, check, documented
+from test.measured.test_monitor_files import motor
 from test.recordings import write_recording
 from test.study.fake_ladder import FakeRuns, climbed
 from test.study.test_trial import run_of
@@ -48,7 +49,8 @@ MEASURED = {
     "bearings": {
         "drive_end": {
             "name": "6205", "description": "", "roller_count": 9, "roller_diameter_m": 0.00794,
-            "pitch_diameter_m": 0.03904, "contact_angle_rad": 0.0, "sensor": None,
+            "pitch_diameter_m": 0.03904, "contact_angle_rad": 0.0, "bpfo": 3.585,
+            "bpfi": 5.415, "bsf": 2.357, "ftf": 0.398, "sensor": None,
         }
     },
     "understood": ["a.csv: text"],
@@ -108,7 +110,9 @@ def test_explain(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_scenes(capsys: pytest.CaptureFixture[str]) -> None:
-    check("scenes", printed(capsys, "scenes", "all"))
+    check(
+        "scenes", printed(capsys, "scenes", "all"), printed(capsys, "scenes", "catalogue", "--bore-mm", "25")
+    )
 
 
 def test_simulate() -> None:
@@ -144,10 +148,13 @@ def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     short.write_text(
         "time_s,az_g\n" + "".join(f"{k / 25600:.8f},{each:.5f}\n" for k, each in enumerate(noise))
     )
+    motor_file = str(motor(tmp_path))
     check(
         "monitor",
         printed(capsys, "monitor", str(path), "--bearing", "HS130x230"),
         printed(capsys, "monitor", str(short), "--trend"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--bpfo", "3.585"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--which-bearing", "--bore-mm", "25"),
     )
 
 

@@ -22,7 +22,6 @@ from beardyn_core.config import (
     load_box,
     load_effects,
     load_lubricant,
-    load_plate,
     load_sensor,
     load_vehicle,
     read_sweep,
@@ -40,7 +39,6 @@ LOADERS: dict[str, Any] = {
     "structures": load_box,
     "sensors": load_sensor,
     "backgrounds": load_background,
-    "plates": load_plate,
 }
 
 
@@ -61,7 +59,7 @@ def test_everything_shipped_is_listed_with_a_purpose(capsys: pytest.CaptureFixtu
     assert "spall on the cup" in cup_spall["faults"][0]
 
 
-@pytest.mark.parametrize("kind", ["effects", "plates"])
+@pytest.mark.parametrize("kind", ["effects", "sensors"])
 def test_a_list_needs_nothing_that_was_read_before(kind: str) -> None:
     """What files may have besides their nouns is known however a process begins."""
     run = [sys.executable, "-m", "beardyn_core.cli.main", "scenes", kind]

@@ -104,7 +104,7 @@ def test_options_on_the_command_line_are_told_as_they_are_written(
         "--rate-hz is -5",
         "--unit is 'q'",
         "'6299'",
-        "shipped are 6203, 6205",
+        "nearest are 6219, 6209",
         "--roller-count is 2",
     ):
         assert part in told

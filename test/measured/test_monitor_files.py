@@ -257,8 +257,8 @@ def test_a_name_plate_that_cannot_be_is_refused_with_every_mistake(tmp_path: Pat
         NamePlate(roller_count=16, roller_diameter=7.94e-3, pitch_diameter=39.04e-3)
     with pytest.raises(bd.InputError, match="pitch_diameter_mm is 7; it must be above roller_diameter_mm, 8"):
         bd.name_plate(roller_count=9, roller_diameter_mm=8, pitch_diameter_mm=7)
-    with pytest.raises(bd.InputError, match=r"no plate '6206'.*shipped are 6203, 6205.*bearings are"):
-        load_plate("6206")
+    with pytest.raises(bd.InputError, match=r"no bearing '6299'.*nearest are 6219.*scenes catalogue"):
+        load_plate("6299")
     changed = bd.name_plate("6205", contact_angle_deg=15)
     assert changed.frequencies.bpfo > bd.name_plate("6205").frequencies.bpfo
 

@@ -85,6 +85,12 @@ def test_unknown_algorithm_and_bearing_are_refused_together(graph: Graph) -> Non
     assert "Traceback" not in log
 
 
+def test_factors_that_contradict_each_other_are_refused(graph: Graph) -> None:
+    graph.node_process("monitor", bpfo=10.76, bpfi=8.24)
+    assert graph.exit_code("monitor") == 2
+    assert "are they exchanged?" in graph.processes.log("monitor")
+
+
 def test_unknown_bearing_is_refused_with_the_known_ones(graph: Graph) -> None:
     graph.node_process("monitor", bearing="HS999")
     assert graph.exit_code("monitor") == 2

@@ -11,6 +11,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
+from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
@@ -74,9 +75,9 @@ class Chain:
         Parameters
         ----------
         orders : FaultFrequencies
-            Of one row, per shaft revolution, from geometry.
+            Of one row, per shaft revolution, from bearing data; NaN where one is not known, not all.
         roller_count : int
-            Rollers of one row.
+            Rollers of one row; 0 where that is not known.
         """
         speed = stretch.shaft_frequency
         if why := unheard(stretch, settings):
@@ -107,8 +108,12 @@ class Chain:
                 found, verdict = clockwork, heard
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        score = {each.pattern.fault: each.score for each in found.candidates}
+        unknown = [PART_NAMES[part] for part in FAULTS if part not in score]
+        if unknown and verdict.name not in FAULTS:
+            cannot = f"cannot tell: {', '.join(unknown)}, whose order is not known"
+            verdict = replace(verdict, reason=f"{verdict.reason}; {cannot}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
-        cup, cone, roller = found.candidates
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
         own = [each.speed for each in verdict.fits if not each.bearing]
         if called:
@@ -128,7 +133,7 @@ class Chain:
             fits=verdict.fits,
             score=best.score,
             threshold=best.threshold,
-            scores=(cup.score, cone.score, roller.score),
+            scores=(score.get("cup", np.nan), score.get("cone", np.nan), score.get("roller", np.nan)),
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,

@@ -12,6 +12,7 @@ from beardyn_core.monitor.chain.fault_lines import Pattern, fault_patterns
 PART_NAMES = {"cup": "outer ring (cup)", "cone": "inner ring (cone)", "roller": "rolling elements"}
 _SLIP = 0.01  # within which an order is that of a part, [-]
 _RPM = 60.0  # of a hertz
+_COMMON = ("6203", "6205", "NICE")  # with the whole catalogue some part has any order, and nothing is said
 
 
 class Explanation(NamedTuple):
@@ -68,5 +69,5 @@ def explanations(
 def _shipped_patterns() -> tuple[tuple[str, tuple[Pattern, ...]], ...]:
     from beardyn_core.config import load_plate, shipped_names
 
-    names = (*shipped_names("plates"), *shipped_names("bearings"))
+    names = (*_COMMON, *shipped_names("bearings"))
     return tuple((name, fault_patterns(load_plate(name).frequencies)) for name in names)

@@ -10,9 +10,10 @@ among all independent places.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from math import isnan
 from typing import Annotated as A
 
 import numpy as np
@@ -36,6 +37,7 @@ COMB = "comb"  # evenly spaced lines of any order
 LINE_LEVEL = 9.0  # over the median background, from which a single line is listed, [dB]
 # of the search for the strongest line, in multiples of the roller count: above the cage's own orders
 _LOWEST_ORDER = 0.3
+_LOWEST_OF_PARTS = 0.7  # of the lowest order of a part, where the roller count is not known
 _SLIP = 0.01  # of rollers at a speed that is not the stated one, [-]
 _FOREIGN = 0.3  # combs are sought up to this share beyond the last line of the bearing's own parts
 _ODD = (1.0, 3.0, 5.0, 7.0)  # harmonics that are those of no comb of twice the order
@@ -117,7 +119,7 @@ class FaultLines:
     """Lines of faults in a spectrum, with their scores."""
 
     spectrum: OrderSpectrum
-    candidates: A[tuple[Candidate, ...], "one for each of `FAULTS`, at the stated speed"]
+    candidates: A[tuple[Candidate, ...], "one for each of `FAULTS` whose order is known, at the stated speed"]
     strongest_order: A[float, "of the strongest line in the band of the fault lines, no whole order, [-]"]
     strongest_level: A[float, "of that line, [dB]"]
     deepest: A[float, "strongest line as measured over the mean power, [-]"] = 0.0
@@ -142,18 +144,20 @@ class FaultLines:
 
 
 def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
-    """List the patterns of cup, cone and roller faults.
+    """List the patterns of cup, cone and roller faults, of those whose orders are known.
 
     References
     ----------
     Randall, Antoni (2011), Rolling element bearing diagnostics - a tutorial, Mech. Syst. Signal
     Process. 25, section 2 (signatures).
     """
-    return (
+    cage = 0.0 if isnan(orders.ftf) else orders.ftf
+    several = (
         Pattern("cup", "BPFO", orders.bpfo, 1.0, "shaft", 0, 1),
-        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4, other_sideband=orders.ftf),
+        Pattern("cone", "BPFI", orders.bpfi, 1.0, "shaft", 1, 4, other_sideband=cage),
         Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2, other_sideband=1.0),
     )
+    return tuple(each for each in several if not isnan(each.order + each.sideband))
 
 
 def comb_score(
@@ -170,13 +174,15 @@ def comb_score(
     tracked : float64 array, shape [step]
         Evenly in angle.
     orders : FaultFrequencies
-        Of one row, per shaft revolution, from geometry.
+        Of one row, per shaft revolution, from bearing data; NaN where one is not known, not all.
+    roller_count : int
+        0 where it is not known.
     shaft_frequency : float
         [Hz].
     """
     patterns = fault_patterns(orders)
-    rate = settings.false_alarm_rate / len(patterns)
-    low = _LOWEST_ORDER * roller_count
+    rate = settings.false_alarm_rate / len(FAULTS)
+    low = _LOWEST_ORDER * roller_count or _LOWEST_OF_PARTS * min(each.order for each in patterns)
     known = settings.tolerance + settings.speed_uncertainty
     doubt = settings.speed_doubt
     slowest, fastest = (1.0 - _SLIP) / (1.0 + doubt) - 1.0, (1.0 + _SLIP) / (1.0 - doubt) - 1.0
@@ -198,6 +204,37 @@ def comb_score(
         elsewhere=tuple(lay(each, outside, settings.speed_doubt) for each in patterns) if outside else (),
         neighbours=neighbours,
         combs=_combs(beside, neighbours, settings),
+    )
+
+
+def lay_patterns(
+    tracked: Float,
+    patterns: Sequence[Pattern],
+    shaft_frequency: float,
+    settings: MonitorSettings,
+    *,
+    without: Candidate | None = None,
+) -> FaultLines:
+    """Score patterns of any bearings in power over the angle of the shaft, as `comb_score` those of one.
+
+    The bare combs are those of any order, whatever explains them. Lines that a candidate explains can be
+    taken out.
+    """
+    known = settings.tolerance + settings.speed_uncertainty
+    highest = max(_highest(each, _FOREIGN, settings) for each in patterns)
+    wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
+    beside = _beside_shaft(_beside_wheel(wide), settings)
+    if without is not None:
+        beside = _taken_out(beside, without.explains(beside.order, beside.resolution))
+    rate = settings.false_alarm_rate / len(patterns)
+    lay = partial(_lay, spectrum=beside, shaft_frequency=shaft_frequency, rate=rate, settings=settings)
+    laid = tuple(lay(each, ((-known, known),), settings.speed_uncertainty, hasty=True) for each in patterns)
+    return FaultLines(
+        spectrum=wide,
+        candidates=laid,
+        strongest_order=np.nan,
+        strongest_level=np.nan,
+        combs=_combs(beside, (), settings),
     )
 
 
@@ -258,10 +295,12 @@ def _lay(
     settings: MonitorSettings,
     *,
     with_rival: bool = False,
+    hasty: bool = False,
 ) -> Candidate:
     """Slide the pattern over ranges about its order, keep the best place and list its lines.
 
     Sidebands are multiples of the shaft or the cage; where the speed is in error [-] they may shift with it.
+    Of many patterns, in haste, those below their threshold are not looked at any further.
     """
     harmonics, resolution = settings.harmonics, spectrum.resolution
     places = np.array(pattern.lines(harmonics))
@@ -287,11 +326,15 @@ def _lay(
     width = pattern.order * len(scales) * sum(high - low for low, high in ranges)
     independent = max(1.0, PLACES_PER_RESOLUTION * width * harmonics / resolution)
     sure = evidence(total, count, independent * len(FAULTS))
+    score = float(10.0 * np.log10(max(1.0, total / (count - 1))))
+    threshold = score_threshold(count, round(independent, 1), rate)
+    if hasty and score < threshold:
+        return Candidate(fitted, order, score, threshold, sure, Rival(), ())
     weigh = partial(_evidence_of, power, spectrum, independent)
     alone, otherwise = sure, -np.inf
     if pattern.sidebands:
         alone = weigh(order * np.arange(1.0, harmonics + 1.0))
-        rivals = [(order, pattern.other_sideband)]
+        rivals = [(order, pattern.other_sideband)] if pattern.other_sideband else []
         rivals += [(order + side * fitted.sideband, fitted.sideband) for side in (-1.0, 1.0)]
         otherwise = max(weigh(each * places[:, 0] + side * places[:, 1]) for each, side in rivals)
     known = mark_explained(
@@ -306,8 +349,8 @@ def _lay(
     return Candidate(
         pattern=fitted,
         order=order,
-        score=float(10.0 * np.log10(max(1.0, total / (count - 1)))),
-        threshold=score_threshold(count, round(independent, 1), rate),
+        score=score,
+        threshold=threshold,
         evidence=sure,
         alone=alone,
         odd=weigh(order * np.array(_ODD)),
@@ -348,11 +391,14 @@ def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
 def _without(spectrum: OrderSpectrum, turns: float) -> OrderSpectrum:
     """Remove the multiples of an order from a spectrum."""
     away = np.abs(spectrum.order - turns * np.round(spectrum.order / turns))
-    near = away <= 2.0 * spectrum.resolution
+    return _taken_out(spectrum, away <= 2.0 * spectrum.resolution)
+
+
+def _taken_out(spectrum: OrderSpectrum, lines: Bool) -> OrderSpectrum:
     return replace(
         spectrum,
-        level=np.where(near, _NOTHING, spectrum.level),
-        amplitude=np.where(near, 0.0, spectrum.amplitude),
+        level=np.where(lines, _NOTHING, spectrum.level),
+        amplitude=np.where(lines, 0.0, spectrum.amplitude),
     )
 
 

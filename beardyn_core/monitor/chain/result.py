@@ -38,7 +38,11 @@ class MonitorResult:
     fits: A[tuple[Explanation, ...], "what would explain them"] = ()
     score: A[float, "of the strongest candidate, [dB]"] = 0.0
     threshold: A[float, "score from which it is called, [dB]"] = np.nan
-    scores: A[tuple[float, float, float], "for cup, cone and roller, [dB]"] = (0.0, 0.0, 0.0)
+    scores: A[tuple[float, float, float], "for cup, cone and roller, NaN without their order, [dB]"] = (
+        0.0,
+        0.0,
+        0.0,
+    )
     lines: A[tuple[Line, ...], "lines of the strongest candidate that stand out one by one"] = ()
     strongest_order: A[float, "of the strongest line above the cage's own, [-]"] = np.nan
     strongest_level: A[float, "of that line, [dB]"] = np.nan

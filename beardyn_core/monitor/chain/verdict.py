@@ -76,12 +76,12 @@ def _stranger(found: FaultLines, settings: MonitorSettings) -> Candidate | None:
         and not any(
             own.evidence >= each.evidence and is_related(each.order, own.order) for own in found.candidates
         )
-        and (comb is None or comb.evidence <= each.evidence or _same(comb, each))
+        and (comb is None or comb.evidence <= each.evidence or is_same_comb(comb, each))
         and each.otherwise <= _SURER * max(each.evidence, each.alone)
     ]
     if elsewhere:
         return max(elsewhere, key=lambda candidate: candidate.evidence)
-    if comb is None or any(each.evidence > 0.0 and _same(comb, each) for each in known):
+    if comb is None or any(each.evidence > 0.0 and is_same_comb(comb, each) for each in known):
         return None
     comb = max(found.combs, key=lambda candidate: candidate.strikes)
     impulsive = not comb.strikes < settings.least_strikes or comb.sharpest >= min(settings.least_sharpest)
@@ -103,7 +103,7 @@ def _contradiction(
     if best.rival.own > -log(settings.false_alarm_rate) and best.rival.evidence > best.evidence:
         return f"multiples of order {best.rival.order:.3f} are surer"
     for each in (*((stranger,) if stranger is not None else ()), *found.combs[:1]):
-        if each.evidence > chance and not _same(each, best):
+        if each.evidence > chance and not is_same_comb(each, best):
             return f"multiples of order {each.order:.3f} are surer"
     if best.otherwise > _SURER * max(best.evidence, best.alone):
         return "its sidebands are those of another comb"
@@ -113,7 +113,7 @@ def _contradiction(
     return ""
 
 
-def _same(other: Candidate, best: Candidate) -> bool:
+def is_same_comb(other: Candidate, best: Candidate) -> bool:
     """Tell whether a comb is that of a candidate under another name.
 
     A comb of a multiple of its order is, where lines between show that the order itself is there.
