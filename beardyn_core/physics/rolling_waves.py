@@ -109,21 +109,24 @@ def place_in(angle, table):
 
 
 @inline
-def fetch_waves(lanes, blocks, ahead, waves):
-    """Ask for what the tables have some steps `ahead`, at places of `wave_places`: no near cache holds it."""
+def fetch_waves(lanes, block, ahead, waves):
+    """Ask for what the tables have of a block some steps `ahead`, at places of `wave_places`.
+
+    No near cache holds them.
+    """
     if waves is None:
         return
-    _fetch(lanes, blocks, ahead[0], waves.cup)
-    _fetch(lanes, blocks, ahead[1], waves.cone)
+    _fetch(lanes, block, ahead[0], waves.cup)
+    _fetch(lanes, block, ahead[1], waves.cone)
+    _fetch(lanes, block, ahead[2], waves.roller)
 
 
 @inline
-def _fetch(lanes, blocks, place, table):
+def _fetch(lanes, block, place, table):
     if table is None:
         return
-    for block in range(blocks):
-        prefetch(lanes, table, place[0], block)
-        prefetch(lanes, table, place[0] + 1, block)
+    prefetch(lanes, table, place[0], block)
+    prefetch(lanes, table, place[0] + 1, block)
 
 
 @inline

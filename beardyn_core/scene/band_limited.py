@@ -13,6 +13,8 @@ from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, UNEVENNESS
 
 # a sample on the line between its neighbours is so close to it, in parts of all three
 _STRAIGHT = 1e-10
+# of the polynomials, all in groups of so many
+_TAPS_AT_ONCE = 6
 
 
 def interpolate_columns(time_ns: Int, values: Float, start_ns: int, at: Float) -> Float:
@@ -92,27 +94,50 @@ def _fill_blocks(time_ns, values, start_ns, block_ns, at, blocks, polynomials, r
         return
     times = _around(time_ns, first, last)
     seams = _count_seams(times, len(time_ns) > LOOK_AHEAD)
-    begins = np.empty((blocks, len(times)), np.int64)
-    for block in range(blocks):
-        _sort_rows(times, start_ns + block * block_ns, at, begins[block])
-    end = len(times) - 1 - LOOK_AHEAD
-    for i in range(values.shape[1]):
-        signal = _around(values[:, i], first, last)
-        if _is_constant(signal.reshape(-1, 1)):
-            rows[:, i] = signal[0]
-            continue
-        bows = _bows(signal, seams, polynomials)
-        for block in range(blocks):
-            start, row = start_ns + block * block_ns, block * (len(at) - 1)
-            for sample in range(LOOK_AHEAD, end):
-                begin, after = begins[block, sample], begins[block, sample + 1]
-                if begin < after:
-                    since = float(times[sample] - start)
-                    span = float(times[sample + 1] - start) - since
-                    chord = signal[sample], (signal[sample + 1] - signal[sample]) / span
-                    bow = bows[:, sample - LOOK_AHEAD]
-                    _fill(at[begin:after], since, span, chord, bow, rows[row + begin : row + after, i])
-            rows[row + begins[block, end] : row + len(at), i] = signal[end]
+    columns, begins = values.shape[1], np.empty(len(times), np.int64)
+    signals = np.empty((columns, len(times)))
+    bows = np.zeros((columns, polynomials.shape[1], len(times) - 1 - 2 * LOOK_AHEAD))
+    constant = np.empty(columns, np.bool_)
+    for i in range(columns):
+        signals[i] = _around(values[:, i], first, last)
+        constant[i] = _is_constant(signals[i].reshape(-1, 1))
+        if not constant[i]:
+            _bend(signals[i], seams, polynomials, bows[i])
+    for block in range(blocks):  # the rows of a block stay in the near cache for all columns
+        start, row = start_ns + block * block_ns, block * (len(at) - 1)
+        own = rows[row : row + len(at)]
+        near = _sort_rows(times, start, at, begins)
+        for i in range(columns):
+            if constant[i]:
+                _hold(signals[i, 0], own[:, i])
+            else:
+                _fill_block(at, times, start, near, begins, signals[i], bows[i], own[:, i])
+
+
+@partial(entry, allocates=True, flags=())
+def _hold(value, rows):
+    for row in range(len(rows)):
+        rows[row] = value
+
+
+@partial(entry, allocates=True, flags=())
+def _fill_block(at, times, start_ns, near, begins, signal, bows, rows):
+    """Fill the rows of a column in a block; ``near`` and ``begins`` are of `_sort_rows`."""
+    for sample in range(near[0], near[1]):
+        begin, after = begins[sample], begins[sample + 1]
+        if begin < after:
+            since = float(times[sample] - start_ns)
+            span = float(times[sample + 1] - start_ns) - since
+            left, slope = signal[sample], (signal[sample + 1] - signal[sample]) / span
+            chord = sample - LOOK_AHEAD
+            a, b, c = bows[0, chord], bows[1, chord], bows[2, chord]
+            d, e = bows[3, chord], bows[4, chord]
+            for row in range(begin, after):
+                past = max(at[row] - since, 0.0)
+                u = past / span
+                v = 2.0 * u - 1.0
+                rows[row] = slope * past + left + u * (1.0 - u) * (a + v * (b + v * (c + v * (d + v * e))))
+    _hold(signal[near[1]], rows[begins[near[1]] :])
 
 
 @partial(entry, allocates=True, flags=())
@@ -152,13 +177,21 @@ def _count_seams(times, enough):
 
 @partial(entry, allocates=True, flags=())
 def _sort_rows(times, start_ns, at, begins):
-    """Find for each sample the first row that is not before it; what is before all belongs to the first."""
-    row = 0
-    begins[: LOOK_AHEAD + 1] = 0
-    for sample in range(LOOK_AHEAD + 1, len(times) - LOOK_AHEAD):
+    """Find for each sample near the rows the first row that is not before it.
+
+    What is before all samples belongs to the first. Returned are a sample at or before the first row and one
+    behind the last row: a look at all samples for each of many blocks took longer than the rest.
+    """
+    end = len(times) - 1 - LOOK_AHEAD
+    near = max(np.searchsorted(times, start_ns + at[0]) - 2, LOOK_AHEAD)
+    row, sample = 0, min(near, end)
+    begins[sample] = 0
+    while sample < end and row < len(at):
+        sample += 1
         while row < len(at) and at[row] < float(times[sample] - start_ns):
             row += 1
         begins[sample] = row
+    return min(near, end), sample
 
 
 @partial(entry, allocates=True, flags=())
@@ -174,18 +207,23 @@ def _count_bends(signal):
 
 
 @partial(entry, allocates=True, flags=())
-def _bows(signal, seams, polynomials):
+def _add_taps(signal, weights, bow):
+    """Add the next taps of all chords, one after the other: written out, the sum stays in a register."""
+    a, b, c, d, e, f = weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]
+    for i in range(len(bow)):
+        total = bow[i] + a * signal[i] + b * signal[i + 1] + c * signal[i + 2]
+        bow[i] = total + d * signal[i + 3] + e * signal[i + 4] + f * signal[i + 5]
+
+
+@partial(entry, allocates=True, flags=())
+def _bend(signal, seams, polynomials, bows):
     """Compute the polynomials by which the signal leaves its chords, shape [power, chord]; 0 where linear."""
     taps, powers = polynomials.shape
-    chords = len(signal) - 2 * LOOK_AHEAD - 1
-    bows = np.zeros((powers, chords))
+    chords = bows.shape[1]
     # the chord itself adds nothing: the polynomials are 0 for straight lines
-    for k in range(taps):
-        shifted = signal[k + 1 : k + 1 + chords]
+    for k in range(0, taps, _TAPS_AT_ONCE):
         for p in range(powers):
-            weight, bow = polynomials[k, p], bows[p]
-            for chord in range(len(bow)):
-                bow[chord] += weight * shifted[chord]
+            _add_taps(signal[k + 1 :], polynomials[k : k + _TAPS_AT_ONCE, p], bows[p])
     bends = _count_bends(signal)
     for chord in range(chords):
         begin, end = chord + 1, chord + taps
@@ -194,15 +232,3 @@ def _bows(signal, seams, polynomials):
         if uneven or drawn_by_ruler:
             bows[:, chord] = 0.0
     return bows
-
-
-@partial(entry, allocates=True, flags=())
-def _fill(at, since, span, chord, bow, rows):
-    """Fill the rows between two neighbouring samples; before the first one it is held."""
-    left, slope = chord
-    a, b, c, d, e = bow[0], bow[1], bow[2], bow[3], bow[4]
-    for row in range(len(at)):
-        after = max(at[row] - since, 0.0)
-        u = after / span
-        v = 2.0 * u - 1.0
-        rows[row] = slope * after + left + u * (1.0 - u) * (a + v * (b + v * (c + v * (d + v * e))))

@@ -39,3 +39,21 @@ def test_rows_are_those_of_numpy(parts: int, steps: int) -> None:
         np.testing.assert_array_equal(
             buffer.copy().at_steps(start, start + 20_000_000, steps), expected, err_msg=str(start)
         )
+
+
+@pytest.mark.parametrize("spacing_ns", [100_000, 3_000_000, 9_000_000])
+def test_blocks_at_once_have_the_rows_of_one_after_the_other(spacing_ns: int) -> None:
+    """Also where they begin before the first sample and end behind the last one; columns may be constant."""
+    random = np.random.default_rng(spacing_ns)
+    times = np.arange(0, 400_000_000, spacing_ns)
+    wrench = 1e4 * random.normal(size=(len(times), 6))
+    wrench[:, 4] = 3.0
+    buffer = LoadBuffer(ended=True)
+    assert buffer.append(LoadHistory(times, wrench, np.ones(len(times)), np.zeros((len(times), 3))))
+    start, blocks, steps, block_ns = -40_000_000, 24, 512, 20_000_000
+    whole = buffer.copy().at_steps(start, start + blocks * block_ns, steps, blocks)
+    for block in range(blocks):
+        begin = start + block * block_ns
+        alone = buffer.copy().at_steps(begin, begin + block_ns, steps)
+        first = block * steps + (block > 0)  # the end of a block before is a row of that
+        np.testing.assert_array_equal(whole[first : (block + 1) * steps + 1], alone[int(block > 0) :])

@@ -74,7 +74,7 @@ def rolling_gaps(lanes: Any, turns: Any, out: Any, block: Any, waves: Any) -> No
     """What waviness takes off the approach of a block at angles of cages, cone and spin [rad]."""
     for case in range(turns.shape[0]):
         places = wave_places((turns[case, 0], turns[case, 1], turns[case, 2]), waves)
-        fetch_waves(lanes, block + 1, places, waves)
+        fetch_waves(lanes, block, places, waves)
         lanes.store(out, case, 0, subtract_waviness(lanes, block, lanes.constant(0.0), places, waves))
 
 

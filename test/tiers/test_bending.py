@@ -201,6 +201,22 @@ def test_deflection_and_largest_load_are_those_of_the_full_tier(tier: str, kind:
 
 @pytest.mark.parametrize("tier", FAST)
 @pytest.mark.parametrize("kind", KINDS)
+def test_places_that_move_along_with_speeds_are_those_of_the_modes(tier: str, kind: str) -> None:
+    """A step reads the speeds of the modes; their places it reads once in a trend, here 63 steps before."""
+    twin = started(replace(suspended(tier, kind), duration=0.1))
+    twin.advance()
+    bending, state = twin._kernel_parameters.bending, twin._state
+    assert state is not None
+    shapes = np.moveaxis(bending.shapes, 1, 2).reshape(-1, bending.shapes.shape[1])
+    acted = len(bending.forces)
+    places = shapes[:acted] @ state.flex[0]
+    np.testing.assert_allclose(
+        bending.seen_row[0, :acted], places, rtol=0.0, atol=1e-12 * np.abs(places).max()
+    )
+
+
+@pytest.mark.parametrize("tier", FAST)
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_run_begins_bent_and_quiet(tier: str, kind: str) -> None:
     """The first millisecond of a bearing that stands still: modes stay where the static solution put them.
 

@@ -21,7 +21,8 @@ from beardyn_core.physics.bodies.rigid_bodies import row_of
 from beardyn_core.physics.suspension import SEAT_PLACE, SEAT_SPEED, SUSPENSION
 from beardyn_core.physics.tiers.joint_bending import add_joint_spring, clear_springs, hold_joint, kick_joint
 
-PLACE, SPEED, DRAW = range(3)
+PLACE, SPEED = range(2)
+GIVEN, APPROACH, EXTRA, HELD = range(4)  # pages of the vectors
 
 
 @inline
@@ -31,25 +32,52 @@ def turned_by(one, other):
 
 
 @inline
-def _multiply(lanes, matrix, first, vector, product, page):
-    """Write a matrix [block, column, lane], from a column on, times a vector."""
-    count = vector.shape[0] - vector.shape[0] % 2
-    for block in range(matrix.shape[0]):
-        even, odd = lanes.constant(0.0), lanes.constant(0.0)
-        for i in range(0, count, 2):
-            even = even + lanes.load(matrix, block, first + i) * vector[i]
-            odd = odd + lanes.load(matrix, block, first + i + 1) * vector[i + 1]
-        for i in range(count, vector.shape[0]):
-            even = even + lanes.load(matrix, block, first + i) * vector[i]
-        lanes.store(product, page, block, even + odd)
+def _multiply(lanes, matrix, blocks, first, vector, product, page):
+    """Write so many blocks of a matrix [block, column, lane], from a column on, times a vector.
+
+    Four blocks at once share the look at each number of the vector: loads, and not sums, take the time.
+    """
+    zero, pairs = lanes.constant(0.0), vector.shape[0] - vector.shape[0] % 2
+    for block in range(0, blocks - 3, 4):
+        even, odd = (zero, zero, zero, zero), (zero, zero, zero, zero)
+        for i in range(0, pairs, 2):
+            even = _add_four(lanes, matrix, block, first + i, vector[i], even)
+            odd = _add_four(lanes, matrix, block, first + i + 1, vector[i + 1], odd)
+        for i in range(pairs, vector.shape[0]):
+            even = _add_four(lanes, matrix, block, first + i, vector[i], even)
+        for k in range(4):
+            lanes.store(product, page, block + k, even[k] + odd[k])
+    for block in range(blocks - blocks % 4, blocks):
+        one, other = zero, zero
+        for i in range(0, pairs, 2):
+            one = one + lanes.load(matrix, block, first + i) * vector[i]
+            other = other + lanes.load(matrix, block, first + i + 1) * vector[i + 1]
+        for i in range(pairs, vector.shape[0]):
+            one = one + lanes.load(matrix, block, first + i) * vector[i]
+        lanes.store(product, page, block, one + other)
 
 
 @inline
-def show_openings(lanes, flex, direction, box, step, bending):
-    """Move the modes, and write the openings of both raceways for every lane and the suspension's seats."""
+def _add_four(lanes, matrix, block, column, weight, sums):
+    """Add a column of four blocks of a matrix."""
+    weight = lanes.constant(weight)
+    return (
+        sums[0] + weight * lanes.load(matrix, block, column),
+        sums[1] + weight * lanes.load(matrix, block + 1, column),
+        sums[2] + weight * lanes.load(matrix, block + 2, column),
+        sums[3] + weight * lanes.load(matrix, block + 3, column),
+    )
+
+
+@inline
+def show_openings(lanes, flex, direction, box, step, due, bending):
+    """Move the modes, and write the openings of both raceways for every lane and the suspension's seats.
+
+    ``due``: whether the places are read of the modes, and not of the places and speeds of the step before.
+    """
     if bending is None:
         return
-    _see(lanes, flex, step, bending, bending.joint)
+    _see(lanes, flex, step, due, bending)
     seen, shown = bending.seen_row, bending.shown
     openings = bending.rigid.shape[0]
     for i in range(bending.forces.shape[0] - openings):
@@ -70,42 +98,33 @@ def show_openings(lanes, flex, direction, box, step, bending):
 
 
 @inline
+def _see(lanes, flex, step, due, bending):
+    """Move the modes, work out what their springs and dampers take, and read places and speeds of them.
+
+    Places move along with the speeds, which are read at every step; so they are read of the modes only 400
+    times a second, and differ by rounding until then.
+    """
+    shapes, seen, draw = bending.shapes, bending.seen, bending.draw
+    for m in range(draw.shape[0]):
+        flex[PLACE, m] += step * flex[SPEED, m]
+        draw[m] = bending.stiffness[m] * flex[PLACE, m] + bending.damping[m] * flex[SPEED, m]
+    blocks = (bending.forces.shape[0] + lanes.width - 1) // lanes.width
+    _multiply(lanes, shapes, blocks, 0, flex[SPEED], seen, SPEED)
+    if due:
+        _multiply(lanes, shapes, blocks, 0, flex[PLACE], seen, PLACE)
+        return
+    for block in range(blocks):
+        moved = step * lanes.load(seen, SPEED, block)
+        lanes.store(seen, PLACE, block, lanes.load(seen, PLACE, block) + moved)
+
+
+@inline
 def _in_rows(lanes, series_of_rows, term, series, rows, bending):
     """Give every lane the term of its row."""
     value = lanes.load(bending.row_lanes, 0, 0) * series_of_rows[term]
     if rows > 1:
         value = value + lanes.load(bending.row_lanes, 0, 1) * series_of_rows[series + term]
     return value
-
-
-@inline
-def _see(lanes, flex, step, bending, joint):
-    """Move the modes and read them: places, speeds, and what their springs and dampers take from these."""
-    shapes, seen, draw = bending.shapes, bending.seen, bending.draw
-    for m in range(draw.shape[0]):
-        flex[PLACE, m] += step * flex[SPEED, m]
-        draw[m] = bending.stiffness[m] * flex[PLACE, m] + bending.damping[m] * flex[SPEED, m]
-    for block in range(shapes.shape[0]):
-        place, speed = lanes.constant(0.0), lanes.constant(0.0)
-        for m in range(draw.shape[0]):
-            shape = lanes.load(shapes, block, m)
-            place = place + shape * flex[PLACE, m]
-            speed = speed + shape * flex[SPEED, m]
-        lanes.store(seen, 0, block, place)
-        lanes.store(seen, 0, shapes.shape[0] + block, speed)
-    _see_drawn(lanes, shapes, seen, draw, joint)
-
-
-@inline
-def _see_drawn(lanes, shapes, seen, draw, joint):
-    """Read what springs and dampers of the modes take; modes that are taken as such need no reading."""
-    if joint is not None:
-        return
-    for block in range(shapes.shape[0]):
-        drawn = lanes.constant(0.0)
-        for m in range(draw.shape[0]):
-            drawn = drawn + lanes.load(shapes, block, m) * draw[m]
-        lanes.store(seen, 0, 2 * shapes.shape[0] + block, drawn)
 
 
 @inline
@@ -241,7 +260,7 @@ def _add_spring(lanes, block, lane, direction, bending, joint):
     openings, series = bending.rigid.shape[0], bending.basis.shape[1]
     waves, rows = series // 2, openings // series
     first = series * row_of(0, lane, bending.basis.shape[2], rows)
-    here = bending.rows[0]
+    here = bending.rows[GIVEN]
     for k in range(here.shape[0]):
         here[k] = 0.0
     here[first] = 1.0
@@ -260,9 +279,10 @@ def _add_spring(lanes, block, lane, direction, bending, joint):
 def _respond(lanes, spring, first, bending):
     """Add a roller, whose waves stand in the first row, to the response."""
     openings, series = bending.rigid.shape[0], bending.basis.shape[1]
-    here, yielded, added = bending.rows[0], bending.rows[1], bending.rows[2]
-    _multiply(lanes, bending.give, first, here[first : first + series], bending.vectors, 1)
-    _multiply(lanes, bending.response, 0, yielded[:openings], bending.vectors, 2)
+    here, yielded, added = bending.rows[GIVEN], bending.rows[APPROACH], bending.rows[EXTRA]
+    give, response, vectors = bending.give, bending.response, bending.vectors
+    _multiply(lanes, give, give.shape[0], first, here[first : first + series], vectors, APPROACH)
+    _multiply(lanes, response, response.shape[0], 0, yielded[:openings], vectors, EXTRA)
     pivot = 1.0
     for k in range(openings):
         added[k] = here[k] - added[k]
@@ -271,7 +291,7 @@ def _respond(lanes, spring, first, bending):
         share = spring / pivot * added[column]
         for row_block in range(bending.response.shape[0]):
             before = lanes.load(bending.response, row_block, column)
-            more = share * lanes.load(bending.vectors, 2, row_block)
+            more = share * lanes.load(bending.vectors, EXTRA, row_block)
             lanes.store(bending.response, row_block, column, before + more)
 
 
@@ -283,7 +303,7 @@ def kick_modes(lanes, flex, more, box, signal, step, bending, joint):
     `SIGNAL_CHANNELS`: acceleration of the sensors' seats, of the instant itself.
     """
     if joint is not None:
-        _multiply(lanes, bending.pushes, 0, bending.forces, bending.pushed, 0)
+        _multiply(lanes, bending.pushes, bending.pushes.shape[0], 0, bending.forces, bending.pushed, 0)
         return kick_joint(
             lanes, flex[SPEED], bending.pushed_row, bending.draw, bending.inverse, more, step, joint
         )
@@ -292,26 +312,29 @@ def kick_modes(lanes, flex, more, box, signal, step, bending, joint):
 
 @inline
 def _kick_series(lanes, flex, more, box, signal, step, bending):
-    forces, draw, rigid = bending.forces, bending.seen_row[DRAW], bending.rigid
-    given, approach, extra = bending.rows[0], bending.rows[1], bending.rows[2]
-    openings, series = rigid.shape[0], bending.basis.shape[1]
+    forces, draw, rigid, vectors = bending.forces, bending.draw, bending.rigid, bending.vectors
+    given, approach, extra = bending.rows[GIVEN], bending.rows[APPROACH], bending.rows[EXTRA]
+    shapes, pushes, pushed = bending.shapes, bending.pushes, bending.pushed_row
+    openings, series, modes = rigid.shape[0], bending.basis.shape[1], draw.shape[0]
     for i in range(forces.shape[0] - openings):
         forces[openings + i] = box[SUSPENSION + i]
-    _multiply(lanes, bending.modal_give, 0, forces, bending.vectors, 0)
+    _multiply(lanes, pushes, pushes.shape[0], 0, forces, bending.pushed, 0)
+    for m in range(modes):
+        pushed[m] = pushed[m] * bending.inverse[m] - draw[m]
+        flex[SPEED, m] += step * pushed[m]
+    _multiply(lanes, shapes, shapes.shape[0], 0, pushed[:modes], vectors, GIVEN)
     for k in range(openings):
-        approach[k] = draw[k] - given[k]
+        approach[k] = -given[k]
     for first in range(0, openings, series):
         upright, sideways = first + 1, first + 1 + series // 2
         approach[first] += rigid[first, 1] * more[1]
         approach[upright] += rigid[upright, 2] * more[2] + rigid[upright, 3] * more[3]
         approach[sideways] += rigid[sideways, 0] * more[0] + rigid[sideways, 4] * more[4]
-    _multiply(lanes, bending.response, 0, approach[:openings], bending.vectors, 2)
-    for k in range(openings):
-        forces[k] += extra[k]
-    _multiply(lanes, bending.pushes, 0, forces, bending.pushed, 0)
-    for m in range(bending.draw.shape[0]):
-        flex[SPEED, m] += step * (bending.pushed_row[m] * bending.inverse[m] - bending.draw[m])
-    _shake_sensors(given, extra, draw, signal, bending, bending.sensor_give)
+    _multiply(lanes, bending.response, bending.response.shape[0], 0, approach[:openings], vectors, EXTRA)
+    _multiply(lanes, pushes, pushes.shape[0], 0, extra[:openings], bending.pushed, 0)
+    for m in range(modes):
+        flex[SPEED, m] += step * (pushed[m] * bending.inverse[m])
+    _shake_sensors(lanes, given, extra[:openings], signal, bending, bending.sensor_give)
     x, y, z, about_x, about_z = 0.0, 0.0, 0.0, 0.0, 0.0
     for first in range(0, openings, series):
         upright, sideways = first + 1, first + 1 + series // 2
@@ -324,13 +347,11 @@ def _kick_series(lanes, flex, more, box, signal, step, bending):
 
 
 @inline
-def _shake_sensors(given, extra, draw, signal, bending, sensor_give):
+def _shake_sensors(lanes, given, extra, signal, bending, sensor_give):
     """Write the seats' acceleration; of what is held the part that `add_response` shows too."""
     if sensor_give is None:
         return
-    first = bending.forces.shape[0]
-    for i in range(sensor_give.shape[0]):
-        held = 0.0
-        for k in range(sensor_give.shape[1]):
-            held += sensor_give[i, k] * extra[k]
-        signal[SIGNAL_CHANNELS + i] = given[first + i] - draw[first + i] + held
+    first, held = bending.forces.shape[0], bending.rows[HELD]
+    _multiply(lanes, sensor_give, sensor_give.shape[0], 0, extra, bending.vectors, HELD)
+    for i in range(signal.shape[0] - SIGNAL_CHANNELS):
+        signal[SIGNAL_CHANNELS + i] = given[first + i] + held[i]

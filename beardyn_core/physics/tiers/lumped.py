@@ -62,8 +62,8 @@ def advance_lumped(lanes, state, work, loads, output, p):
         if step % (TRENDS_PER_BLOCK * stride) == 0:
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
         direction, turns, speeds = begin_step(bodies, direction, p)
-        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
+        show_openings(lanes, flex, direction, box, p.step, due, bending)
         trend = roller_trend[step // stride]
         if due:
             begin_largest(roller_trend, step // stride, rollers.shape[0])

@@ -187,7 +187,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     """
     approach_wave, rate_wave = approach_waves(lanes, motion, direction, p)
     idle, places = idle_load(speeds[1], p), wave_places(turns, p.waves)
-    fetch_waves(lanes, rollers.shape[0], wave_places(_later(turns, speeds, p), p.waves), p.waves)
+    later = wave_places(_later(turns, speeds, p), p.waves)
     zero = lanes.constant(0.0)
     loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
     clear_reaction(lanes, sums, p.bending)
@@ -201,6 +201,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
         load = lanes.constant(idle)
         # most rollers outside the load zone cost no more than this look
         if any_positive(approach):
+            fetch_waves(lanes, block, later, p.waves)
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
             rate = less_opening(lanes, block, SPEED, rate, p.bending, None)
             closed = subtract_waviness(lanes, block, approach, places, p.waves)

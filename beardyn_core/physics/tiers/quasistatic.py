@@ -292,8 +292,8 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             direction = cage_direction(bodies)  # several blocks at once have the bits of one at a time
             begin_block(lanes, rollers, bodies, p.pockets, series_of(bending), loose)
         direction, turns, speeds = begin_step(bodies, direction, p)
-        show_openings(lanes, flex, direction, box, p.step, bending)
         due, shown = step % stride == 0, (step + 1) % stride == 0
+        show_openings(lanes, flex, direction, box, p.step, due, bending)
         move_loose(rollers, bodies, p.step, p.kinematic, loose)
         shake = cup_acceleration(bodies, p.motion.rate)
         motion = relative_cone(bodies)

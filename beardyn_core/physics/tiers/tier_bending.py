@@ -60,19 +60,18 @@ class BendingParams(NamedTuple):
     inverse: Any  # [mode], of the inertia of the step [-]
     rigid: Any  # [opening, 5], approach of the raceways by motion of the cone, as of `relative_cone`
     give: Any  # [block of openings, opening, lane], acceleration by forces, modes and rings [1/kg]
-    modal_give: Any  # [block of reads, force, lane], the part of the modes
-    sensor_give: Any  # [3 x sensor, opening], of the sensors' seats by what is held, or None
+    sensor_give: Any  # [block, opening, lane], of the sensors' seats by what is held, or None
     lag: float  # share of the rollers' springs and dampers in the inertia of the step [s^2]
     damper_share: float  # of the dampers in that
     basis: Any  # [block, series, lane], one, cosines and sines at the pocket angles
     row_lanes: Any  # [1, row, lane], 1 where a lane holds rollers of the row
-    seen: Any  # work space [1, 3 x block of reads, lane]: places, speeds, and how modes draw back
-    seen_row: Any  # the same memory [3, read], [m], [m/s], [m/s^2]
+    seen: Any  # work space [2, block of reads, lane]: places and speeds of what forces act on
+    seen_row: Any  # the same memory [2, read], [m], [m/s]
     shown: Any  # work space [1, 2 x series, lane]: openings and speeds in the cages' frame
     tangents: Any  # work space [block, 1, lane]: stiffness of the rollers [N/m]
     forces: Any  # work space [force], [N]
-    vectors: Any  # work space [3, block of reads, lane]
-    rows: Any  # the same memory [3, read]
+    vectors: Any  # work space [4, block of reads, lane]
+    rows: Any  # the same memory [4, read]
     response: Any  # work space [block of openings, opening, lane], see `physics.tiers.kinematic_bending`
     pushed: Any  # work space [1, block of modes, lane]
     pushed_row: Any  # the same memory [mode]
@@ -177,13 +176,13 @@ def bending_params(
         sensors = fitted.sensors * np.where(resolved, inertia, 1.0)[:, None]
         read = np.concatenate([acting, sensors], axis=1)
         held = np.where(resolved, dampers / lag, 1.0)
-        sensor_give = np.ascontiguousarray((sensors.T * (held / inertia)) @ opening)
-    modal_give = (read.T / inertia) @ acting
+        sensor_give = _in_lanes((sensors.T * (held / inertia)) @ opening, base.rollers.shape[2])
+    modal_give = (opening.T / inertia) @ opening
     few = fitted.sensors is None and body.suspension is None and modes < openings
     blocks, width = base.rollers.shape[0], base.rollers.shape[2]
     read_blocks, open_blocks, mode_blocks = (-(-n // width) for n in (read.shape[1], openings, modes))
-    seen = aligned_zeros(1, 3 * read_blocks, width)
-    vectors = aligned_zeros(3, read_blocks, width)
+    seen = aligned_zeros(2, read_blocks, width)
+    vectors = aligned_zeros(4, read_blocks, width)
     pushed = aligned_zeros(1, mode_blocks, width)
     return BendingParams(
         shapes=_in_lanes(read.T, width),
@@ -192,20 +191,19 @@ def bending_params(
         damping=damping / inertia,
         inverse=1.0 / inertia,
         rigid=rigid,
-        give=_in_lanes(modal_give[:openings, :openings] + rigid @ give @ rigid.T, width),
-        modal_give=_in_lanes(modal_give, width),
+        give=_in_lanes(modal_give + rigid @ give @ rigid.T, width),
         sensor_give=sensor_give,
         lag=lag,
         damper_share=dampers / lag,
         basis=_basis(base, series),
         row_lanes=_row_lanes(scene.rows, width),
         seen=seen,
-        seen_row=seen.reshape(3, -1),
+        seen_row=seen.reshape(2, -1),
         shown=aligned_zeros(1, 2 * series, width),
         tangents=aligned_zeros(blocks, 1, width),
         forces=np.zeros(acting.shape[1]),
         vectors=vectors,
-        rows=vectors.reshape(3, -1),
+        rows=vectors.reshape(4, -1),
         response=aligned_zeros(open_blocks, openings, width),
         pushed=pushed,
         pushed_row=pushed.reshape(-1),
