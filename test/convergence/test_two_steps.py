@@ -67,18 +67,21 @@ def test_what_is_louder_than_a_sensors_noise_is_right_to_10_khz_at_two_steps(nam
 @pytest.mark.parametrize("steps", [2, 4])
 @pytest.mark.parametrize("name", ["smooth_run", "cup_spall", "cone_spall", "roller_spall"])
 def test_quasistatic_with_coupled_laminae_is_right_to_6_khz(name: str, steps: int) -> None:
-    """Within 2 dB and twice the doubt; short waves of a typical surface are up to 3.1 dB too quiet at 8 kHz.
+    """Within 2 dB and twice the doubt, to 6.3 kHz, with exceptions.
 
-    `roller_spall` is a run of lines without chance: the lines at 316 Hz are up to 4 dB too loud. On the quiet
-    line of `smooth_run` the resonance along the axle at 500 Hz is 2.5 dB too loud.
+    The resonance along the axle at 500 Hz is up to 3.1 dB too quiet (2.5 too loud with dry pockets). At two
+    steps the quiet band at 2 kHz is up to 3.1 dB too quiet vertically (1.0 at sixteen), and 8 kHz, where short
+    waves of a typical surface excite, up to 4.1 dB (3.0 at four). `roller_spall` is a run of lines without
+    chance: the lines at 316 Hz are up to 4 dB too loud.
     """
     difference, doubt, loud = changed(name, "quasistatic", steps)
     most = np.full(difference.shape, 2.0)
-    if name == "smooth_run":
-        most[np.isclose(CENTRE, 500.0, rtol=0.01), 1] = 2.5
+    most[np.isclose(CENTRE, 500.0, rtol=0.01), 1] = 3.1
+    if steps == 2:
+        most[np.isclose(CENTRE, 2000.0, rtol=0.01), 2] = 3.1
     lowest = 350.0 if name == "roller_spall" else 0.0
     counted = loud & ((lowest < CENTRE) & (CENTRE < 7e3))[:, None]
     assert (np.abs(difference) < most + 2.0 * doubt)[counted].all()
-    assert np.median(np.abs(difference)[counted]) < 0.5
+    assert np.median(np.abs(difference)[counted]) < 0.4
     highest = ((CENTRE > 7e3) & (CENTRE < 9e3))[:, None] & loud
-    assert (np.abs(difference) < 3.5 + 2.0 * doubt)[highest].all()
+    assert (np.abs(difference) < (4.1 if steps == 2 else 3.0) + 2.0 * doubt)[highest].all()
