@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import cache
+from itertools import pairwise
 from math import isnan
 from pathlib import Path
 from typing import Any
@@ -26,13 +27,11 @@ _NUMBERS = (
 )
 _SIZES = ("bore_mm", "outside_mm", "width_mm")
 _SHOWN = 6
-_LEFT_OUT = ("E", "K")
-# endings that make another inner design of the same size, where the designation stands without them
-_OTHER_DESIGN = {
-    "deep groove ball": ("E",),  # more or larger balls: 6205 ETN9
-    "tapered roller": ("B", "C", "D"),  # a steeper angle
-    "angular contact ball": ("A", "B", "C"),  # double row: another angle
-}
+# Endings that change no inner design: seals and shields, clearance and tolerance, grease and grooves.
+_SEALS = "RS1|RSH|RSR|RS|RZ|ZR|ZZ|Z|LLU|LLB|LLH|DDU|VV"
+_NEUTRAL = f"{_SEALS}|C[1-5]|CN|P[0456]|QE6|JEM|W33|W20|NR|N"
+_CAGES = "CP|CJ|CML|CM|XL|TVP2|TVP|MA|MB|M1|M|J"  # of cylindrical rollers of the designs E and EC
+_BETWEEN = r"[\s/_.-]"
 
 
 def catalogue_file() -> Path:
@@ -144,33 +143,39 @@ def _number(text: str) -> float | int:
 
 
 def find_bearing(designation: str) -> CatalogueEntry:
-    """Find a bearing by its designation, which may have more endings than the catalogue writes.
+    """Find a bearing by its designation, which may have endings that change no inner design.
 
-    ``6205-2RS JEM`` is 6205, ``SKF NU 214 ECP`` is NU214E: endings of seals, cages, clearance and tolerance
-    do not change the fault frequencies. One that stands for another inner design is refused.
+    ``6205-2RS JEM`` is 6205, ``SKF NU 214 ECP`` is NU214E: endings of seals, clearance and tolerance, and the
+    whole designation in the maker's list. Any other ending, and a maker whose list does not have the bearing,
+    is refused: another inner design may be meant.
 
     Raises
     ------
     InputError
-        There is none, or the ending is that of another design; with the nearest names.
+        There is none, or the ending or the maker may be that of another design; with the nearest names.
     """
-    known = _known_names()
-    plain, text = _plain(designation), _without_maker(designation)
-    own = _plain(text)
-    if exact := known.get(plain) or known.get(own):
-        return _named(exact)
-    maker = next((each for each in map(_plain, _makers()) if plain != own and plain.startswith(each)), "")
-    for wanted in (f"{maker}{own}", own):
-        begun = [name for name in known if wanted.startswith(name) and _is_ending(wanted, len(name))]
-        if begun:
-            longest = max(begun, key=len)
-            return _if_same_design(_named(known[longest]), wanted[len(longest) :], designation)
-    # the catalogue writes an ending that was left out: NU214E; not where it stands for one of several angles
-    longer = [name for name in known if own and name.startswith(own) and name[len(own) :] in _LEFT_OUT]
-    if len(longer) == 1:
-        return _named(known[longer[0]])
-    near = [known[name] for name in _nearest(own, known)]
-    hint = f"nearest are {', '.join(near)}; " if near else ""
+    path = catalogue_file()
+    maker, own = _maker_and_rest(designation)
+    for name in (designation.strip().upper(), f"{maker} {own}"):
+        if name in _rows(path):
+            return _entry(path, name)
+    if whole := {each.upper(): each for each in shipped_names("bearings")}.get(designation.strip().upper()):
+        return _whole(whole)
+    written = designation.upper() if not maker else own
+    fitting = [_entry(path, name) for name, (_, row) in _rows(path).items() if _fits(row, maker, written)]
+    listed = [each for each in fitting if not maker or maker in _makers_of(each)]
+    special = [each for each in listed if maker and each.name.upper().startswith(maker)]
+    if listed:
+        return max(special or listed, key=lambda each: len(each.name))
+    if fitting:
+        raise InputError(
+            f"the catalogue has {fitting[0].name} of {', '.join(_makers_of(fitting[0])) or 'no maker'}, not "
+            f"of {maker}; makers differ in their inner designs: write {fitting[0].name} if it is the same, "
+            "or give bpfo, bpfi, bsf and ftf"
+        )
+    names = {re.sub(_BETWEEN, "", each.upper()): each for each in (*_rows(path), *shipped_names("bearings"))}
+    near = [names[each] for each in _nearest(re.sub(_BETWEEN, "", own), names)]
+    hint = f"nearest are {', '.join(near)}; an ending may stand for another inner design; " if near else ""
     raise InputError(
         f"there is no bearing {designation!r} in the catalogue; {hint}`beardyn scenes catalogue` lists all, "
         f"shipped whole bearings are {', '.join(shipped_names('bearings'))}; give the "
@@ -178,41 +183,49 @@ def find_bearing(designation: str) -> CatalogueEntry:
     )
 
 
-def _if_same_design(entry: CatalogueEntry, ending: str, designation: str) -> CatalogueEntry:
-    if not entry.name[-1].isdigit() or not ending.startswith(_OTHER_DESIGN.get(entry.kind, ())):
-        return entry
-    raise InputError(
-        f"{designation!r} is not in the catalogue; {entry.name} is of the same size, but {ending!r} may "
-        f"stand for another inner design; take {entry.name} if it does not, or give bpfo, bpfi, bsf and ftf"
-    )
+def _maker_and_rest(designation: str) -> tuple[str, str]:
+    """Split the maker off, which may be written in one word with the number: NSK6205."""
+    text = designation.strip().upper()
+    for maker in sorted(_makers(), key=len, reverse=True):
+        rest = text.removeprefix(maker)
+        if rest != text and re.match(rf"{_BETWEEN}|\d", rest):
+            return maker, re.sub(rf"^{_BETWEEN}+", "", rest)
+    return "", text
 
 
-def _known_names() -> dict[str, str]:
-    return {_plain(name): name for name in (*_rows(catalogue_file()), *shipped_names("bearings"))}
+def _fits(row: dict[str, str], maker: str, written: str) -> bool:
+    """Tell whether a line has a designation, with more endings or fewer that change nothing."""
+    own = row["maker"].upper()
+    whole = row["place"].upper() if row["source"] == "makers_list" else ""
+    names = {row["designation"].upper(), whole}
+    if maker:
+        names |= {name.removeprefix(own).strip() for name in names if name.startswith(f"{own} ")}
+    else:
+        names |= (
+            {whole.removeprefix(own).strip()} if row["designation"][:1] in whole.removeprefix(own) else set()
+        )
+    extra = f"|{_CAGES}" if row["kind"] == "cylindrical roller" and row["designation"].endswith("E") else ""
+    return any(_pattern(name, extra).fullmatch(written) for name in names if name)
 
 
-def _makers() -> list[str]:
-    return sorted({row["maker"] for _, row in _rows(catalogue_file()).values() if row["maker"]})
+@cache
+def _pattern(name: str, extra: str) -> re.Pattern[str]:
+    """Write a designation with any separators, but no slash between digits: 62/22 is not 6222."""
+    letters = re.sub(_BETWEEN, "", name)
+    parts = [letters[0]]
+    for before, after in pairwise(letters):
+        parts += [r"[\s_.-]*" if before.isdigit() and after.isdigit() else f"{_BETWEEN}*", re.escape(after)]
+    ending = rf"(?:{_BETWEEN}+2(?:{_SEALS})|{_BETWEEN}*(?:{_NEUTRAL}{extra}))"
+    return re.compile(f"{''.join(parts)}{ending}*{_BETWEEN}*")
 
 
-def _named(name: str) -> CatalogueEntry:
-    path = catalogue_file()
-    return _entry(path, name) if name in _rows(path) else _whole(name)
+def _makers_of(entry: CatalogueEntry) -> tuple[str, ...]:
+    return tuple(each.upper() for each in (entry.maker, *entry.also_in) if each)
 
 
-def _plain(text: str) -> str:
-    return re.sub(r"[\s/_.-]", "", text.upper())
-
-
-def _without_maker(text: str) -> str:
-    makers = {each.upper() for each in _makers()}
-    words = text.split()
-    return " ".join(words[1:]) if len(words) > 1 and words[0].upper() in makers else text
-
-
-def _is_ending(text: str, begin: int) -> bool:
-    """Tell whether what follows is an ending and not more digits of another designation."""
-    return not text[begin : begin + 1].isdigit() or text[begin : begin + 2] in ("2R", "2Z")
+def _makers() -> set[str]:
+    rows = [row for _, row in _rows(catalogue_file()).values()]
+    return {each.upper() for row in rows for each in (row["maker"], *row["also_in"].split()) if each}
 
 
 def _nearest(text: str, names: Iterable[str]) -> list[str]:

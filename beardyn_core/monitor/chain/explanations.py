@@ -68,6 +68,8 @@ def explanations(
 @cache
 def _shipped_patterns() -> tuple[tuple[str, tuple[Pattern, ...]], ...]:
     from beardyn_core.config import load_plate, shipped_names
+    from beardyn_core.config.catalogue import catalogue
 
-    names = (*_COMMON, *shipped_names("bearings"))
+    there = {entry.name for entry in catalogue()}  # a folder of configuration of one's own may have none
+    names = (*(each for each in _COMMON if each in there), *shipped_names("bearings"))
     return tuple((name, fault_patterns(load_plate(name).frequencies)) for name in names)

@@ -1,0 +1,28 @@
+"""What `quasistatic` is expected to miss of the torque where oil is cold."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from beardyn_core.choice import load_scene
+from beardyn_core.choice.discretisation_error import least_errors
+from beardyn_core.choice.reference_solution import Evidence
+from test.choice.test_verified import measured
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("celsius", [70.0, 20.0, -15.0])
+def test_what_a_bounded_film_misses_is_expected(celsius: float) -> None:
+    """A step keeps films of cold oil thicker than they are, so that they rub less than in `full`."""
+    full, fast = (
+        replace(
+            load_scene("healthy_80", effects="all", tier=tier, duration=0.8), temperature=celsius + 273.15
+        )
+        for tier in ("full", "quasistatic")
+    )
+    off = measured(fast, 0.4).torque / measured(full, 0.4).torque - 1.0
+    expected = least_errors(Evidence(full), "quasistatic")["torque"]
+    assert abs(off) <= expected
+    assert expected < 0.3
