@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.discretisation_error import least_errors
 from beardyn_core.choice.reference_solution import Evidence
@@ -18,7 +19,8 @@ def test_what_a_bounded_film_misses_is_expected(celsius: float) -> None:
     """A step keeps films of cold oil thicker than they are, so that they rub less than in `full`."""
     full, fast = (
         replace(
-            load_scene("healthy_80", effects="all", tier=tier, duration=0.8), temperature=celsius + 273.15
+            load_scene("healthy_80", effects="all", tier=tier, duration=0.8),
+            temperature=celsius + ZERO_CELSIUS,
         )
         for tier in ("full", "quasistatic")
     )

@@ -71,8 +71,8 @@ def test_quasistatic_with_coupled_laminae_is_right_to_6_khz(name: str, steps: in
 
     The resonance along the axle at 500 Hz is up to 3.1 dB too quiet (2.5 too loud with dry pockets). At two
     steps the quiet band at 2 kHz is up to 3.1 dB too quiet vertically (1.0 at sixteen), and 8 kHz, where
-    short waves of a typical surface excite, up to 4.1 dB (3.0 at four). `roller_spall` is a run of lines without
-    chance: the lines at 316 Hz are up to 4 dB too loud.
+    short waves of a typical surface excite, up to 4.1 dB (3.0 at four). `roller_spall` is a run of lines
+    without chance: the lines at 316 Hz are up to 4 dB too loud.
     """
     difference, doubt, loud = changed(name, "quasistatic", steps)
     most = np.full(difference.shape, 2.0)
