@@ -12,18 +12,15 @@ from beardyn_core.choice.discretisation_error import least_errors
 from beardyn_core.choice.reference_solution import Evidence
 from test.choice.test_verified import measured
 
+TIERS = ("full", "quasistatic")
+
 
 @pytest.mark.slow
 @pytest.mark.parametrize("celsius", [70.0, 20.0, -15.0])
 def test_what_a_bounded_film_misses_is_expected(celsius: float) -> None:
     """A step keeps films of cold oil thicker than they are, so that they rub less than in `full`."""
-    full, fast = (
-        replace(
-            load_scene("healthy_80", effects="all", tier=tier, duration=0.8),
-            temperature=celsius + ZERO_CELSIUS,
-        )
-        for tier in ("full", "quasistatic")
-    )
+    scenes = (load_scene("healthy_80", effects="all", tier=each, duration=0.8) for each in TIERS)
+    full, fast = (replace(scene, temperature=celsius + ZERO_CELSIUS) for scene in scenes)
     off = measured(fast, 0.4).torque / measured(full, 0.4).torque - 1.0
     expected = least_errors(Evidence(full), "quasistatic")["torque"]
     assert abs(off) <= expected
