@@ -35,9 +35,9 @@ _REFERENCE_LAMINAE = 40
 _BAND = 0.2316
 # One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
 _QUASISTATIC_SHARE = 0.005
+_LONGEST_STEP = 1.0 / 25_600.0  # of rollers that move in their pockets [s]
 # Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
 # every effect: see evidence/automatic/torque.py.
-_LONGEST_STEP = 1.0 / 25_600.0  # of rollers that move in their pockets [s]
 POCKETS = {"quasistatic": 0.8, "lumped": 2.0}
 # What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz of a healthy bearing, to
 # 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
