@@ -94,7 +94,11 @@ class MonitorNode(Node):
             interval=values.interval, warm=values.warm + ZERO_CELSIUS, hot=values.hot + ZERO_CELSIUS
         )
         self._monitor = Monitor(
-            self._orders, self._bearing.roller_count, settings=settings, algorithm=self._algorithm
+            self._orders,
+            self._bearing.roller_count,
+            settings=settings,
+            algorithm=self._algorithm,
+            bearing=self._bearing,
         )
         self._tally = Tally()
         self._summed_up = False

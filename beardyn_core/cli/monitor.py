@@ -6,6 +6,7 @@ import argparse
 import sys
 from contextlib import nullcontext, suppress
 from dataclasses import replace
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,10 +37,19 @@ if TYPE_CHECKING:
     from beardyn_core.monitor.chain import Algorithm, MonitorResult, MonitorSettings
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
+    from beardyn_core.study.smallest_spall import SmallestSpalls
 
 # of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
 _LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
 _LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees Celsius]
+_WHOLE_KEYS = (
+    "confidence",
+    "stage",
+    "stage_reason",
+    "spall_width_m",
+    "spall_width_low_m",
+    "spall_width_high_m",
+)
 _COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]
 
 
@@ -48,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = add_command(subparsers, "monitor", monitor)
     add_parameter(parser, monitor, "run", "files", nargs="+", metavar="FILE")
     add_box(parser, "every one")
+    _add_smallest_spall(parser)
     add_parameter(parser, monitor, "algorithm", "--monitor", metavar="MODULE:FUNCTION", default="")
     parser.add_argument(
         "--picture",
@@ -64,6 +75,23 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_which_bearing(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
+
+
+def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group(
+        "smallest spall", "what a healthy verdict leaves open; a few runs of the twin, some ten seconds"
+    )
+    group.add_argument(
+        "--smallest-spall",
+        action="store_true",
+        help="add spalls of the twin to a healthy record, and name the smallest that is found; default not",
+    )
+    group.add_argument(
+        "--twin",
+        metavar="SCENE",
+        default="",
+        help="scene of the axlebox, or of one like it; default that of the recording; of --smallest-spall",
+    )
 
 
 def add_certainty(parser: argparse.ArgumentParser) -> None:
@@ -148,6 +176,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
     from beardyn_core.monitor.chain.explanations import PART_NAMES
+    from beardyn_core.study.monitored_recording import conclude
 
     if args.trend:
         return run_trend(args)
@@ -160,6 +189,12 @@ def run(args: argparse.Namespace) -> int:
     algorithm = algorithm_named(args.monitor)
     recorded = _is_recorded(args)
     problems = _picture_problems(args)
+    if args.twin and not args.smallest_spall:
+        problems.append("--twin is that of --smallest-spall; give both")
+    if args.smallest_spall and not recorded:
+        problems.append(
+            f"--smallest-spall: {args.files[0]} is no recording; `beardyn import` makes one of measured files"
+        )
     options = [each for each in reading_options(args) if each != "--channels"]
     if recorded and options:
         verb = "is" if len(options) == 1 else "are"
@@ -174,7 +209,8 @@ def run(args: argparse.Namespace) -> int:
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
     if args.json:
-        print(json_text("monitor", json_object(args, heard)))
+        smallest = {mounted: each.smallest for mounted, each in results.items()}
+        print(json_text("monitor", json_object(args, heard, smallest)))
         return _exit_code(heard)
     labelled = len(heard) > 1
     for mounted, findings in heard.items():
@@ -183,9 +219,15 @@ def run(args: argparse.Namespace) -> int:
         for finding in findings:
             print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
     for mounted, findings in heard.items():
-        print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
+        label = f"{mounted.label} " if labelled else ""
+        print(f"{label}{_ending(findings)}")
+        whole = conclude(findings).finding
+        if whole is not None and whole.stage_reason:
+            print(f"{label}size: {whole.stage_reason}")
+        if (spalls := results[mounted].smallest) is not None:
+            print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
-            print(f"{f'{mounted.label} ' if labelled else ''}cannot tell, {PART_NAMES[part]}: {why}")
+            print(f"{label}cannot tell, {PART_NAMES[part]}: {why}")
     return _exit_code(heard)
 
 
@@ -197,11 +239,12 @@ def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
 
 
 class _Results:
-    """Findings of one bearing, and the latest result of each verdict with its spectrum."""
+    """Findings of one bearing, the latest result of each verdict, and the smallest spall."""
 
     def __init__(self) -> None:
         self.findings: list[Finding] = []
         self.latest: dict[str, MonitorResult] = {}
+        self.smallest: SmallestSpalls | None = None  # where it is asked for and the verdict is healthy
 
     def add(self, result: MonitorResult) -> None:
         """Keep a result."""
@@ -263,11 +306,16 @@ def _ending(findings: list[Finding]) -> str:
     if conclusion.finding is not None and conclusion.verdict != WAITING:
         unclear = conclusion.verdict in (NOT_DIAGNOSABLE, UNEXPLAINED)
         why = f"; {conclusion.finding.reason}" if unclear else ""
-        return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses{why}"
+        counts = f"{conclusion.agreeing} of {conclusion.analyses} analyses"
+        return f"{conclusion.verdict}: {counts}{_confidence_text(conclusion.finding)}{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason
     many = "; --trend watches the levels of many short records" if short else ""
     return f"{NOT_DIAGNOSABLE}: no analysis; {reason}{many}"
+
+
+def _confidence_text(finding: Finding) -> str:
+    return f", confidence {finding.confidence:.2f}" if isfinite(finding.confidence) else ""
 
 
 def _monitor_recording(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
@@ -290,11 +338,11 @@ def _monitor_recording(args: argparse.Namespace, algorithm: Algorithm) -> dict[M
 
 def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, _Results]:
     """Let the monitor analyse the signals of one axlebox."""
+    from beardyn_core.api.sensitivity import smallest_spalls
     from beardyn_core.choice import scene_from_text
     from beardyn_core.measured.about import Mounted, beside_others, mounted_in
     from beardyn_core.measured.stated_speed import recorded_uncertainty
-    from beardyn_core.study.measured_severity import severity_in
-    from beardyn_core.study.monitored_recording import conclude, results_of
+    from beardyn_core.study.monitored_recording import HEALTHY, conclude, results_of
 
     path = args.files[0]
     bearings = mounted_of(args)
@@ -323,12 +371,10 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
         own = beside_others(settings, each, bearings)
         for result in results_of(recording, each.plate, algorithm, own, each.sensor):
             results.add(result)
-        conclusion = conclude(results.findings)
-        if (
-            not args.json
-            and (found := severity_in(recording, conclusion, each.plate, each.sensor)) is not None
-        ):
-            print(f"beardyn: {each.label}: {found.reason}", file=sys.stderr)
+        if args.smallest_spall and conclude(results.findings).verdict == HEALTHY:
+            results.smallest = smallest_spalls(
+                recording, args.twin or None, bearing=each.plate, sensor=each.sensor, settings=own
+            )
     return heard
 
 
@@ -377,13 +423,18 @@ def _monitor_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> d
     return found
 
 
-def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
+def json_object(
+    args: argparse.Namespace,
+    heard: dict[Mounted, list[Finding]],
+    smallest: dict[Mounted, SmallestSpalls | None],
+) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
-    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude, worst
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
     for mounted, findings in heard.items():
         conclusion = conclude(findings)
+        spall = keyed_fields(conclusion.finding or Finding(conclusion.verdict, "", 0.0))
         every.append(
             {
                 "label": mounted.label,
@@ -392,13 +443,18 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "verdict": NOT_DIAGNOSABLE if conclusion.verdict == WAITING else conclusion.verdict,
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
+                **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
+        if (found := smallest[mounted]) is not None:
+            every[-1]["smallest_spalls"] = [keyed_fields(each) for each in found.spalls]
+            every[-1]["twin"] = found.twin
     verdict = worst(each["verdict"] for each in every)
     decides = next(each for each in every if each["verdict"] == verdict)
-    top = {key: decides[key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
+    keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings")
+    top = {key: decides[key] for key in keys}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
@@ -94,7 +95,7 @@ class Chain:
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         found = with_strikes(found, stretch, band, settings)
-        verdict = self.decide(found, stretch, settings)
+        verdict, lined = self.decide(found, stretch, settings), tracked
         if verdict.name not in (*FAULTS, UNEXPLAINED) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is heard as measured
@@ -105,9 +106,10 @@ class Chain:
             deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
             heard = self.decide(clockwork, stretch, deep)
             if heard.name in (*FAULTS, UNEXPLAINED):
-                found, verdict = clockwork, heard
+                found, verdict, lined = clockwork, heard, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         unknown = [PART_NAMES[part] for part in FAULTS if part not in score]
         if unknown and verdict.name not in FAULTS:
@@ -122,6 +124,8 @@ class Chain:
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
+            confidence=confidence_of(verdict.name, grounds),
+            grounds=grounds,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,
             expected_order=best.pattern.order if called else np.nan,
