@@ -185,7 +185,7 @@ def run(args: argparse.Namespace) -> int:
     for mounted, findings in heard.items():
         print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
         for part, why in mounted.plate.cannot_tell.items():
-            print(f"{f'{mounted.label} ' if labelled else ''}cannot tell, {PART_NAMES[part]}: {why}")
+            print(f"{f'{mounted.label} ' if labelled else ''}not judged, {PART_NAMES[part]}: {why}")
     return _exit_code(heard)
 
 
@@ -393,12 +393,14 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
                 "findings": [keyed_fields(finding) for finding in findings],
+                "not_judged": list(mounted.plate.cannot_tell),
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
     verdict = worst(each["verdict"] for each in every)
     decides = next(each for each in every if each["verdict"] == verdict)
-    top = {key: decides[key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
+    keys = ("bearing", "verdict", "agreeing", "analyses", "findings", "not_judged")
+    top = {key: decides[key] for key in keys}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
 
 

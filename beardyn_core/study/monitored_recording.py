@@ -40,9 +40,9 @@ class Finding:
     reason: A[str, "the verdict in a sentence"]
     time: A[float, "simulated time of the last sample analysed, [s]"]
     found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
-    expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
+    expected_frequency: A[float, "the same from bearing data, [Hz]"] = nan
     found_order: A[float, "line found, per shaft revolution, [-]"] = nan
-    expected_order: A[float, "the same from geometry, [-]"] = nan
+    expected_order: A[float, "the same from bearing data, [-]"] = nan
     signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
     fitting_shaft_frequency: A[
         float, "speed at which the line or the comb found is that of a part without slip, [Hz]"
@@ -61,6 +61,7 @@ class Finding:
     band_high: A[float, "upper end, [Hz]"] = nan
     rms_rise: A[float, "over earlier results at a like speed, [dB]"] = nan
     temperature: A[float, "of the axlebox, [K]"] = nan
+    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
@@ -89,15 +90,16 @@ class Finding:
 
     @property
     def deviation(self) -> float:
-        """Frequency found against geometry, relative, [-]."""
+        """Frequency found against bearing data, relative, [-]."""
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
         """Write as a status of ``monitor/result``: a hot box is an error, all but healthy a warning."""
         values = [("verdict", self.verdict)]
-        for member in fields(self)[2:]:
-            number = float(getattr(self, member.name))
-            values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
+        for name in _numbers():
+            number = float(getattr(self, name))
+            values.append((name, f"{number:.9g}" if isfinite(number) else "nan"))
+        values.append(("not_judged", " ".join(self.not_judged)))
         level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
@@ -107,8 +109,15 @@ class Finding:
         verdict = status.value("verdict")
         if verdict is None:
             return None
-        numbers = {member.name: float(status.value(member.name) or "nan") for member in fields(cls)[2:]}
-        return cls(verdict, status.message, **numbers)
+        numbers = {name: float(status.value(name) or "nan") for name in _numbers()}
+        not_judged = tuple((status.value("not_judged") or "").split())
+        return cls(verdict, status.message, **numbers, not_judged=not_judged)
+
+
+def _numbers() -> list[str]:
+    """List the fields of a finding that are numbers."""
+    texts = ("verdict", "reason", "not_judged")
+    return [member.name for member in fields(Finding) if member.name not in texts]
 
 
 @dataclass(frozen=True)

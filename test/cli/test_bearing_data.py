@@ -60,8 +60,10 @@ def test_factors_give_the_verdict_of_the_dimensions_and_what_they_cannot_tell(
     found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert found["verdict"] == "cup"
     assert set(found["bearings"][0]["cannot_tell"]) == {"roller"}
+    assert found["not_judged"] == found["bearings"][0]["not_judged"] == ["roller"]
+    assert {tuple(each["not_judged"]) for each in found["findings"]} == {("roller",)}
     assert main([*words, *FACTORS]) == EXIT_CODES["cup"]
-    assert "cannot tell, rolling elements: bsf: the contact angle is not known" in capsys.readouterr().out
+    assert "not judged, rolling elements: bsf: the contact angle is not known" in capsys.readouterr().out
     assert main([*words, *FACTORS, "--bsf", "4.714", "--ftf", "0.6"]) == BAD_INPUT
     told = capsys.readouterr().err
     assert "--ftf is 0.6" in told
