@@ -52,9 +52,7 @@ class NamePlate:
         "maker's factor of a rolling element: its turns about itself in a turn of the shaft; some makers "
         "list twice that",
     ] = nan
-    ftf: A[
-        float, At(absent=True), "maker's factor of the cage: its turns in a turn of the shaft"
-    ] = nan
+    ftf: A[float, At(absent=True), "maker's factor of the cage: its turns in a turn of the shaft"] = nan
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
