@@ -16,6 +16,7 @@ from beardyn_core.base.edge import write_noun
 from beardyn_core.bearing.kinematics import FaultFrequencies, frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.chain import REFERENCE, Stretch
+from beardyn_core.study.monitored_recording import Finding
 from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal
 
 
@@ -164,3 +165,8 @@ def test_a_part_without_order_is_never_called_and_healthy_says_what_is_not_judge
     assert healthy.not_judged == strange.not_judged == ("cone", "roller")
     assert "not judged" not in told(None, ORDERS, ROLLERS).reason
     assert told(None, ORDERS, ROLLERS).not_judged == ()
+    published = Finding.of(healthy).to_diagnostic("monitor")
+    assert published.value("not_judged") == "cone roller"
+    read = Finding.from_diagnostic(published)
+    assert read is not None
+    assert read.not_judged == ("cone", "roller")
