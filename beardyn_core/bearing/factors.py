@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
 from typing import Annotated as A
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
 
@@ -155,12 +155,14 @@ def _gamma_of(known: Factors) -> _Gamma | None:
 def contradictions(known: Factors) -> Iterator[str]:
     """Find what factors cannot be together, as sentences with the keys of bearing data."""
     given = known.given()
+    hertz: dict[str, Any] = {}
     for name, value in given.items():
         if not value > 0.0:
             yield f"{name} is {value:g}; it must be greater than 0"
         elif value > _LARGEST[name] and not (name in ("bpfo", "bpfi") and value < known.roller_count):
             yield f"{name} is {value:g}; it must be at most {_LARGEST[name]:g}; {PER_TURN}"
-            known = replace(known, **{name: nan})
+            hertz[name] = nan
+    known = replace(known, **hertz)
     if known.ftf >= 0.5:
         yield (
             f"ftf is {known.ftf:g}; it must be less than 0.5: the cage turns slower than half of the shaft "

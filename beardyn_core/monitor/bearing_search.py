@@ -247,11 +247,12 @@ class BearingSearch:
             speeds = self._speeds(order, median(each.shaft_frequency for each in struck))
             reason = f"{comb} is that of no part of {self.searched} bearings"
             if speeds:
-                near, off = speeds[0], 100.0 * abs(speeds[0].change)
+                near = speeds[0]
                 would = ", ".join(each.sentence() for each in speeds)
                 reason += (
-                    f"; nearest is the {PART_NAMES[near.part]} of {near.bearing}, {off:.2g} % off; a wrong "
-                    f"speed moves all orders alike: it would be {would}"
+                    f"; nearest is the {PART_NAMES[near.part]} of {near.bearing}, "
+                    f"{100.0 * abs(near.change):.2g} % off; a wrong speed moves all orders alike: it would "
+                    f"be {would}"
                 )
             return replace(answer(NONE, reason), speeds=speeds)
         nearest = fits[0]
