@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.factors import PER_TURN, SYMBOLS
 from beardyn_core.cli.generated_parser import add_field, flag
 
 if TYPE_CHECKING:
@@ -131,6 +130,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
 
 
 def _plate_of(args: argparse.Namespace) -> NamePlate | None:
+    from beardyn_core.bearing.factors import SYMBOLS
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.config.nouns import read_noun
 
@@ -150,6 +150,8 @@ def _plate_of(args: argparse.Namespace) -> NamePlate | None:
 
 def _as_order(problem: str, args: argparse.Namespace) -> str:
     """Say what a frequency that was given as a factor is at the stated speed; empty where none is stated."""
+    from beardyn_core.bearing.factors import PER_TURN
+
     match = re.search(r"--\w+ is (\S+);", problem)
     rpm = _stated_rpm(args)
     if not problem.endswith(PER_TURN) or match is None or not rpm > 0.0:
