@@ -86,7 +86,7 @@ class MonitorNode(Node):
             f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
         )
         for part, why in self._bearing.cannot_tell.items():
-            self.get_logger().warning(f"cannot tell, {PART_NAMES[part]}: {why}")
+            self.get_logger().warning(f"not judged, {PART_NAMES[part]}: {why}")
 
     def _begin(self) -> None:
         values = self._values

@@ -108,6 +108,7 @@ def smallest_spalls(
     )
     words = (
         f"{base.name}, {base.bearing.name} at {60.0 * kept.stretch.shaft_frequency:.4g} rpm and "
-        f"{1e-3 * abs(force[2]):.3g} kN, field spalls that begin in the middle of the load zone, tier {made.tier}"
+        f"{1e-3 * abs(force[2]):.3g} kN, field spalls that begin in the middle of the "
+        f"load zone, tier {made.tier}"
     )
     return SmallestSpalls(tuple(spalls), words)

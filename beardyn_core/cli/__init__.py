@@ -12,6 +12,7 @@ quantities       numbers with units in options
 demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
 catalogue_list   bearings of the catalogue, all or those of some dimensions
+catalogue_line   what a command says of the line of the catalogue that it took
 new              a copy of a shipped file to start from
 simulate         a desk run
 simulate_train   the same of several axleboxes at once
@@ -23,6 +24,7 @@ warmup           kernels compiled ahead
 view             a recording in 3-D
 report           what a recording holds
 monitor          what a monitor says over a recording
+monitor_settings options that settle what the monitor assumes
 estimate         load, end play and spall of a recording, what remains
 follow           the same over successive stretches and recordings, health, residual beside a twin
 calibrate        the scene of one measured axlebox, fitted to its healthy recordings

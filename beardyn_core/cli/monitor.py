@@ -11,22 +11,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.reading import monitor
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import InputError, collect_problems
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
-from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.cli.catalogue_line import catalogue_object, catalogue_sentence
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import (
     USUAL_LABEL,
     add_plates,
     add_reading,
+    misplaced_options,
     mounted_of,
     reading_of,
     reading_options,
 )
+from beardyn_core.cli.monitor_settings import add_settings, settings_of
 from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing, size_options
@@ -34,14 +36,12 @@ from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing,
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.monitor.chain import Algorithm, MonitorResult, MonitorSettings
+    from beardyn_core.monitor.chain import Algorithm, MonitorResult
     from beardyn_core.record.run import Run
     from beardyn_core.study.monitored_recording import Finding
     from beardyn_core.study.smallest_spall import SmallestSpalls
 
-# of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
-_LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
-_LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees Celsius]
+# of the finding that stands for all analyses
 _WHOLE_KEYS = (
     "confidence",
     "stage",
@@ -50,7 +50,6 @@ _WHOLE_KEYS = (
     "spall_width_low_m",
     "spall_width_high_m",
 )
-_COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -69,8 +68,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_force(parser, "replace the picture when it exists; default refuse")
     add_json(parser)
     add_plates(parser, "default that of the recording")
-    add_certainty(parser)
-    add_limits(parser)
+    add_settings(parser)
     add_trend(parser)
     add_which_bearing(parser)
     add_reading(parser)
@@ -94,84 +92,6 @@ def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_certainty(parser: argparse.ArgumentParser) -> None:
-    """Declare what the stated speed and bearing leave open."""
-    from beardyn_core.measured.stated_speed import UNCERTAINTY
-
-    group = parser.add_argument_group("certainty", "what the stated speed and bearing leave open")
-    group.add_argument(
-        "--speed-uncertainty",
-        metavar="PERCENT",
-        help="of the stated speed, searched over; default 0 with a tachometer, else "
-        f"{100 * UNCERTAINTY:g} %%, or what was found where the speed was sought in the vibration",
-    )
-    group.add_argument(
-        "--neighbour",
-        metavar="NAME",
-        action="append",
-        default=[],
-        help="another bearing on the same shaft, whose strikes reach the accelerometer; again for each; "
-        "default the others of --bearing",
-    )
-
-
-def add_limits(parser: argparse.ArgumentParser) -> None:
-    """Declare the limits of temperature."""
-    group = parser.add_argument_group(
-        "temperature",
-        "limits of the vehicle; a scene's, in kelvin: bd.heat_interval(scene).warm_from(air in kelvin)",
-    )
-    for name, what in (("warm", "called warm"), ("hot", "an alarm, a hot box")):
-        group.add_argument(
-            f"--{name}",
-            type=float,
-            metavar="CELSIUS",
-            default=_LIMITS[name],
-            help=f"temperature of the axlebox from which it is {what}; default %(default)g, which is assumed",
-        )
-
-
-def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
-    """Make the settings of the monitor; raises `InputError` with every mistake."""
-    from beardyn_core.config import load_plate
-    from beardyn_core.monitor.chain import MonitorSettings
-
-    problems: list[str] = []
-    if args.speed_uncertainty is not None:
-        try:
-            uncertainty = float(args.speed_uncertainty.rstrip(" %")) / 100.0
-        except ValueError:
-            uncertainty = -1.0
-        if not (uncertainty == 0.0 or _LEAST_UNCERTAINTY <= uncertainty <= _MOST_UNCERTAINTY):
-            problems.append(
-                f"--speed-uncertainty is {args.speed_uncertainty!r}; it must be 0, or a number from "
-                f"{100.0 * _LEAST_UNCERTAINTY:g} to {100.0 * _MOST_UNCERTAINTY:g} in per cent, such as 3 "
-                "for 3 %"
-            )
-    neighbours = []
-    for name in args.neighbour:
-        try:
-            neighbours.append(load_plate(name).frequencies)
-        except InputError as error:
-            problems += [f"--neighbour {name}: {each}" for each in error.problems]
-    for name in _LIMITS:
-        if not _COLDEST_LIMIT <= getattr(args, name) <= _HOTTEST_LIMIT:
-            problems.append(
-                f"--{name} is {getattr(args, name):g}; it must be from {_COLDEST_LIMIT:g} to "
-                f"{_HOTTEST_LIMIT:g} degrees Celsius"
-            )
-    if args.warm > args.hot:
-        problems.append(f"--warm is {args.warm:g}; it must be at most --hot, which is {args.hot:g}")
-    if problems:
-        raise InputError(problems)
-    return MonitorSettings(
-        speed_uncertainty=uncertainty,
-        neighbours=tuple(neighbours),
-        warm=args.warm + ZERO_CELSIUS,
-        hot=args.hot + ZERO_CELSIUS,
-    )
-
-
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
@@ -180,31 +100,25 @@ def run(args: argparse.Namespace) -> int:
 
     if args.trend:
         return run_trend(args)
-    if args.memory:
-        raise InputError("--memory is that of --trend; give both")
-    if args.which_bearing:
-        return run_which_bearing(args, recorded=_is_recorded(args))
-    if sizes := size_options(args):
-        raise InputError(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
-    algorithm = algorithm_named(args.monitor)
     recorded = _is_recorded(args)
-    problems = _picture_problems(args)
+    if args.which_bearing:
+        return run_which_bearing(args, recorded=recorded)
+    problems = _picture_problems(args) + misplaced_options(args, recorded)
+    if args.memory:
+        problems.append("--memory is that of --trend; give both")
     if args.twin and not args.smallest_spall:
         problems.append("--twin is that of --smallest-spall; give both")
     if args.smallest_spall and not recorded:
         problems.append(
             f"--smallest-spall: {args.files[0]} is no recording; `beardyn import` makes one of measured files"
         )
-    options = [each for each in reading_options(args) if each != "--channels"]
-    if recorded and options:
-        verb = "is" if len(options) == 1 else "are"
-        problems.append(
-            f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording, which is taken "
-            "as it is"
-        )
-    if problems:
-        raise InputError(problems)
-    results = _monitor_recording(args, algorithm) if recorded else _monitor_measured_files(args, algorithm)
+    if sizes := size_options(args):
+        problems.append(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
+    algorithm = collect_problems(problems, lambda: algorithm_named(args.monitor))
+    bearings = collect_problems(problems, lambda: mounted_of(args))
+    collect_problems(problems, lambda: settings_of(args, 0.0))
+    find = _monitor_recording if recorded else _monitor_measured_files
+    results = find(args, algorithm, bearings, problems)
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
@@ -212,6 +126,9 @@ def run(args: argparse.Namespace) -> int:
         smallest = {mounted: each.smallest for mounted, each in results.items()}
         print(json_text("monitor", json_object(args, heard, smallest)))
         return _exit_code(heard)
+    taken = [catalogue_sentence(each.entry) for each in heard if each.entry is not None]
+    for sentence in dict.fromkeys(taken):  # of several axleboxes once
+        print(sentence)
     labelled = len(heard) > 1
     for mounted, findings in heard.items():
         if labelled:
@@ -227,7 +144,7 @@ def run(args: argparse.Namespace) -> int:
         if (spalls := results[mounted].smallest) is not None:
             print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
-            print(f"{label}cannot tell, {PART_NAMES[part]}: {why}")
+            print(f"{label}not judged, {PART_NAMES[part]}: {why}")
     return _exit_code(heard)
 
 
@@ -318,25 +235,39 @@ def _confidence_text(finding: Finding) -> str:
     return f", confidence {finding.confidence:.2f}" if isfinite(finding.confidence) else ""
 
 
-def _monitor_recording(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
-    """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
+def _monitor_recording(
+    args: argparse.Namespace,
+    algorithm: Algorithm | None,
+    bearings: tuple[Mounted, ...] | None,
+    problems: list[str],
+) -> dict[Mounted, _Results]:
+    """Let the monitor analyse a recording, every axlebox of it or the one that is asked for.
+
+    Raises
+    ------
+    InputError
+        With the problems found before, and those of the recording.
+    """
     from beardyn_core.record.reading import read_run
 
-    path = args.files[0]
-    recording = read_run(path, args.box)
+    recording = collect_problems(problems, lambda: read_run(args.files[0], args.box))
+    if problems or algorithm is None or bearings is None or recording is None:
+        raise InputError(problems)
     if recording.problem:
         print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
     if args.box or len(recording.boxes) == 1:
-        return _of_box(args, recording, algorithm)
+        return _of_box(args, recording, algorithm, bearings)
     found: dict[Mounted, _Results] = {}
     for name, run in recording.boxes.items():
-        for mounted, results in _of_box(args, run, algorithm).items():
+        for mounted, results in _of_box(args, run, algorithm, bearings).items():
             label = name if mounted.label == USUAL_LABEL else f"{name} {mounted.label}"
             found[replace(mounted, label=label)] = results
     return found
 
 
-def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, _Results]:
+def _of_box(
+    args: argparse.Namespace, recording: Run, algorithm: Algorithm, bearings: tuple[Mounted, ...]
+) -> dict[Mounted, _Results]:
     """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.api.sensitivity import smallest_spalls
     from beardyn_core.choice import scene_from_text
@@ -345,7 +276,6 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     from beardyn_core.study.monitored_recording import HEALTHY, conclude, results_of
 
     path = args.files[0]
-    bearings = mounted_of(args)
     recorded = None
     with suppress(InputError) if bearings else nullcontext():
         if recording.scene_text:
@@ -366,7 +296,7 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     if problems:
         raise InputError(problems)
     heard = {each: _Results() for each in bearings}
-    settings = _settings(args, recorded_uncertainty(recording.measured))
+    settings = settings_of(args, recorded_uncertainty(recording.measured))
     for each, results in heard.items():
         own = beside_others(settings, each, bearings)
         for result in results_of(recording, each.plate, algorithm, own, each.sensor):
@@ -378,44 +308,46 @@ def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> d
     return heard
 
 
-def _monitor_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
-    """Let the monitor analyse measured files, block by block."""
+def _monitor_measured_files(
+    args: argparse.Namespace,
+    algorithm: Algorithm | None,
+    bearings: tuple[Mounted, ...] | None,
+    problems: list[str],
+) -> dict[Mounted, _Results]:
+    """Let the monitor analyse measured files, block by block.
+
+    Raises
+    ------
+    InputError
+        With the problems found before, and those of the files.
+    """
     from beardyn_core.cli.import_ import sensor_problems
     from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.stated_speed import uncertainty_of
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.watching import watch
 
-    problems: list[str] = []
-    bearings: tuple[Mounted, ...] = ()
-    try:
-        bearings = mounted_of(args)
-        if not bearings:
-            numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
-            problems.append(
-                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
-                "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
-            )
-    except InputError as error:
-        problems += error.problems
-    try:
-        _settings(args, 0.0)
-    except InputError as error:
-        problems += error.problems
+    if bearings == ():
+        numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
+        problems.append(
+            f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
+            "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
+        )
+    bearings = bearings or ()
     try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
         measured = with_heard_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems
-    if problems:
+    if problems or algorithm is None:
         raise InputError(problems)
     told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
     for sentence in told:
         print(f"beardyn: {sentence}", file=sys.stderr)
     found = {each: _Results() for each in bearings}
     warnings: list[str] = []
-    settings = _settings(args, uncertainty_of(measured))
+    settings = settings_of(args, uncertainty_of(measured))
     for mounted, result in watch(measured, bearings, algorithm, settings, warnings):
         found[mounted].add(result)
     for sentence in warnings:
@@ -439,12 +371,14 @@ def json_object(
             {
                 "label": mounted.label,
                 "bearing": mounted.plate.name,
+                "catalogue": catalogue_object(mounted.entry),
                 "sensor": mounted.sensor or None,
                 "verdict": NOT_DIAGNOSABLE if conclusion.verdict == WAITING else conclusion.verdict,
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
                 **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
+                "not_judged": list(mounted.plate.cannot_tell),
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
@@ -453,7 +387,7 @@ def json_object(
             every[-1]["twin"] = found.twin
     verdict = worst(each["verdict"] for each in every)
     decides = next(each for each in every if each["verdict"] == verdict)
-    keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings")
+    keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings", "not_judged")
     top = {key: decides[key] for key in keys}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
 

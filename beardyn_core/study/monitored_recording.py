@@ -46,9 +46,9 @@ class Finding:
     time: A[float, "simulated time of the last sample analysed, [s]"]
     confidence: A[float, "probability that the verdict is right; NaN of one that cannot tell, [-]"] = nan
     found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
-    expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
+    expected_frequency: A[float, "the same from bearing data, [Hz]"] = nan
     found_order: A[float, "line found, per shaft revolution, [-]"] = nan
-    expected_order: A[float, "the same from geometry, [-]"] = nan
+    expected_order: A[float, "the same from bearing data, [-]"] = nan
     signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
     fitting_shaft_frequency: A[
         float, "speed at which the line or the comb found is that of a part without slip, [Hz]"
@@ -74,6 +74,7 @@ class Finding:
     spall_width_high: A[float, "upper end, [m]"] = nan
     stage: A[str, "``incipient``, ``developed``, ``severe``, ``not measurable``; '' without a fault"] = ""
     stage_reason: A[str, "size and stage in a sentence, or why they cannot be given"] = ""
+    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
@@ -108,15 +109,16 @@ class Finding:
 
     @property
     def deviation(self) -> float:
-        """Frequency found against geometry, relative, [-]."""
+        """Frequency found against bearing data, relative, [-]."""
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
         """Write as a status of ``monitor/result``: a hot box is an error, all but healthy a warning."""
         values = [(field, getattr(self, field)) for field in ("verdict", *_TEXTS)]
-        for field in self._numbers():
+        for field in _numbers():
             number = float(getattr(self, field))
             values.append((field, f"{number:.9g}" if isfinite(number) else "nan"))
+        values.append(("not_judged", " ".join(self.not_judged)))
         level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
@@ -127,12 +129,15 @@ class Finding:
         if verdict is None:
             return None
         values: dict[str, Any] = {name: status.value(name) or "" for name in _TEXTS}
-        values |= {name: float(status.value(name) or "nan") for name in cls._numbers()}
+        values |= {name: float(status.value(name) or "nan") for name in _numbers()}
+        values["not_judged"] = tuple((status.value("not_judged") or "").split())
         return cls(verdict, status.message, **values)
 
-    @classmethod
-    def _numbers(cls) -> list[str]:
-        return [each.name for each in fields(cls) if each.name not in ("verdict", "reason", *_TEXTS)]
+
+def _numbers() -> list[str]:
+    """List the fields of a finding that are numbers."""
+    texts = ("verdict", "reason", "not_judged", *_TEXTS)
+    return [member.name for member in fields(Finding) if member.name not in texts]
 
 
 @dataclass(frozen=True)

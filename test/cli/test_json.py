@@ -165,6 +165,8 @@ def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         printed(capsys, "monitor", str(path), "--bearing", "HS130x230"),
         printed(capsys, "monitor", str(short), "--trend"),
         printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--bpfo", "3.585"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--bearing", "6205"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--which-bearing", "--bore-mm", "130"),
         printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--which-bearing", "--bore-mm", "25"),
     )
 

@@ -13,7 +13,7 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score, parts_without_order
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -81,11 +81,13 @@ class Chain:
             Rollers of one row; 0 where that is not known.
         """
         speed = stretch.shaft_frequency
+        not_judged = parts_without_order(orders)
         if why := unheard(stretch, settings):
             return MonitorResult(
                 NOT_DIAGNOSABLE,
                 why,
                 stretch.end_ns,
+                not_judged=not_judged,
                 shaft_frequency=speed,
                 revolutions=stretch.revolutions,
             )
@@ -111,9 +113,9 @@ class Chain:
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
-        unknown = [PART_NAMES[part] for part in FAULTS if part not in score]
-        if unknown and verdict.name not in FAULTS:
-            cannot = f"cannot tell: {', '.join(unknown)}, whose order is not known"
+        if not_judged and verdict.name not in FAULTS:
+            named = ", ".join(PART_NAMES[part] for part in not_judged)
+            cannot = f"not judged: {named}, whose order is not known"
             verdict = replace(verdict, reason=f"{verdict.reason}; {cannot}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
@@ -138,6 +140,7 @@ class Chain:
             score=best.score,
             threshold=best.threshold,
             scores=(score.get("cup", np.nan), score.get("cone", np.nan), score.get("roller", np.nan)),
+            not_judged=not_judged,
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,

@@ -54,7 +54,7 @@ class Line:
 
     name: A[str, "such as ``2 x BPFO`` or ``BPFI - shaft``"]
     order: A[float, "found, cycles per shaft revolution, [-]"]
-    expected_order: A[float, "from geometry, [-]"]
+    expected_order: A[float, "from bearing data, [-]"]
     frequency: A[float, "at the mean shaft speed, [Hz]"]
     level: A[float, "over the background, [dB]"]
 
@@ -158,6 +158,12 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
         Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2, other_sideband=1.0),
     )
     return tuple(each for each in several if not isnan(each.order + each.sideband))
+
+
+def parts_without_order(orders: FaultFrequencies) -> tuple[str, ...]:
+    """List the parts that cannot be judged, since the bearing data do not give their orders."""
+    known = {each.fault for each in fault_patterns(orders)}
+    return tuple(part for part in FAULTS if part not in known)
 
 
 def comb_score(

@@ -34,8 +34,8 @@ class MonitorResult:
     grounds: A[Grounds | None, "what that rests on"] = None
     fault_order: A[float, "found, NaN without a fault, per shaft revolution"] = np.nan
     fault_frequency: A[float, "the same, [Hz]"] = np.nan
-    expected_order: A[float, "of that fault from geometry, [-]"] = np.nan
-    expected_frequency: A[float, "of that fault from geometry, [Hz]"] = np.nan
+    expected_order: A[float, "of that fault from bearing data, [-]"] = np.nan
+    expected_frequency: A[float, "of that fault from bearing data, [Hz]"] = np.nan
     fitting_shaft_frequency: A[
         float, "speed at which a fault has its order without slip, or a comb that of a part; else NaN, [Hz]"
     ] = np.nan
@@ -50,6 +50,7 @@ class MonitorResult:
         0.0,
         0.0,
     )
+    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
     lines: A[tuple[Line, ...], "lines of the strongest candidate that stand out one by one"] = ()
     strongest_order: A[float, "of the strongest line above the cage's own, [-]"] = np.nan
     strongest_level: A[float, "of that line, [dB]"] = np.nan
