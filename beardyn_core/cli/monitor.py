@@ -95,6 +95,7 @@ def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
+    from beardyn_core.monitor.chain.ambiguity import ON_THE_SHAFT
     from beardyn_core.monitor.chain.explanations import PART_NAMES
     from beardyn_core.study.monitored_recording import conclude
 
@@ -145,7 +146,16 @@ def run(args: argparse.Namespace) -> int:
             print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
+        for part in _hidden_parts(mounted, findings):
+            print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
     return _exit_code(heard)
+
+
+def _hidden_parts(mounted: Mounted, findings: list[Finding]) -> list[str]:
+    """List the parts that no analysis has judged although their orders are known."""
+    judged = [each.not_judged for each in findings if each.verdict != "waiting"]
+    hidden = [part for part in (judged[-1] if judged else ()) if all(part in each for each in judged)]
+    return [part for part in hidden if part not in mounted.plate.cannot_tell]
 
 
 def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
@@ -378,7 +388,7 @@ def json_object(
                 "analyses": conclusion.analyses,
                 **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
-                "not_judged": list(mounted.plate.cannot_tell),
+                "not_judged": [*mounted.plate.cannot_tell, *_hidden_parts(mounted, findings)],
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
