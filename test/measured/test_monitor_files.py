@@ -92,10 +92,11 @@ def test_the_programs_and_other_commands_of_the_page_do_what_it_says(
     assert "cup" in capsys.readouterr().out.splitlines()
     two = next(words for words in commands(PAGE) if "both.csv" in words)
     assert main(two) == EXIT_CODES["cone"]  # the worst decides
-    healthy, cone, size = capsys.readouterr().out.splitlines()[-3:]
+    healthy, cone, size, hidden = capsys.readouterr().out.splitlines()[-4:]
     assert healthy.startswith("drive_end healthy: 7 of 7 analyses, confidence 0.")
     assert cone.startswith("fan_end cone: 7 of 7 analyses, confidence 0.9")
     assert size.startswith("fan_end size: not measurable: ")
+    assert hidden == "fan_end not judged: rolling elements, whose lines are multiples of the shaft's"
     plate = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
     assert plate is not None
     (tmp_path / "mine.yaml").write_text(plate[1])
