@@ -23,6 +23,8 @@ warmup           kernels compiled ahead
 view             a recording in 3-D
 report           what a recording holds
 monitor          what a monitor says over a recording
+monitor_settings certainty of speed and bearing, limits of temperature, for who judges a bearing
+monitored_files  the files of a command through a monitor
 estimate         load, end play and spall of a recording, what remains
 follow           the same over successive stretches and recordings, health, residual beside a twin
 calibrate        the scene of one measured axlebox, fitted to its healthy recordings

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from contextlib import nullcontext, suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,33 +12,19 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
-from beardyn_core.base.units import ZERO_CELSIUS
-from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.measured_options import (
-    USUAL_LABEL,
-    add_plates,
-    add_reading,
-    mounted_of,
-    reading_of,
-    reading_options,
-)
+from beardyn_core.cli.measured_options import add_plates, add_reading
+from beardyn_core.cli.monitor_settings import add_certainty, add_limits
+from beardyn_core.cli.monitored_files import inspect_files, is_recorded, reading_problems
 from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing, size_options
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.monitor.chain import Algorithm, MonitorResult, MonitorSettings
-    from beardyn_core.record.run import Run
+    from beardyn_core.study.inspection import BearingResults
     from beardyn_core.study.monitored_recording import Finding
-
-# of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
-_LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
-_LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees Celsius]
-_COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -66,84 +50,6 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.set_defaults(run=run)
 
 
-def add_certainty(parser: argparse.ArgumentParser) -> None:
-    """Declare what the stated speed and bearing leave open."""
-    from beardyn_core.measured.stated_speed import UNCERTAINTY
-
-    group = parser.add_argument_group("certainty", "what the stated speed and bearing leave open")
-    group.add_argument(
-        "--speed-uncertainty",
-        metavar="PERCENT",
-        help="of the stated speed, searched over; default 0 with a tachometer, else "
-        f"{100 * UNCERTAINTY:g} %%, or what was found where the speed was sought in the vibration",
-    )
-    group.add_argument(
-        "--neighbour",
-        metavar="NAME",
-        action="append",
-        default=[],
-        help="another bearing on the same shaft, whose strikes reach the accelerometer; again for each; "
-        "default the others of --bearing",
-    )
-
-
-def add_limits(parser: argparse.ArgumentParser) -> None:
-    """Declare the limits of temperature."""
-    group = parser.add_argument_group(
-        "temperature",
-        "limits of the vehicle; a scene's, in kelvin: bd.heat_interval(scene).warm_from(air in kelvin)",
-    )
-    for name, what in (("warm", "called warm"), ("hot", "an alarm, a hot box")):
-        group.add_argument(
-            f"--{name}",
-            type=float,
-            metavar="CELSIUS",
-            default=_LIMITS[name],
-            help=f"temperature of the axlebox from which it is {what}; default %(default)g, which is assumed",
-        )
-
-
-def _settings(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
-    """Make the settings of the monitor; raises `InputError` with every mistake."""
-    from beardyn_core.config import load_plate
-    from beardyn_core.monitor.chain import MonitorSettings
-
-    problems: list[str] = []
-    if args.speed_uncertainty is not None:
-        try:
-            uncertainty = float(args.speed_uncertainty.rstrip(" %")) / 100.0
-        except ValueError:
-            uncertainty = -1.0
-        if not (uncertainty == 0.0 or _LEAST_UNCERTAINTY <= uncertainty <= _MOST_UNCERTAINTY):
-            problems.append(
-                f"--speed-uncertainty is {args.speed_uncertainty!r}; it must be 0, or a number from "
-                f"{100.0 * _LEAST_UNCERTAINTY:g} to {100.0 * _MOST_UNCERTAINTY:g} in per cent, such as 3 "
-                "for 3 %"
-            )
-    neighbours = []
-    for name in args.neighbour:
-        try:
-            neighbours.append(load_plate(name).frequencies)
-        except InputError as error:
-            problems += [f"--neighbour {name}: {each}" for each in error.problems]
-    for name in _LIMITS:
-        if not _COLDEST_LIMIT <= getattr(args, name) <= _HOTTEST_LIMIT:
-            problems.append(
-                f"--{name} is {getattr(args, name):g}; it must be from {_COLDEST_LIMIT:g} to "
-                f"{_HOTTEST_LIMIT:g} degrees Celsius"
-            )
-    if args.warm > args.hot:
-        problems.append(f"--warm is {args.warm:g}; it must be at most --hot, which is {args.hot:g}")
-    if problems:
-        raise InputError(problems)
-    return MonitorSettings(
-        speed_uncertainty=uncertainty,
-        neighbours=tuple(neighbours),
-        warm=args.warm + ZERO_CELSIUS,
-        hot=args.hot + ZERO_CELSIUS,
-    )
-
-
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
@@ -154,23 +60,20 @@ def run(args: argparse.Namespace) -> int:
     if args.memory:
         raise InputError("--memory is that of --trend; give both")
     if args.which_bearing:
-        return run_which_bearing(args, recorded=_is_recorded(args))
+        return run_which_bearing(args, recorded=is_recorded(args))
     if sizes := size_options(args):
         raise InputError(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
     algorithm = algorithm_named(args.monitor)
-    recorded = _is_recorded(args)
-    problems = _picture_problems(args)
-    options = [each for each in reading_options(args) if each != "--channels"]
-    if recorded and options:
-        verb = "is" if len(options) == 1 else "are"
-        problems.append(
-            f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording, which is taken "
-            "as it is"
-        )
+    recorded = is_recorded(args)
+    problems = _picture_problems(args) + reading_problems(args, recorded=recorded)
     if problems:
         raise InputError(problems)
-    results = _monitor_recording(args, algorithm) if recorded else _monitor_measured_files(args, algorithm)
-    heard = {mounted: each.findings for mounted, each in results.items()}
+    inspections = inspect_files(args, algorithm, recorded=recorded)
+    results = {each.mounted: each.results for each in inspections}
+    for each in inspections if recorded and not args.json else ():
+        if each.severity is not None:
+            print(f"beardyn: {each.mounted.label}: {each.severity.reason}", file=sys.stderr)
+    heard = {each.mounted: each.results.findings for each in inspections}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
     if args.json:
@@ -196,42 +99,6 @@ def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
     return EXIT_CODES[worst(conclude(findings).verdict for findings in heard.values())]
 
 
-class _Results:
-    """Findings of one bearing, and the latest result of each verdict with its spectrum."""
-
-    def __init__(self) -> None:
-        self.findings: list[Finding] = []
-        self.latest: dict[str, MonitorResult] = {}
-
-    def add(self, result: MonitorResult) -> None:
-        """Keep a result."""
-        from beardyn_core.study.monitored_recording import Finding
-
-        self.findings.append(Finding.of(result))
-        self.latest[result.verdict] = result
-
-    @property
-    def concluded(self) -> MonitorResult | None:
-        """The latest result of the most frequent verdict."""
-        from beardyn_core.study.monitored_recording import conclude
-
-        return self.latest.get(conclude(self.findings).verdict)
-
-
-def _is_recorded(args: argparse.Namespace) -> bool:
-    """Tell whether the one file is a recording of an axlebox, of which no part is to be taken by channels."""
-    from beardyn_core.record.other_messages import is_recording
-
-    path, options = Path(args.files[0]), reading_options(args)
-    if len(args.files) > 1 or "--channels" in options:
-        return False
-    if not options:
-        return is_recording(path)
-    # a folder, or a file that there is not, may be of another tool
-    files = path.glob("*.mcap") if path.is_dir() else (path,)
-    return any(each.is_file() and is_recording(each) for each in files)
-
-
 def _picture_problems(args: argparse.Namespace) -> list[str]:
     """List why the picture cannot be written."""
     inputs = [Path(each) for each in args.files]
@@ -239,7 +106,7 @@ def _picture_problems(args: argparse.Namespace) -> list[str]:
     return problems + file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
 
 
-def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> None:
+def _draw(results: dict[Mounted, BearingResults], path: Path, *, replace: bool) -> None:
     """Write the picture of all bearings that have a verdict."""
     from beardyn_core.study.monitor_picture import monitor_picture
 
@@ -270,113 +137,6 @@ def _ending(findings: list[Finding]) -> str:
     return f"{NOT_DIAGNOSABLE}: no analysis; {reason}{many}"
 
 
-def _monitor_recording(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
-    """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
-    from beardyn_core.record.reading import read_run
-
-    path = args.files[0]
-    recording = read_run(path, args.box)
-    if recording.problem:
-        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    if args.box or len(recording.boxes) == 1:
-        return _of_box(args, recording, algorithm)
-    found: dict[Mounted, _Results] = {}
-    for name, run in recording.boxes.items():
-        for mounted, results in _of_box(args, run, algorithm).items():
-            label = name if mounted.label == USUAL_LABEL else f"{name} {mounted.label}"
-            found[replace(mounted, label=label)] = results
-    return found
-
-
-def _of_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> dict[Mounted, _Results]:
-    """Let the monitor analyse the signals of one axlebox."""
-    from beardyn_core.choice import scene_from_text
-    from beardyn_core.measured.about import Mounted, beside_others, mounted_in
-    from beardyn_core.measured.stated_speed import recorded_uncertainty
-    from beardyn_core.study.measured_severity import severity_in
-    from beardyn_core.study.monitored_recording import conclude, results_of
-
-    path = args.files[0]
-    bearings = mounted_of(args)
-    recorded = None
-    with suppress(InputError) if bearings else nullcontext():
-        if recording.scene_text:
-            recorded = NamePlate.of(scene_from_text(recording.scene_text, str(path)).bearing)
-    known = mounted_in(recording.measured, path)
-    for each in bearings if recorded is not None else ():
-        assert recorded is not None
-        if doubt := other_bearing(each.plate, recorded):
-            print(f"beardyn: warning: --bearing {each.plate.name}: {doubt}", file=sys.stderr)
-    bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
-    problems = [] if bearings else [f"{path}: does not say which bearing it is of; give --bearing"]
-    if recording.measured and len(recording.vibration) and not len(recording.shaft):
-        problems.append(
-            f"{path}: was imported without the speed of the shaft, and a monitor needs it; import the file "
-            "that it is of again with one of --speed-rpm, --speed-kmh, --speed-channel, --tacho-channel, "
-            "--speed-range-rpm"
-        )
-    if problems:
-        raise InputError(problems)
-    heard = {each: _Results() for each in bearings}
-    settings = _settings(args, recorded_uncertainty(recording.measured))
-    for each, results in heard.items():
-        own = beside_others(settings, each, bearings)
-        for result in results_of(recording, each.plate, algorithm, own, each.sensor):
-            results.add(result)
-        conclusion = conclude(results.findings)
-        if (
-            not args.json
-            and (found := severity_in(recording, conclusion, each.plate, each.sensor)) is not None
-        ):
-            print(f"beardyn: {each.label}: {found.reason}", file=sys.stderr)
-    return heard
-
-
-def _monitor_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> dict[Mounted, _Results]:
-    """Let the monitor analyse measured files, block by block."""
-    from beardyn_core.cli.import_ import sensor_problems
-    from beardyn_core.measured.heard_speed import with_heard_speed
-    from beardyn_core.measured.stated_speed import uncertainty_of
-    from beardyn_core.measured.survey import survey
-    from beardyn_core.measured.watching import watch
-
-    problems: list[str] = []
-    bearings: tuple[Mounted, ...] = ()
-    try:
-        bearings = mounted_of(args)
-        if not bearings:
-            numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
-            problems.append(
-                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
-                "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
-            )
-    except InputError as error:
-        problems += error.problems
-    try:
-        _settings(args, 0.0)
-    except InputError as error:
-        problems += error.problems
-    try:
-        measured = survey(args.files, reading_of(args), needs_speed=True)
-        measured = with_heard_speed(measured, bearings) if not problems else measured
-        problems += sensor_problems(measured.sensors, bearings)
-    except InputError as error:
-        problems += error.problems
-    if problems:
-        raise InputError(problems)
-    told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
-    for sentence in told:
-        print(f"beardyn: {sentence}", file=sys.stderr)
-    found = {each: _Results() for each in bearings}
-    warnings: list[str] = []
-    settings = _settings(args, uncertainty_of(measured))
-    for mounted, result in watch(measured, bearings, algorithm, settings, warnings):
-        found[mounted].add(result)
-    for sentence in warnings:
-        print(f"beardyn: warning: {sentence}", file=sys.stderr)
-    return found
-
-
 def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude, worst
@@ -400,17 +160,3 @@ def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -
     decides = next(each for each in every if each["verdict"] == verdict)
     top = {key: decides[key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
-
-
-def other_bearing(given: Bearing | NamePlate, recorded: Bearing | NamePlate) -> str:
-    """Say how a bearing differs from the recorded one for a monitor; empty when it does not."""
-    from dataclasses import astuple
-
-    one, other = given.frequencies, recorded.frequencies
-    if astuple(one) == astuple(other) and given.roller_count == recorded.roller_count:
-        return ""
-    return (
-        f"the recording is of {recorded.name}, {recorded.roller_count} rollers in a row, BPFO "
-        f"{other.bpfo:.4f} and BPFI {other.bpfi:.4f} per revolution; searched for is what {given.name} would "
-        f"show, {given.roller_count} rollers, {one.bpfo:.4f} and {one.bpfi:.4f}"
-    )

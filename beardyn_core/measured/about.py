@@ -15,6 +15,8 @@ from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.chain import MonitorSettings
 
+USUAL_LABEL = "bearing"  # of the only one on a shaft
+
 
 @dataclass(frozen=True)
 class Mounted:

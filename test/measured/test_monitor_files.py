@@ -16,8 +16,8 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.cli import monitor as monitor_command
 from beardyn_core.cli.main import BAD_INPUT, DONE, build_parser, main
+from beardyn_core.cli.monitor_settings import settings_of
 from beardyn_core.config import load_bearing, load_plate, shipped_names
 from beardyn_core.monitor.chain import REFERENCE, MonitorSettings, Stretch
 from beardyn_core.monitor.streaming import Monitor, measured_axes
@@ -300,7 +300,7 @@ def test_limits_of_temperature_are_those_of_the_vehicle() -> None:
     parser = build_parser()
 
     def settings(*options: str) -> MonitorSettings:
-        return monitor_command._settings(parser.parse_args(["monitor", "a.csv", *options]), 0.0)
+        return settings_of(parser.parse_args(["monitor", "a.csv", *options]), 0.0)
 
     usual, own = MonitorSettings(), settings("--warm", "80", "--hot", "95.5")
     assert (settings().warm, settings().hot) == pytest.approx((usual.warm, usual.hot))
