@@ -22,6 +22,7 @@ ladder           what accuracy costs
 warmup           kernels compiled ahead
 view             a recording in 3-D
 report           what a recording holds
+report_page      a page about an axlebox: `beardyn report --html`, `--pdf`
 monitor          what a monitor says over a recording
 monitor_settings certainty of speed and bearing, limits of temperature, for who judges a bearing
 monitored_files  the files of a command through a monitor

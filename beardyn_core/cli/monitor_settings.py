@@ -54,6 +54,13 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
         )
 
 
+def given_settings(args: argparse.Namespace) -> list[str]:
+    """List the options of certainty and temperature that were given."""
+    limits = [f"--{name}" for name, usual in _LIMITS.items() if getattr(args, name) != usual]
+    uncertain = ["--speed-uncertainty"] if args.speed_uncertainty is not None else []
+    return [*uncertain, *(["--neighbour"] if args.neighbour else []), *limits]
+
+
 def settings_of(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
     """Make the settings of the monitor; raises `InputError` with every mistake."""
     from beardyn_core.config import load_plate

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,22 +53,14 @@ def reading_problems(args: argparse.Namespace, *, recorded: bool) -> list[str]:
 
 def _inspect_recording(args: argparse.Namespace, algorithm: Algorithm) -> list[Inspection]:
     """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
-    from beardyn_core.measured.about import USUAL_LABEL
     from beardyn_core.record.reading import read_run
+    from beardyn_core.study.inspection import inspect_boxes
 
     path = args.files[0]
     recording = read_run(path, args.box)
     if recording.problem:
         print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    if args.box or len(recording.boxes) == 1:
-        return _inspect_box(args, recording, algorithm)
-    found: list[Inspection] = []
-    for name, run in recording.boxes.items():
-        for each in _inspect_box(args, run, algorithm):
-            label = each.mounted.label
-            label = name if label == USUAL_LABEL else f"{name} {label}"
-            found.append(replace(each, mounted=replace(each.mounted, label=label)))
-    return found
+    return inspect_boxes(recording, lambda run: _inspect_box(args, run, algorithm), alone=bool(args.box))
 
 
 def _inspect_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> list[Inspection]:

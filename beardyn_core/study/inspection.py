@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Annotated as A
 
@@ -114,6 +114,8 @@ def inspect_run(
     given: Sequence[Mounted] = (),
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
+    *,
+    sensor: str = "",
 ) -> list[Inspection]:
     """Let a monitor analyse the signals of one axlebox, once for each bearing on its shaft.
 
@@ -123,6 +125,8 @@ def inspect_run(
         Bearings that were named; by default those of the recording.
     settings : MonitorSettings, optional
         By default with the uncertainty of the speed that the recording states.
+    sensor : str
+        Accelerometer to take; by default the one of the bearing, or the first.
 
     Raises
     ------
@@ -143,6 +147,7 @@ def inspect_run(
         )
     if problems:
         raise InputError(problems)
+    bearings = tuple(replace(each, sensor=sensor or each.sensor) for each in bearings)
     settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
     found = []
     for each in bearings:
@@ -150,6 +155,29 @@ def inspect_run(
         for result in results_of(run, each.plate, algorithm, own, each.sensor):
             results.add(result)
         found.append(Inspection(each, bearing_from, own, results, lambda: run))
+    return found
+
+
+def inspect_boxes(
+    recording: Run, inspect: Callable[[Run], list[Inspection]], *, alone: bool = False
+) -> list[Inspection]:
+    """Inspect every axlebox of a recording, whose bearings are then called by its name too.
+
+    Parameters
+    ----------
+    inspect : callable
+        Inspects the run of one axlebox.
+    alone : bool
+        Whether only the axlebox that was read is wanted.
+    """
+    if alone or len(recording.boxes) == 1:
+        return inspect(recording)
+    found = []
+    for name, run in recording.boxes.items():
+        for each in inspect(run):
+            own = each.mounted.label
+            label = name if own == USUAL_LABEL else f"{name} {own}"
+            found.append(replace(each, mounted=replace(each.mounted, label=label)))
     return found
 
 

@@ -1,0 +1,184 @@
+"""The pages of inspections: one for each bearing, an overview first where there are several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated as A
+
+from beardyn_core.base.errors import InputError
+from beardyn_core.scene.scene import Scene
+from beardyn_core.study.inspection import Inspection
+from beardyn_core.study.monitored_recording import rank_of
+from beardyn_core.study.report_page.advice import actions_for, headline_of, in_words
+from beardyn_core.study.report_page.assumptions import assumed_rows
+from beardyn_core.study.report_page.file_levels import FileLevel, level_rows, levels_of
+from beardyn_core.study.report_page.identity import identity_rows
+from beardyn_core.study.report_page.page import (
+    Facts,
+    Headline,
+    Page,
+    PageReport,
+    Panel,
+    Part,
+    Picture,
+    Points,
+    Rows,
+)
+from beardyn_core.study.report_page.page_pictures import (
+    draw_levels,
+    draw_spectrum,
+    draw_strikes,
+    draw_waveform,
+)
+
+Records = Sequence[Sequence[Inspection]]
+TITLE = "Condition of an axlebox bearing"
+_SPECTRUM, _WAVEFORM, _LEVELS = 50.0, 34.0, 30.0  # heights of pictures, [mm]
+
+
+@dataclass(frozen=True)
+class Names:
+    """What a person calls the things on the page; empty: what the files say."""
+
+    train: A[str, "train or vehicle"] = ""
+    axlebox: A[str, "such as axle 2 left"] = ""
+
+
+def page_report(records: Records, names: Names, foot: str) -> PageReport:
+    """Compose the pages.
+
+    Parameters
+    ----------
+    records : sequence of sequence of Inspection
+        The bearings of each recording or measurement, in the order of time.
+    names : Names
+    foot : str
+        A line at the end of each page.
+    """
+    history: dict[str, list[Inspection]] = {}
+    for record in records:
+        for each in record:
+            history.setdefault(each.mounted.label, []).append(each)
+    ranked = sorted(history.items(), key=lambda item: -rank_of(item[1][-1].verdict))
+    pages = [_bearing_page(label, each, names, alone=len(ranked) == 1) for label, each in ranked]
+    if len(ranked) > 1:
+        pages.insert(0, _overview(dict(ranked), names))
+    return PageReport(TITLE, tuple(pages), foot)
+
+
+def _overview(history: dict[str, list[Inspection]], names: Names) -> Page:
+    latest = {label: each[-1] for label, each in history.items()}
+    worst = next(iter(latest))
+    headline = headline_of(latest[worst])
+    rows = tuple(
+        (str(number), label, headline_of(each).word, in_words(each.verdict), _agreement(each), _size(each))
+        for number, (label, each) in enumerate(latest.items(), 1)
+    )
+    table = Rows(
+        "All bearings, the worst first: each has a page of its own below",
+        ("", "axlebox, bearing", "", "verdict", "analyses that agree", "width of the spall, mm"),
+        (0.05, 0.22, 0.25, 0.18, 0.15, 0.15),
+        rows,
+    )
+    first = Headline(
+        headline.word,
+        f"Worst of {len(rows)}: {worst}. {headline.sentence}",
+        headline.colour,
+        tuple(each for each in headline.details if each.startswith(("Confidence", "Size"))),
+    )
+    title = f"Overview of {len(rows)} bearings"
+    return Page(f"{title}, {names.train}" if names.train else title, first, (table,))
+
+
+def _agreement(inspection: Inspection) -> str:
+    conclusion = inspection.conclusion
+    return f"{conclusion.agreeing} of {conclusion.analyses}" if conclusion.analyses else "no analysis"
+
+
+def _size(inspection: Inspection) -> str:
+    severity = inspection.severity
+    if severity is None:
+        return "-"
+    if severity.width == severity.width:
+        return f"{1e3 * severity.width:.1f} ({1e3 * severity.low:.1f} to {1e3 * severity.high:.1f})"
+    return "not measurable"
+
+
+def _bearing_page(label: str, history: Sequence[Inspection], names: Names, *, alone: bool) -> Page:
+    inspection = history[-1]
+    scene = _scene_of(inspection)
+    axlebox = names.axlebox if alone else ""
+    identity = identity_rows(inspection, train=names.train, axlebox=axlebox, scene=scene)
+    parts: list[Part] = [
+        Facts("Record", identity),
+        Picture(
+            "Spectrum of the envelope",
+            (
+                Panel(
+                    partial(draw_spectrum, inspection=inspection),
+                    "Spectrum of the envelope over the order, with labelled lines of outer ring (BPFO), "
+                    "inner ring (BPFI), rollers (2 BSF), cage (FTF) and shaft",
+                ),
+            ),
+            _SPECTRUM,
+        ),
+        Picture(
+            "Waveform",
+            (
+                Panel(partial(draw_waveform, inspection=inspection), "Acceleration of the whole record"),
+                Panel(
+                    partial(draw_strikes, inspection=inspection), "Acceleration over three turns of the shaft"
+                ),
+            ),
+            _WAVEFORM,
+        ),
+        *_trend_parts(history),
+        Facts("What was assumed", assumed_rows(inspection, scene)),
+        Points("What to do next", actions_for(inspection)),
+    ]
+    name = axlebox or ("" if alone else label)
+    title = ", ".join(each for each in (TITLE, names.train, name) if each)
+    return Page(title, headline_of(inspection), tuple(parts))
+
+
+def _trend_parts(history: Sequence[Inspection]) -> list[Part]:
+    levels: list[FileLevel] = levels_of(history)
+    if not levels:
+        return []
+    dated = all(each.date for each in levels)
+    order = "by date" if dated else "in the order given, the last one is the record of this page"
+    if len(history) == 1:
+        order = "files of this record in the order given, one analysis may begin in the file before"
+    return [
+        Picture(
+            f"Levels over {len(levels)} files",
+            (
+                Panel(
+                    partial(draw_levels, levels=levels),
+                    "Level of each file over its number, with its verdict",
+                ),
+            ),
+            _LEVELS,
+        ),
+        Rows(
+            f"Verdicts over {len(levels)} files, {order}",
+            ("no.", "file", "date", "rms, m/s²", "peak, m/s²", "verdict, analyses that agree"),
+            (0.08, 0.32, 0.18, 0.10, 0.10, 0.22),
+            level_rows(levels),
+        ),
+    ]
+
+
+def _scene_of(inspection: Inspection) -> Scene | None:
+    """Read the scene of a simulated recording; ``None`` where there is none that can be read."""
+    from beardyn_core.choice import scene_from_text
+
+    run = inspection.run
+    if not run.scene_text:
+        return None
+    with suppress(InputError):
+        return scene_from_text(run.scene_text, run.label)
+    return None
