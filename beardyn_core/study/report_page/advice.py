@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 from typing import Annotated as A
@@ -115,6 +116,11 @@ _SEVERE_FIRST = (
     "severe on this page, which is assumed."
 )
 _WARM = "The axlebox is warm: watch its temperature, and compare with the other axleboxes of the vehicle."
+_CALLED = ("cup", "cone", "roller", "unexplained", "hot_box")
+_EARLIER = (
+    "An earlier file has another verdict ({}). A fault does not heal: find out why the files differ before "
+    "the box counts as healthy."
+)
 _FEW = "One analysis only: record for longer, so that several analyses can agree."
 
 
@@ -135,7 +141,9 @@ def headline_of(inspection: Inspection) -> Headline:
 
 
 def _details(inspection: Inspection) -> list[str]:
-    found = [f"Confidence: {_confidence(inspection)}", f"The monitor: {inspection.reason}."]
+    run = inspection.run
+    found = [f"NOT WHOLE: {run.problem}; this page is about what is there."] if run.problem else []
+    found += [f"Confidence: {_confidence(inspection)}", f"The monitor: {inspection.reason}."]
     if (severity := inspection.severity) is not None:
         if isfinite(severity.width):
             found.append(
@@ -190,8 +198,8 @@ def in_words(verdict: str) -> str:
     }.get(verdict, verdict)
 
 
-def actions_for(inspection: Inspection) -> tuple[str, ...]:
-    """List what to do next."""
+def actions_for(inspection: Inspection, earlier: Sequence[str] = ()) -> tuple[str, ...]:
+    """List what to do next; the verdicts of earlier files, where there are some, may speak against it."""
     actions = list(ADVICE[inspection.verdict].actions)
     severity, result = inspection.severity, inspection.results.concluded
     if severity is not None and severity.grade == SEVERE:
@@ -200,8 +208,9 @@ def actions_for(inspection: Inspection) -> tuple[str, ...]:
         actions.insert(0, _HOT_FAULT)
     if result is not None and result.temperature_state == "warm":
         actions.append(_WARM)
+    others = [each for each in dict.fromkeys(earlier) if each != inspection.verdict and each in _CALLED]
+    if others and inspection.verdict not in _CALLED:
+        actions.insert(0, _EARLIER.format(", ".join(map(in_words, others))))
     if inspection.conclusion.analyses == 1:
         actions.append(_FEW)
-    if inspection.run.problem:
-        actions.append("The recording is not whole: this page is about the part that could be read.")
     return tuple(actions)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
+from pathlib import Path
 from typing import Any
 
 from beardyn_core.base.units import ZERO_CELSIUS
@@ -40,7 +42,7 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
         f"{settings.hot - ZERO_CELSIUS:.0f} °C or by {60.0 * settings.heating:.2g} K a minute above "
         f"{settings.heating_floor - ZERO_CELSIUS:.0f} °C"
         + ("" if len(run.temperature) else "; no temperature is in the record"),
-        "False alarms": f"noise alone passes the alarm in {settings.false_alarm_rate:.0e} of the analyses",
+        "False alarms": f"noise alone alarms in 1 of {1.0 / settings.false_alarm_rate:.0f} analyses",
         "Not judged": _not_judged(inspection),
     }
     severity = inspection.severity
@@ -51,9 +53,9 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
             "program, not of a keeper"
         )
     if said := run.measured.get("understood"):
-        rows["Files were read as"] = "; ".join(map(str, said))
+        rows["Files were read as"] = "; ".join(_without_path(str(each), run.path) for each in said)
     if said := run.measured.get("warnings"):
-        rows["Warnings"] = "; ".join(map(str, said))
+        rows["Warnings"] = "; ".join(_without_path(str(each), run.path) for each in said)
     own = scene if inspection.bearing_from == FROM_SCENE else plate
     for kind, names in assumed_inputs(own):
         rows[f"{kind}: assumed or derived, not published"] = ", ".join(names)
@@ -63,7 +65,7 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
 def assumed_inputs(noun: Any, name: str = "bearing") -> Iterator[tuple[str, list[str]]]:
     """List the inputs in a scene, and in all that it is made of, whose source says that they are assumed."""
     sources = [each for each in getattr(noun, "sources", ()) if len(each) == 2]
-    weak = [key.replace("_", " ") for key, source in sources if str(source).startswith(_WEAK)]
+    weak = [re.sub("[_.]", " ", key) for key, source in sources if str(source).startswith(_WEAK)]
     if weak:
         yield name.replace("_", " ").capitalize(), weak
     for member in fields(noun):
@@ -82,6 +84,13 @@ def _sensor(inspection: Inspection) -> str:
     factors = sensors.get(name, {}).get("m_per_s2_per_number", {})
     scale = ", ".join(f"{axis} {factor:g}" for axis, factor in factors.items())
     return f"{axes}; m/s² in one number of the file: {scale}" if scale else axes
+
+
+def _without_path(sentence: str, path: Path | None) -> str:
+    """Leave out the name of the one file, and the folders of the first of several."""
+    if path is None:
+        return sentence
+    return sentence.removeprefix(f"{path}: ").replace(str(path), path.name)
 
 
 def _not_judged(inspection: Inspection) -> str:

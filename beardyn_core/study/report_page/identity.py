@@ -21,6 +21,8 @@ from beardyn_core.study.inspection import FROM_RECORDING, FROM_SCENE, Inspection
 
 NOT_STATED = "not stated"
 _DATED = 10**17  # [ns]: a time stamp beyond it is a date since 1970, of 1973 or later
+OF_THE_RECORD = ("Kind of record", "Train, vehicle", "Files", "Date of the record", "State of the file")
+"""Rows that all axleboxes of a recording share."""
 _NAMED_FILES = 4  # of more files the first and the last are named
 
 
@@ -39,6 +41,7 @@ def identity_rows(
     run, plate = inspection.run, inspection.mounted.plate
     signal = signal_of(inspection)
     rows = {
+        "Kind of record": _kind(run),
         "Train, vehicle": train or _vehicle(run, scene),
         "Axlebox": axlebox or run.box or _axlebox(inspection),
         "Bearing": ": ".join(each for each in (plate.name, plate.description) if each),
@@ -141,10 +144,17 @@ def _of(facts: Mapping[str, Any], key: str, kind: type) -> Any:
     return value if isinstance(value, kind) else kind()
 
 
+def _kind(run: Run) -> str:
+    if run.measured:
+        return "measured"
+    scene = "" if run.description is None else f", scene {run.description.scene}"
+    return f"SIMULATED{scene}: not of a real train"
+
+
 def _vehicle(run: Run, scene: Scene | None) -> str:
     vehicle = getattr(getattr(scene, "operation", None), "vehicle", None)
     if vehicle is not None:
-        return f"{vehicle.name}, simulated"
+        return str(vehicle.name)
     return NOT_STATED if run.measured or scene is None else "none, a simulated bearing"
 
 

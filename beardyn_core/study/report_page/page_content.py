@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Annotated as A
 
+import numpy as np
+
 from beardyn_core.base.errors import InputError
+from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.inspection import Inspection
 from beardyn_core.study.monitored_recording import rank_of
 from beardyn_core.study.report_page.advice import actions_for, headline_of, in_words
 from beardyn_core.study.report_page.assumptions import assumed_rows
 from beardyn_core.study.report_page.file_levels import FileLevel, level_rows, levels_of
-from beardyn_core.study.report_page.identity import identity_rows
+from beardyn_core.study.report_page.identity import OF_THE_RECORD, identity_rows, signal_of
 from beardyn_core.study.report_page.page import (
     Facts,
     Headline,
@@ -36,7 +39,7 @@ from beardyn_core.study.report_page.page_pictures import (
 
 Records = Sequence[Sequence[Inspection]]
 TITLE = "Condition of an axlebox bearing"
-_SPECTRUM, _WAVEFORM, _LEVELS = 50.0, 34.0, 30.0  # heights of pictures, [mm]
+_SPECTRUM, _WAVEFORM, _LEVELS = 54.0, 36.0, 30.0  # heights of pictures, [mm]
 
 
 @dataclass(frozen=True)
@@ -74,15 +77,17 @@ def _overview(history: dict[str, list[Inspection]], names: Names) -> Page:
     worst = next(iter(latest))
     headline = headline_of(latest[worst])
     rows = tuple(
-        (str(number), label, headline_of(each).word, in_words(each.verdict), _agreement(each), _size(each))
+        (str(number), label, _verdict(each), _agreement(each), _size(each), _rms(each))
         for number, (label, each) in enumerate(latest.items(), 1)
     )
     table = Rows(
-        "All bearings, the worst first: each has a page of its own below",
-        ("", "axlebox, bearing", "", "verdict", "analyses that agree", "width of the spall, mm"),
-        (0.05, 0.22, 0.25, 0.18, 0.15, 0.15),
+        "All bearings, the worst first; each has a page of its own after this one",
+        ("no.", "axlebox, bearing", "verdict", "analyses that agree", "width of the spall, mm", "rms, m/s²"),
+        (0.06, 0.2, 0.34, 0.14, 0.16, 0.1),
         rows,
     )
+    identity = identity_rows(latest[worst], train=names.train, scene=_scene_of(latest[worst]))
+    record = Facts("Record", tuple(each for each in identity if each[0] in OF_THE_RECORD))
     first = Headline(
         headline.word,
         f"Worst of {len(rows)}: {worst}. {headline.sentence}",
@@ -90,7 +95,17 @@ def _overview(history: dict[str, list[Inspection]], names: Names) -> Page:
         tuple(each for each in headline.details if each.startswith(("Confidence", "Size"))),
     )
     title = f"Overview of {len(rows)} bearings"
-    return Page(f"{title}, {names.train}" if names.train else title, first, (table,))
+    return Page(f"{title}, {names.train}" if names.train else title, first, (record, table))
+
+
+def _verdict(inspection: Inspection) -> str:
+    word, words = headline_of(inspection).word, in_words(inspection.verdict)
+    return word if words.upper() == word else f"{word}: {words}"
+
+
+def _rms(inspection: Inspection) -> str:
+    values = measured_axes(signal_of(inspection).values)
+    return f"{float(np.sqrt(np.sum(values.var(axis=0)))):.3g}" if len(values) else "-"
 
 
 def _agreement(inspection: Inspection) -> str:
@@ -109,7 +124,7 @@ def _size(inspection: Inspection) -> str:
 
 def _bearing_page(label: str, history: Sequence[Inspection], names: Names, *, alone: bool) -> Page:
     inspection = history[-1]
-    scene = _scene_of(inspection)
+    scene, levels = _scene_of(inspection), levels_of(history)
     axlebox = names.axlebox if alone else ""
     identity = identity_rows(inspection, train=names.train, axlebox=axlebox, scene=scene)
     parts: list[Part] = [
@@ -135,17 +150,16 @@ def _bearing_page(label: str, history: Sequence[Inspection], names: Names, *, al
             ),
             _WAVEFORM,
         ),
-        *_trend_parts(history),
+        *_trend_parts(history, levels),
         Facts("What was assumed", assumed_rows(inspection, scene)),
-        Points("What to do next", actions_for(inspection)),
+        Points("What to do next", actions_for(inspection, [each.verdict for each in levels[:-1]])),
     ]
     name = axlebox or ("" if alone else label)
     title = ", ".join(each for each in (TITLE, names.train, name) if each)
     return Page(title, headline_of(inspection), tuple(parts))
 
 
-def _trend_parts(history: Sequence[Inspection]) -> list[Part]:
-    levels: list[FileLevel] = levels_of(history)
+def _trend_parts(history: Sequence[Inspection], levels: Sequence[FileLevel]) -> list[Part]:
     if not levels:
         return []
     dated = all(each.date for each in levels)
@@ -154,7 +168,7 @@ def _trend_parts(history: Sequence[Inspection]) -> list[Part]:
         order = "files of this record in the order given, one analysis may begin in the file before"
     return [
         Picture(
-            f"Levels over {len(levels)} files",
+            f"Levels over {len(levels)} files{_rise(levels)}",
             (
                 Panel(
                     partial(draw_levels, levels=levels),
@@ -170,6 +184,15 @@ def _trend_parts(history: Sequence[Inspection]) -> list[Part]:
             level_rows(levels),
         ),
     ]
+
+
+def _rise(levels: Sequence[FileLevel]) -> str:
+    """Compare the level of the last file with those before."""
+    before = [each.rms for each in levels[:-1] if each.rms > 0.0]
+    if not before or not levels[-1].rms > 0.0:
+        return ""
+    rise = 20.0 * float(np.log10(levels[-1].rms / np.median(before)))
+    return f", the last {rise:+.1f} dB to the median before it; speed and track change levels, too"
 
 
 def _scene_of(inspection: Inspection) -> Scene | None:

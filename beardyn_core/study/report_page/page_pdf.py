@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-import warnings
+import logging
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -53,11 +54,22 @@ def write_pdf(report: PageReport, path: Path) -> list[str]:
         warnings.catch_warnings(),
         PdfPages(path, metadata={"Title": report.title}) as pdf,
     ):
-        warnings.filterwarnings("ignore", message="Glyph .* missing")
         for page in report.pages:
             for sheet in _Sheets(fonts, page, report.foot, told).filled():
                 pdf.savefig(sheet)
     return told
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep what matplotlib logs of fonts without a bold face to itself: the regular face is taken."""
+    log = logging.getLogger("matplotlib.font_manager")
+    before = log.level
+    log.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        log.setLevel(before)
 
 
 class _Sheets:

@@ -24,7 +24,8 @@ _PARTS: dict[str, tuple[str, str, Any]] = {
 }
 _SHAFT, _COMB, _INK = "#777777", "#a3123a", "0.1"
 _HARMONICS, _SHAFT_MULTIPLES = 5, 3
-_FLOOR, _HEADROOM = -5.0, 0.42  # [dB]; of the height, for labels
+_FLOOR = -5.0  # [dB]
+_LABEL_SHARE = 0.1  # of the height, for a row of labels
 _ROWS = 4  # of labels above each other
 _BINS = 900  # of a waveform: minimum and maximum of each are drawn
 _TURNS = 3.0  # of the shaft in the close-up
@@ -48,19 +49,25 @@ def draw_spectrum(axes: Axes, inspection: Inspection) -> None:
         _say(axes, "no analysis was possible: there is no spectrum")
         return
     lines = _labelled_lines(inspection, result)
-    highest = max((order for order, *_ in lines), default=result.spectrum.order[-1]) * 1.04
+    highest = max((each.order for each in lines), default=result.spectrum.order[-1]) * 1.04
     end = min(float(result.spectrum.order[-1]), highest)
+    lines = [each for each in lines if each.order <= end]
     shown = result.spectrum.order <= end
     order, level = result.spectrum.order[shown], np.maximum(result.spectrum.level[shown], _FLOOR)
     top = float(level.max()) + 2.0
-    height = (top - _FLOOR) / (1.0 - _HEADROOM)
     for place, _, colour, style in lines:
-        if place <= end:
-            axes.plot([place, place], [_FLOOR, top], color=colour, linestyle=style, linewidth=0.8, zorder=1)
+        axes.plot([place, place], [_FLOOR, top], color=colour, linestyle=style, linewidth=0.8, zorder=1)
     axes.plot(order, level, color=_INK, linewidth=0.6, zorder=2)
-    axes.set(xlim=(0.0, end), ylim=(_FLOOR, _FLOOR + height))
+    labels = _placed_labels(axes, lines, end)
+    rows = 1 + max((row for row, *_ in labels), default=0)
+    axes.set(xlim=(0.0, end), ylim=(_FLOOR, _FLOOR + (top - _FLOOR) / (1.0 - rows * _LABEL_SHARE)))
     axes.set_yticks([tick for tick in axes.get_yticks() if _FLOOR <= tick <= top])
-    _place_labels(axes, [each for each in lines if each[0] <= end], top, height, end)
+    step = _LABEL_SHARE * (top - _FLOOR) / (1.0 - rows * _LABEL_SHARE)
+    for row, middle, each in labels:
+        axes.text(
+            middle, top + (row + 0.15) * step, each.label,
+            color=each.colour, fontsize=SMALL, ha="center", va="bottom", parse_math=False,
+        )  # fmt: skip
 
 
 def _labelled_lines(inspection: Inspection, result: MonitorResult) -> list[_Marked]:
@@ -89,35 +96,22 @@ def _multiples(order: float, count: int, label: str, colour: str, style: Any) ->
     ]
 
 
-def _place_labels(
-    axes: Axes,
-    lines: Sequence[_Marked],
-    top: float,
-    height: float,
-    end: float,
-) -> None:
-    """Write labels in rows, so that none covers another; one without room is left out, its line stays."""
-    width_pt = axes.get_position().width * axes.get_figure().get_size_inches()[0] * 72.0  # type: ignore[union-attr]
+def _placed_labels(axes: Axes, lines: Sequence[_Marked], end: float) -> list[tuple[int, float, _Marked]]:
+    """Choose row and middle of labels, so that none covers another; one without room is left out."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    points = axes.get_position().width * float(figure.get_figwidth()) * 72.0
     taken: list[list[tuple[float, float]]] = [[] for _ in range(_ROWS)]
-    step = (_FLOOR + height - top) / _ROWS
-    for place, label, colour, _ in lines:
-        half = 0.5 * (len(label) * 0.62 * SMALL + 3.0) * end / width_pt
-        middle = min(max(place, half), end - half)
-        free = next(
-            (
-                row
-                for row, others in enumerate(taken)
-                if all(middle + half <= low or middle - half >= high for low, high in others)
-            ),
-            None,
-        )
-        if free is None:
-            continue
-        taken[free].append((middle - half, middle + half))
-        axes.text(
-            middle, top + (free + 0.15) * step, label,
-            color=colour, fontsize=SMALL, ha="center", va="bottom", parse_math=False,
-        )  # fmt: skip
+    placed = []
+    for each in lines:
+        half = 0.5 * (len(each.label) * 0.62 * SMALL + 3.0) * end / points
+        middle = min(max(each.order, half), end - half)
+        for row, others in enumerate(taken):
+            if all(middle + half <= low or middle - half >= high for low, high in others):
+                others.append((middle - half, middle + half))
+                placed.append((row, middle, each))
+                break
+    return placed
 
 
 def draw_waveform(axes: Axes, inspection: Inspection) -> None:

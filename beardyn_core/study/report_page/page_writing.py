@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems, write_whole
 from beardyn_core.study.inspection import Inspection
@@ -51,6 +52,12 @@ def write_pages(
     from beardyn_core.study.report_page.page_html import html_of
     from beardyn_core.study.report_page.page_pdf import write_pdf
 
+    labels = {each.mounted.label for record in records for each in record}
+    if axlebox and len(labels) > 1:
+        raise InputError(
+            f"axlebox is {axlebox!r}, the name of one, and the files have {len(labels)}: "
+            f"{', '.join(sorted(labels))}; choose one with box, or leave the name out"
+        )
     foot = f"beardyn {versions()['beardyn']}, page made {datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
     report = page_report(records, Names(train, axlebox), foot)
     told: list[str] = []
