@@ -44,14 +44,13 @@ h1 { font-size: 12.5pt; margin: 0 0 1.5mm; }
 h2 { font-size: 9.5pt; margin: 2mm 0 0.8mm; border-bottom: 0.3mm solid #999; break-after: avoid; }
 .verdict { border: 0.8mm solid; border-left-width: 5mm; padding: 1.6mm 3mm; break-inside: avoid; }
 .verdict b { display: inline-block; border: 0.5mm solid; padding: 0 1.6mm; font-size: 11pt;
-  margin-right: 2mm; }
+  margin-right: 1mm; }
 .verdict strong { font-size: 11pt; }
 .verdict p { margin: 0.8mm 0 0; color: #111; font-size: 8pt; }
 dl { margin: 0; columns: 2; column-gap: 6mm; font-size: 7.8pt; }
 dl.one { columns: 1; }
 dl div { break-inside: avoid; padding: 0.15mm 0; }
 dt { display: inline; font-weight: bold; }
-dt::after { content: ": "; }
 dd { display: inline; margin: 0; }
 figure { margin: 0; break-inside: avoid; }
 figure svg { display: block; width: 100%; height: auto; }
@@ -92,13 +91,13 @@ def _headline(headline: Headline) -> str:
     colour = escape(headline.colour)
     return (
         f'<div class="verdict" style="border-color:{colour};color:{colour}">'
-        f"<b>{escape(headline.word)}</b><strong>{escape(headline.sentence)}</strong>{details}</div>"
+        f"<b>{escape(headline.word)}</b> <strong>{escape(headline.sentence)}</strong>{details}</div>"
     )
 
 
 def _part(part: Part, name: str) -> str:
     if isinstance(part, Facts):
-        rows = (f"<div><dt>{escape(key)}</dt><dd>{escape(value)}</dd></div>" for key, value in part.rows)
+        rows = (f"<div><dt>{escape(key)}: </dt><dd>{escape(value)}</dd></div>" for key, value in part.rows)
         return f"<dl{'' if part.columns > 1 else ' class=one'}>{''.join(rows)}</dl>"
     if isinstance(part, Points):
         return f"<ol>{''.join(f'<li>{escape(each)}</li>' for each in part.points)}</ol>"

@@ -51,7 +51,7 @@ def write_pdf(report: PageReport, path: Path) -> list[str]:
     style: Any = {**PICTURE_STYLE, "pdf.fonttype": 42, "font.family": list(fonts.families)}
     with (
         rc_context(style),
-        warnings.catch_warnings(),
+        _quiet(),
         PdfPages(path, metadata={"Title": report.title}) as pdf,
     ):
         for page in report.pages:
