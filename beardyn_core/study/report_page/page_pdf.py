@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib import rc_context
-from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Rectangle
@@ -40,6 +39,8 @@ def write_pdf(report: PageReport, path: Path) -> list[str]:
     report : PageReport
     path : Path
     """
+    from matplotlib.backends.backend_pdf import PdfPages  # with libraries for fonts that a page alone needs
+
     fonts = fonts_for(report.text + PLACEHOLDER)
     told: list[str] = []
     if fonts.missing:
