@@ -143,7 +143,7 @@ def test_several_recordings_are_records_over_time(
     words = ["report", str(recording), str(recording), *RECORDED, "--html", str(page)]
     assert main(words) == DONE
     text = text_of(page.read_text(encoding="utf-8"))
-    assert "Verdicts over 2 files, in the order given, the last one is the record of this page" in text
+    assert "Verdicts over 2 files in the order given; the last one is the record of this page" in text
     capsys.readouterr()
     assert (
         main([*words[:2], str(motor(tmp_path)), *MEASURED, "--html", str(tmp_path / "b.html")]) == BAD_INPUT

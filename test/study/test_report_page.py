@@ -152,12 +152,26 @@ def test_analyses_that_disagree_are_counted(inspection: Inspection) -> None:
     assert any("One analysis only" in each for each in actions_for(judged(inspection, "healthy")))
 
 
-def test_an_earlier_fault_is_not_forgotten_by_a_healthy_record(inspection: Inspection) -> None:
+def test_a_fault_in_an_earlier_file_or_in_a_part_of_the_record_is_not_forgotten(
+    inspection: Inspection,
+) -> None:
     healthy = judged(inspection, "healthy")
-    assert "outer ring (cup)" in actions_for(healthy, ["healthy", "cup"])[0]
+    assert headline_of(healthy, ["healthy", "not_diagnosable"]) == headline_of(healthy)
     assert actions_for(healthy, ["healthy", "not_diagnosable"]) == actions_for(healthy)
-    both = page_report([[judged(inspection, "cup")], [healthy]], Names(), "")
-    assert "A fault does not heal" in both.text
+    assert "outer ring (cup) in 1 of 2 files" in actions_for(healthy, ["cup", "healthy"])[0]
+    (page,) = page_report([[judged(inspection, "cup")], [healthy]], Names(), "").pages
+    assert page.headline.word == "NO FAULT FOUND, CHECK"
+    assert page.headline.colour != ADVICE["healthy"].colour
+    for count, is_told in ((1, False), (2, True)):
+        results = BearingResults()
+        for verdict in ["healthy"] * 4 + ["cone"] * count:
+            results.add(MonitorResult(verdict, "so", 10**9))
+        found = replace(healthy, results=results)
+        found.__dict__["severity"] = None
+        assert ("CHECK" in headline_of(found).word) == is_told
+        assert ("No action follows" in " ".join(actions_for(found))) == (not is_told)
+    assert "inner ring (cone) in 2 of 6 analyses" in headline_of(found).sentence
+    assert "CHECK" not in headline_of(inspection, ["healthy", "cone"]).word
 
 
 def test_every_assumed_input_of_a_scene_is_there_by_its_name(inspection: Inspection) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
@@ -117,19 +118,25 @@ _SEVERE_FIRST = (
 )
 _WARM = "The axlebox is warm: watch its temperature, and compare with the other axleboxes of the vehicle."
 _CALLED = ("cup", "cone", "roller", "unexplained", "hot_box")
-_EARLIER = (
-    "An earlier file has another verdict ({}). A fault does not heal: find out why the files differ before "
-    "the box counts as healthy."
+_CONTRARY = (
+    "Part of the record, or an earlier file, has another verdict: {}. A fault does not heal, and one that "
+    "begins is in the latest part alone. Record again, and find out why the parts differ, before the box "
+    "counts as healthy."
 )
+_MOST = {"healthy": "No fault found in most of the record."}
+_CHANCE = 1  # analyses of another verdict that may be chance
 _FEW = "One analysis only: record for longer, so that several analyses can agree."
 
 
-def headline_of(inspection: Inspection) -> Headline:
+def headline_of(inspection: Inspection, files: Sequence[str] = ()) -> Headline:
     """Write the verdict with its confidence and the size of the fault, or why neither is known."""
     advice, result = ADVICE[inspection.verdict], inspection.results.concluded
     sentence, colour, word = advice.sentence, advice.colour, advice.word
     if inspection.conclusion.finding is None:
         sentence = ADVICE["waiting"].sentence
+    if contrary := contrary_verdicts(inspection, files):
+        sentence = f"{_MOST.get(inspection.verdict, sentence)} Part of it differs: {', '.join(contrary)}."
+        word, colour = f"{word}, CHECK", _AMBER
     severity = inspection.severity
     if severity is not None and isfinite(severity.width):
         sentence += f" The spall is about {1e3 * severity.width:.1f} mm wide ({severity.grade})."
@@ -173,10 +180,8 @@ def _confidence(inspection: Inspection) -> str:
     elif conclusion.agreeing == conclusion.analyses:
         text = f"all {conclusion.analyses} analyses agree"
     else:
-        others: dict[str, int] = {}
-        for each in inspection.results.findings:
-            if each.verdict not in (finding.verdict, "waiting"):
-                others[each.verdict] = others.get(each.verdict, 0) + 1
+        counts = Counter(each.verdict for each in inspection.results.findings)
+        others = {name: count for name, count in counts.items() if name not in (finding.verdict, "waiting")}
         told = ", ".join(f"{in_words(name)} {count}" for name, count in others.items())
         text = f"{conclusion.agreeing} of {conclusion.analyses} analyses agree; the others: {told}"
     result = inspection.results.concluded
@@ -198,8 +203,31 @@ def in_words(verdict: str) -> str:
     }.get(verdict, verdict)
 
 
-def actions_for(inspection: Inspection, earlier: Sequence[str] = ()) -> tuple[str, ...]:
-    """List what to do next; the verdicts of earlier files, where there are some, may speak against it."""
+def contrary_verdicts(inspection: Inspection, files: Sequence[str] = ()) -> list[str]:
+    """List what speaks against a healthy verdict: analyses of a fault, and files with one, in words.
+
+    Parameters
+    ----------
+    files : sequence of str
+        Verdicts of the files over time, where there are several.
+    """
+    if inspection.verdict in _CALLED:
+        return []
+    counts = Counter(each.verdict for each in inspection.results.findings)
+    analyses = inspection.conclusion.analyses
+    found = {
+        verdict: f"{in_words(verdict)} in {counts[verdict]} of {analyses} analyses"
+        for verdict in _CALLED
+        if counts[verdict] > _CHANCE
+    }
+    for verdict, count in Counter(files).items():
+        if verdict in _CALLED:
+            found.setdefault(verdict, f"{in_words(verdict)} in {count} of {len(files)} files")
+    return list(found.values())
+
+
+def actions_for(inspection: Inspection, files: Sequence[str] = ()) -> tuple[str, ...]:
+    """List what to do next; the verdicts of files over time, where there are some, may speak against it."""
     actions = list(ADVICE[inspection.verdict].actions)
     severity, result = inspection.severity, inspection.results.concluded
     if severity is not None and severity.grade == SEVERE:
@@ -208,9 +236,8 @@ def actions_for(inspection: Inspection, earlier: Sequence[str] = ()) -> tuple[st
         actions.insert(0, _HOT_FAULT)
     if result is not None and result.temperature_state == "warm":
         actions.append(_WARM)
-    others = [each for each in dict.fromkeys(earlier) if each != inspection.verdict and each in _CALLED]
-    if others and inspection.verdict not in _CALLED:
-        actions.insert(0, _EARLIER.format(", ".join(map(in_words, others))))
+    if contrary := contrary_verdicts(inspection, files):
+        actions = [_CONTRARY.format(", ".join(contrary)), *actions[1:]]
     if inspection.conclusion.analyses == 1:
         actions.append(_FEW)
     return tuple(actions)

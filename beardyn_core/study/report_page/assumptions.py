@@ -87,10 +87,10 @@ def _sensor(inspection: Inspection) -> str:
 
 
 def _without_path(sentence: str, path: Path | None) -> str:
-    """Leave out the name of the one file, and the folders of the first of several."""
+    """Leave out which file a sentence is about where that is the first, or the first and others like it."""
     if path is None:
         return sentence
-    return sentence.removeprefix(f"{path}: ").replace(str(path), path.name)
+    return re.sub(rf"^{re.escape(str(path))}( and \d+ more)?: ", "", sentence).replace(str(path), path.name)
 
 
 def _not_judged(inspection: Inspection) -> str:

@@ -15,7 +15,7 @@ from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.inspection import Inspection
 from beardyn_core.study.monitored_recording import rank_of
-from beardyn_core.study.report_page.advice import actions_for, headline_of, in_words
+from beardyn_core.study.report_page.advice import actions_for, contrary_verdicts, headline_of, in_words
 from beardyn_core.study.report_page.assumptions import assumed_rows
 from beardyn_core.study.report_page.file_levels import FileLevel, level_rows, levels_of
 from beardyn_core.study.report_page.identity import OF_THE_RECORD, identity_rows, signal_of
@@ -65,11 +65,16 @@ def page_report(records: Records, names: Names, foot: str) -> PageReport:
     for record in records:
         for each in record:
             history.setdefault(each.mounted.label, []).append(each)
-    ranked = sorted(history.items(), key=lambda item: -rank_of(item[1][-1].verdict))
+    ranked = sorted(history.items(), key=lambda item: _urgency(item[1][-1]), reverse=True)
     pages = [_bearing_page(label, each, names, alone=len(ranked) == 1) for label, each in ranked]
     if len(ranked) > 1:
         pages.insert(0, _overview(dict(ranked), names))
     return PageReport(TITLE, tuple(pages), foot)
+
+
+def _urgency(inspection: Inspection) -> tuple[int, bool]:
+    """Rank a bearing: by its verdict, and of the same verdict those first of which a part differs."""
+    return rank_of(inspection.verdict), bool(contrary_verdicts(inspection))
 
 
 def _overview(history: dict[str, list[Inspection]], names: Names) -> Page:
@@ -125,6 +130,7 @@ def _size(inspection: Inspection) -> str:
 def _bearing_page(label: str, history: Sequence[Inspection], names: Names, *, alone: bool) -> Page:
     inspection = history[-1]
     scene, levels = _scene_of(inspection), levels_of(history)
+    verdicts = [each.verdict for each in levels]
     axlebox = names.axlebox if alone else ""
     identity = identity_rows(inspection, train=names.train, axlebox=axlebox, scene=scene)
     parts: list[Part] = [
@@ -152,20 +158,19 @@ def _bearing_page(label: str, history: Sequence[Inspection], names: Names, *, al
         ),
         *_trend_parts(history, levels),
         Facts("What was assumed", assumed_rows(inspection, scene)),
-        Points("What to do next", actions_for(inspection, [each.verdict for each in levels[:-1]])),
+        Points("What to do next", actions_for(inspection, verdicts)),
     ]
     name = axlebox or ("" if alone else label)
     title = ", ".join(each for each in (TITLE, names.train, name) if each)
-    return Page(title, headline_of(inspection), tuple(parts))
+    return Page(title, headline_of(inspection, verdicts), tuple(parts))
 
 
 def _trend_parts(history: Sequence[Inspection], levels: Sequence[FileLevel]) -> list[Part]:
     if not levels:
         return []
-    dated = all(each.date for each in levels)
-    order = "by date" if dated else "in the order given, the last one is the record of this page"
+    order = "in the order given; the last one is the record of this page"
     if len(history) == 1:
-        order = "files of this record in the order given, one analysis may begin in the file before"
+        order = "in the order given; an analysis may begin in the file before"
     return [
         Picture(
             f"Levels over {len(levels)} files{_rise(levels)}",
@@ -178,7 +183,7 @@ def _trend_parts(history: Sequence[Inspection], levels: Sequence[FileLevel]) -> 
             _LEVELS,
         ),
         Rows(
-            f"Verdicts over {len(levels)} files, {order}",
+            f"Verdicts over {len(levels)} files {order}",
             ("no.", "file", "date", "rms, m/s²", "peak, m/s²", "verdict, analyses that agree"),
             (0.08, 0.32, 0.18, 0.10, 0.10, 0.22),
             level_rows(levels),
