@@ -7,6 +7,7 @@ import re
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from beardyn_core.cli.main import BAD_INPUT, DONE, main
@@ -164,6 +165,16 @@ def test_several_measured_files_are_one_measurement_with_a_level_for_each(tmp_pa
     assert "Levels over 2 files, the last +9.5 dB to the median before it" in text
     assert "Files: a.csv, b.csv" in text
     assert len(re.findall(r"outer ring \(cup\), \d of \d", text)) == 2
+
+
+def test_the_date_is_that_of_the_clock_of_the_file(tmp_path: Path) -> None:
+    path, page = tmp_path / "dated.npz", tmp_path / "page.html"
+    signal = struck(frequencies("6205").bpfo, 2.0)[:, 0]
+    np.savez(path, acc=signal, fs=12_000.0, start_time=np.array("2026-10-03T12:30:00"))
+    words = ["report", str(path), *MEASURED, "--unit", "m/s2", "--html", str(page)]
+    assert main(words) == DONE
+    text = text_of(page.read_text(encoding="utf-8"))
+    assert "Date of the record: 2026-10-03 12:30:00, clock of the file" in text
 
 
 def test_names_of_any_writing_are_on_both_pages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

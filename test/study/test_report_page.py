@@ -171,6 +171,7 @@ def test_a_fault_in_an_earlier_file_or_in_a_part_of_the_record_is_not_forgotten(
         assert ("CHECK" in headline_of(found).word) == is_told
         assert ("No action follows" in " ".join(actions_for(found))) == (not is_told)
     assert "inner ring (cone) in 2 of 6 analyses" in headline_of(found).sentence
+    assert "The latest file: roller." in headline_of(found, ["healthy", "roller"]).sentence
     assert "CHECK" not in headline_of(inspection, ["healthy", "cone"]).word
 
 

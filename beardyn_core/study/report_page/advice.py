@@ -136,6 +136,8 @@ def headline_of(inspection: Inspection, files: Sequence[str] = ()) -> Headline:
         sentence = ADVICE["waiting"].sentence
     if contrary := contrary_verdicts(inspection, files):
         sentence = f"{_MOST.get(inspection.verdict, sentence)} Part of it differs: {', '.join(contrary)}."
+        if files and files[-1] in _CALLED:
+            sentence += f" The latest file: {in_words(files[-1])}."
         word, colour = f"{word}, CHECK", _AMBER
     severity = inspection.severity
     if severity is not None and isfinite(severity.width):
