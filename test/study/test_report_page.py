@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -208,6 +209,17 @@ def test_the_page_loads_nothing_and_names_no_mark_twice(inspection: Inspection) 
     used = {*re.findall(r'href="#([^"]*)"', html), *re.findall(r"url\(#([^)]*)\)", html)}
     assert used <= set(marks)
     assert "size: A4" in html
+
+
+@pytest.mark.parametrize("wrong", [None, 3, "x", ["x", 3], {"a": 1}])
+def test_what_a_file_says_of_itself_may_be_damaged(inspection: Inspection, wrong: Any) -> None:
+    run = bd.read(inspection.run.path or "")
+    whole = run.measured
+    for key in ("files", "speed", "sensors", "understood", "warnings"):
+        run.measured = {**whole, key: wrong}
+        found = replace(judged(inspection, "healthy"), read=lambda: run)
+        found.__dict__["severity"] = None
+        assert "NO FAULT FOUND" in text_of(page_of(found))
 
 
 # --- files over time -----------------------------------------------------------------------------------

@@ -12,7 +12,13 @@ from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.monitor.severity import NOT_MEASURABLE, grade_limits
 from beardyn_core.scene.scene import Scene
 from beardyn_core.study.inspection import FROM_SCENE, Inspection
-from beardyn_core.study.report_page.identity import bearing_source, measured_names, signal_of, speed_source
+from beardyn_core.study.report_page.identity import (
+    bearing_source,
+    fact_of,
+    measured_names,
+    signal_of,
+    speed_source,
+)
 
 _WEAK = ("assumed", "derived")  # how the source of a number begins that nobody has published
 
@@ -52,9 +58,9 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
             f"developed from {1e3 * developed:g} mm, severe from {1e3 * severe:.0f} mm: limits of this "
             "program, not of a keeper"
         )
-    if said := run.measured.get("understood"):
+    if said := fact_of(run.measured, "understood", list):
         rows["Files were read as"] = "; ".join(_without_path(str(each), run.path) for each in said)
-    if said := run.measured.get("warnings"):
+    if said := fact_of(run.measured, "warnings", list):
         rows["Warnings"] = "; ".join(_without_path(str(each), run.path) for each in said)
     own = scene if inspection.bearing_from == FROM_SCENE else plate
     for kind, names in assumed_inputs(own):
@@ -77,12 +83,13 @@ def assumed_inputs(noun: Any, name: str = "bearing") -> Iterator[tuple[str, list
 def _sensor(inspection: Inspection) -> str:
     signal, measured = signal_of(inspection), inspection.run.measured
     axes = f"axes {', '.join(measured_names(signal))} as the file names them, at the axlebox"
-    sensors = measured.get("sensors")
-    if not measured or not isinstance(sensors, dict):
+    if not measured:
         return f"simulated; {axes}"
+    sensors = fact_of(measured, "sensors", dict)
     name = inspection.mounted.sensor or next(iter(sensors), "")
-    factors = sensors.get(name, {}).get("m_per_s2_per_number", {})
-    scale = ", ".join(f"{axis} {factor:g}" for axis, factor in factors.items())
+    factors = fact_of(fact_of(sensors, name, dict), "m_per_s2_per_number", dict)
+    known = {axis: factor for axis, factor in factors.items() if isinstance(factor, int | float)}
+    scale = ", ".join(f"{axis} {factor:g}" for axis, factor in known.items())
     return f"{axes}; m/s² in one number of the file: {scale}" if scale else axes
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Annotated as A
@@ -13,7 +13,13 @@ from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.study.inspection import Inspection
 from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude
 from beardyn_core.study.report_page.advice import in_words
-from beardyn_core.study.report_page.identity import file_names, files_in_words, record_date, signal_of
+from beardyn_core.study.report_page.identity import (
+    fact_of,
+    file_names,
+    files_in_words,
+    record_date,
+    signal_of,
+)
 
 _SINGLE_ROWS = 14  # of more files, neighbours with the same verdict share a row
 
@@ -44,20 +50,19 @@ def levels_of(history: Sequence[Inspection]) -> list[FileLevel]:
 
 
 def _files_of(inspection: Inspection) -> list[FileLevel]:
-    files = inspection.run.measured.get("files")
-    files = [each for each in files if isinstance(each, Mapping)] if isinstance(files, list) else []
+    files = fact_of(inspection.run.measured, "files", list)
     if len(files) < 2:
         return []
     signal = signal_of(inspection)
     values, time = measured_axes(signal.values), signal.time
-    begins = [float(each["begin_s"]) for each in files]
+    begins = [fact_of(each, "begin_s", float) for each in files]
     found = []
     for number, (each, begin) in enumerate(zip(files, begins, strict=True)):
         end = begins[number + 1] if number + 1 < len(begins) else np.inf
         first, last = np.searchsorted(time, (begin, end))
         own = [finding for finding in inspection.results.findings if begin < finding.time <= end]
         date = record_date(inspection.run, number)
-        found.append(_level(str(each["name"]), date, values[first:last], own))
+        found.append(_level(fact_of(each, "name", str), date, values[first:last], own))
     return found
 
 

@@ -82,7 +82,8 @@ def loudest_axis(signal: Signal) -> tuple[str, np.ndarray[Any, np.dtype[np.float
 
 def file_names(run: Run) -> list[str]:
     """List the files of a run, those that were measured behind the recording that they were imported to."""
-    named = [str(each["name"]) for each in _of(run.measured, "files", list) if isinstance(each, Mapping)]
+    files = fact_of(run.measured, "files", list)
+    named = [name for each in files if (name := fact_of(each, "name", str))]
     own = "" if run.path is None else run.path.name
     if not named:
         return [own or "run in memory"]
@@ -98,9 +99,9 @@ def files_in_words(names: list[str]) -> str:
 
 def record_date(run: Run, number: int = 0) -> str:
     """Read the date of a record by the clock of its file; empty where the file does not know."""
-    files = _of(run.measured, "files", list)
-    if number < len(files) and isinstance(files[number], Mapping) and files[number].get("date"):
-        return f"{files[number]['date']}, clock of the file"
+    files = fact_of(run.measured, "files", list)
+    if number < len(files) and (date := fact_of(files[number], "date", str)):
+        return f"{date}, clock of the file"
     stamps = run.vibration.time_ns
     if not number and len(stamps) and int(stamps[0]) > _DATED:
         return f"{datetime.fromtimestamp(int(stamps[0]) * 1e-9, UTC):%Y-%m-%d %H:%M:%S} UTC"
@@ -116,7 +117,7 @@ def shaft_frequency(run: Run) -> float:
 def speed_source(inspection: Inspection) -> str:
     """Say where the speed comes from."""
     run = inspection.run
-    speed = _of(run.measured, "speed", dict)
+    speed = fact_of(run.measured, "speed", dict)
     channel = speed.get("channel")
     words = {
         "constant": "a constant speed that was stated",
@@ -138,9 +139,9 @@ def bearing_source(inspection: Inspection) -> str:
     return who.get(inspection.bearing_from, "named for this page")
 
 
-def _of(facts: Mapping[str, Any], key: str, kind: type) -> Any:
-    """Take what a file says of itself, which may be damaged."""
-    value = facts.get(key)
+def fact_of(facts: Any, key: str, kind: type) -> Any:
+    """Take what a file says of itself, which may be damaged: then it is empty, or 0."""
+    value = facts.get(key) if isinstance(facts, Mapping) else None
     return value if isinstance(value, kind) else kind()
 
 
@@ -180,7 +181,7 @@ def _speed(inspection: Inspection, scene: Scene | None) -> str:
     words = f"{60.0 * hertz:.1f} rpm ({hertz:.2f} Hz)"
     if high - low > 0.01 * high:
         words = f"{low:.0f} to {high:.0f} rpm, mean {words}"
-    diameter = _of(run.truth, "wheel_diameter_m", float)
+    diameter = fact_of(run.truth, "wheel_diameter_m", float)
     return f"{words}, {3.6 * pi * diameter * hertz:.0f} km/h" if diameter else words
 
 
