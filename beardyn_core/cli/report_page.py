@@ -9,9 +9,17 @@ from typing import TYPE_CHECKING
 
 from beardyn_core.api.report_pages import report
 from beardyn_core.base.errors import InputError
+from beardyn_core.cli.files import input_problems
 from beardyn_core.cli.generated_parser import add_parameter
-from beardyn_core.cli.measured_options import add_plates, add_reading, plate_options, reading_options
-from beardyn_core.cli.monitor_settings import add_certainty, add_limits, given_settings
+from beardyn_core.cli.measured_options import (
+    add_plates,
+    add_reading,
+    mounted_of,
+    plate_options,
+    reading_of,
+    reading_options,
+)
+from beardyn_core.cli.monitor_settings import add_certainty, add_limits, given_settings, settings_of
 from beardyn_core.cli.monitored_files import inspect_files, is_recorded, reading_problems
 
 if TYPE_CHECKING:
@@ -56,8 +64,13 @@ def run_page(args: argparse.Namespace) -> int:
     from beardyn_core.monitor.chain import algorithm_named
     from beardyn_core.study.report_page.page_writing import page_problems, write_pages
 
-    algorithm = algorithm_named(args.monitor)
     problems = page_problems(args.html, args.pdf, [Path(each) for each in args.files], force=args.force)
+    problems += input_problems(
+        lambda: algorithm_named(args.monitor),
+        lambda: settings_of(args, 0.0),
+        lambda: mounted_of(args),
+        lambda: reading_of(args),
+    )
     if args.json:
         problems.append("--json: a page is no JSON; `beardyn monitor --json` prints the verdicts")
     each_alone = [argparse.Namespace(**{**vars(args), "files": [file]}) for file in args.files]
@@ -71,6 +84,7 @@ def run_page(args: argparse.Namespace) -> int:
         problems += reading_problems(one, recorded=own)
     if problems:
         raise InputError(problems)
+    algorithm = algorithm_named(args.monitor)
     records: list[list[Inspection]] = (
         [inspect_files(one, algorithm, recorded=True) for one in each_alone]
         if all(recorded)

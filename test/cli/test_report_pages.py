@@ -197,11 +197,15 @@ def test_all_mistakes_about_the_pages_are_told_at_once_and_nothing_is_read(
     kept = tmp_path / "kept.html"
     kept.write_text("of last week")
     words = ["report", str(recording), "--html", str(kept), "--pdf", str(tmp_path / "none" / "a.pdf")]
-    assert main([*words, "--json", "--speed-rpm", "900"]) == BAD_INPUT
+    wrong = ("--speed-uncertainty", "90", "--bearing", "none such", "--monitor", "no:where")
+    assert main([*words, "--json", "--speed-rpm", "900", *wrong]) == BAD_INPUT
     told = capsys.readouterr().err
     assert f"--html {kept}: the file exists; --force replaces it" in told
     assert "does not exist; create it" in told
     assert "--json: a page is no JSON" in told
+    assert "--speed-uncertainty is '90'" in told
+    assert "--bearing none such: " in told
+    assert "no:where" in told
     assert "--speed-rpm is for measured files" in told
     assert main(["report", str(recording), "--html", str(tmp_path / "a.txt")]) == BAD_INPUT
     assert "let its name end in .html" in capsys.readouterr().err

@@ -29,7 +29,7 @@ class Facts:
 
     heading: str
     rows: tuple[tuple[str, str], ...]
-    columns: A[int, "beside each other"] = 2
+    columns: A[int, "next to each other"] = 2
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Picture:
-    """Panels beside each other."""
+    """Panels next to each other."""
 
     heading: str
     panels: tuple[Panel, ...]
