@@ -19,7 +19,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.measured.about import Mounted
 from beardyn_core.monitor.chain import VERDICTS, MonitorResult, MonitorSettings
 from beardyn_core.monitor.severity import NOT_MEASURABLE, SEVERE, Severity
-from beardyn_core.study.inspection import FROM_USER, BearingResults, Inspection, inspect_run
+from beardyn_core.study.inspection import FROM_SCENE, FROM_USER, BearingResults, Inspection, inspect_run
 from beardyn_core.study.report_page import page_fonts, page_pdf
 from beardyn_core.study.report_page.advice import ADVICE, actions_for, headline_of
 from beardyn_core.study.report_page.assumptions import assumed_inputs, assumed_rows
@@ -182,6 +182,10 @@ def test_every_assumed_input_of_a_scene_is_there_by_its_name(inspection: Inspect
     weak = {key for key, source in scene.bearing.sources if source.startswith("assumed")}
     assert weak
     assert {re.sub("[_.]", " ", key) for key in weak} <= set(found["Bearing"])
+    simulated = replace(inspection, bearing_from=FROM_SCENE)
+    rows = dict(assumed_rows(simulated, scene))
+    assert rows["Bearing"].count("Zhao et al. 2026") == 1
+    assert "rib height" in rows["Bearing: assumed or derived, not published"]
     plate = bd.name_plate("6205")
     rows = dict(assumed_rows(replace(inspection, mounted=Mounted("bearing", plate))))
     assert rows["Speed"] == "from a constant speed that was stated; searched over ±3 %"

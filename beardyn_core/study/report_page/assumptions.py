@@ -20,6 +20,10 @@ from beardyn_core.study.report_page.identity import (
     speed_source,
 )
 
+_OF_FREQUENCIES = (
+    *("roller_count", "roller_diameter", "pitch_diameter", "contact_angle"),
+    *("bpfo", "bpfi", "bsf", "ftf"),
+)
 _WEAK = ("assumed", "derived")  # how the source of a number begins that nobody has published
 
 
@@ -34,12 +38,13 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
     settings, run = inspection.settings, inspection.run
     plate = inspection.mounted.plate
     uncertainty = settings.speed_uncertainty
+    own = scene if inspection.bearing_from == FROM_SCENE else plate
     rows = {
         "Speed": f"from {speed_source(inspection)}; searched over ±{100.0 * uncertainty:.2g} %"
         if uncertainty
         else f"from {speed_source(inspection)}; taken as exact",
         "Bearing": f"{plate.name}, {bearing_source(inspection)}; the outer ring stands still; rollers slip "
-        f"by up to {100.0 * settings.tolerance:.2g} %",
+        f"by up to {100.0 * settings.tolerance:.2g} %{_data_source(own)}",
         "Accelerometer": _sensor(inspection),
         "Other bearings": f"{len(settings.neighbours)} named on the same shaft"
         if settings.neighbours
@@ -62,7 +67,6 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
         rows["Files were read as"] = "; ".join(_without_path(str(each), run.path) for each in said)
     if said := fact_of(run.measured, "warnings", list):
         rows["Warnings"] = "; ".join(_without_path(str(each), run.path) for each in said)
-    own = scene if inspection.bearing_from == FROM_SCENE else plate
     for kind, names in assumed_inputs(own):
         rows[f"{kind}: assumed or derived, not published"] = ", ".join(names)
     return tuple(rows.items())
@@ -78,6 +82,14 @@ def assumed_inputs(noun: Any, name: str = "bearing") -> Iterator[tuple[str, list
         value = getattr(noun, member.name)
         if is_dataclass(value) and not isinstance(value, type):
             yield from assumed_inputs(value, member.name)
+
+
+def _data_source(noun: Any) -> str:
+    """Say who publishes the numbers from which the fault frequencies follow, where that is known."""
+    sources = dict(each for each in getattr(getattr(noun, "bearing", noun), "sources", ()) if len(each) == 2)
+    found = (str(sources[key]) for key in _OF_FREQUENCIES if key in sources)
+    named = dict.fromkeys(re.sub(r" \([^)]*\)$", "", each) for each in found)  # without notes on one number
+    return f"; its data: {'; '.join(named)}" if named else ""
 
 
 def _sensor(inspection: Inspection) -> str:
