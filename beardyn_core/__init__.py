@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.measuring import import_measured, read_measured, trend
     from beardyn_core.api.reading import monitor, read, severity
     from beardyn_core.api.report_pages import report
+    from beardyn_core.api.sensitivity import smallest_spalls
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
         equilibrium,
@@ -105,14 +106,24 @@ __all__ += [
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
-__all__ += ["read_measured", "report", "scene", "severity", "simulate", "steady_heat", "stiffness", "sweep"]
-__all__ += ["torque", "train", "trend", "which_bearing"]
+__all__ += [
+    "read_measured",
+    "report",
+    "scene",
+    "severity",
+    "simulate",
+    "smallest_spalls",
+    "steady_heat",
+    "stiffness",
+]
+__all__ += ["sweep", "torque", "train", "trend", "which_bearing"]
 
 _MODULES = {
     "api.calibrating": ("calibrate",),
     "api.estimating": ("estimate", "forecast", "train"),
     "api.exporting": ("export",),
     "api.finding": ("catalogue", "which_bearing"),
+    "api.sensitivity": ("smallest_spalls",),
     "api.following": ("Following",),
     "api.heat": ("heat_interval", "steady_heat"),
     "api.making": ("lubricant", "name_plate"),

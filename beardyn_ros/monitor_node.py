@@ -86,7 +86,7 @@ class MonitorNode(Node):
             f"BSF {self._orders.bsf:.4f}, FTF {self._orders.ftf:.4f} per shaft revolution"
         )
         for part, why in self._bearing.cannot_tell.items():
-            self.get_logger().warning(f"cannot tell, {PART_NAMES[part]}: {why}")
+            self.get_logger().warning(f"not judged, {PART_NAMES[part]}: {why}")
 
     def _begin(self) -> None:
         values = self._values
@@ -94,7 +94,11 @@ class MonitorNode(Node):
             interval=values.interval, warm=values.warm + ZERO_CELSIUS, hot=values.hot + ZERO_CELSIUS
         )
         self._monitor = Monitor(
-            self._orders, self._bearing.roller_count, settings=settings, algorithm=self._algorithm
+            self._orders,
+            self._bearing.roller_count,
+            settings=settings,
+            algorithm=self._algorithm,
+            bearing=self._bearing,
         )
         self._tally = Tally()
         self._summed_up = False

@@ -223,17 +223,15 @@ FACTORS = (
         0.0,
         "maker's factor of the outer ring, and so on; those given stand in place of bearing; 0: not given",
         minimum=0.0,
-        maximum=100.0,
     ),
-    NodeParameter("bpfi", 0.0, "maker's factor of the inner ring; 0: not given", minimum=0.0, maximum=100.0),
+    NodeParameter("bpfi", 0.0, "maker's factor of the inner ring; 0: not given", minimum=0.0),
     NodeParameter(
         "bsf",
         0.0,
         "maker's factor of a rolling element, not twice it; 0: not given",
         minimum=0.0,
-        maximum=100.0,
     ),
-    NodeParameter("ftf", 0.0, "maker's factor of the cage; 0: not given", minimum=0.0, maximum=1.0),
+    NodeParameter("ftf", 0.0, "maker's factor of the cage; 0: not given", minimum=0.0),
     NodeParameter(
         "roller_count", 0, "rolling elements of one row, with factors; 0: not given", minimum=0, maximum=200
     ),

@@ -46,7 +46,7 @@ TITLES = {
     "modes": "Structure by modes of another program",
     "sensor": "Sensor",
     "background": "Background",
-    "plate": "Bearing data",
+    "bearing_data": "Bearing data",
 }
 _SIGNS = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<"}
 _LIMITS = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}

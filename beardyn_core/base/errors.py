@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+_Made = TypeVar("_Made")
 
 
 class InputError(Exception):
@@ -17,6 +20,15 @@ class InputError(Exception):
     def __init__(self, problems: Sequence[str] | str) -> None:
         self.problems = [problems] if isinstance(problems, str) else list(problems)
         super().__init__("\n".join(self.problems))
+
+
+def collect_problems(problems: list[str], make: Callable[[], _Made]) -> _Made | None:
+    """Make something; add what is wrong with its input to the problems, and give `None` then."""
+    try:
+        return make()
+    except InputError as error:
+        problems += error.problems
+        return None
 
 
 class ValidityError(Exception):

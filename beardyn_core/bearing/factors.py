@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan
 from typing import Annotated as A
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
 
@@ -22,6 +22,13 @@ _SLACK = 0.003  # between factors of one list, which makers round and compute in
 _COARSEST = 0.01  # of an order that follows, by the digits of those it follows from, [-]
 _LEAST_COSINE = 0.5  # of the contact angle of a radial bearing, [-]
 _LARGEST_GAMMA = 0.5
+_SEARCHED = 0.02  # of an order, within which a monitor searches, [-]
+# beyond which no usual bearing has a factor; of passes 80 rolling elements of one row
+_LARGEST = {"bpfo": 40.0, "bpfi": 40.0, "bsf": 20.0, "ftf": 1.0}
+PER_TURN = (
+    "a factor is per turn of the shaft: if this is a frequency in hertz, divide it by the speed of the "
+    "shaft in hertz"
+)
 
 
 @dataclass(frozen=True)
@@ -148,9 +155,14 @@ def _gamma_of(known: Factors) -> _Gamma | None:
 def contradictions(known: Factors) -> Iterator[str]:
     """Find what factors cannot be together, as sentences with the keys of bearing data."""
     given = known.given()
+    hertz: dict[str, Any] = {}
     for name, value in given.items():
         if not value > 0.0:
             yield f"{name} is {value:g}; it must be greater than 0"
+        elif value > _LARGEST[name] and not (name in ("bpfo", "bpfi") and value < known.roller_count):
+            yield f"{name} is {value:g}; it must be at most {_LARGEST[name]:g}; {PER_TURN}"
+            hertz[name] = nan
+    known = replace(known, **hertz)
     if known.ftf >= 0.5:
         yield (
             f"ftf is {known.ftf:g}; it must be less than 0.5: the cage turns slower than half of the shaft "
@@ -167,10 +179,38 @@ def contradictions(known: Factors) -> Iterator[str]:
         return
     if known.ftf >= 0.5:
         known = replace(known, ftf=nan)
+    yield from _too_few_digits(known)
     yield from _against_count(known)
     yield from _against_cage(known)
     yield from _against_diameters(known)
     yield from _against_spin(known)
+
+
+def _too_few_digits(known: Factors) -> Iterator[str]:
+    """Find factors whose last digit leaves their order open by more than a monitor searches.
+
+    The zeros of 5.000 are not in the number 5: there FTF with two digits, which the other checks compare
+    with BPFO and BPFI, or the diameters show that they are meant.
+    """
+    counted = bool(known.roller_count) or isfinite(known.bpfo + known.bpfi)
+    if isfinite(known.ratio * known.angle) or (counted and _digits(known.ftf) >= 2):
+        return
+    passes, spin = max(_digits(known.bpfo), _digits(known.bpfi)), _digits(known.bsf)
+    both = max(passes, spin)
+    # a spin with digits next to whole passes is of another list: a sum is whole however they are rounded
+    digits = dict.fromkeys(("bpfo", "bpfi"), both if passes else 0) | {"bsf": both}
+    for name, value in known.given().items():
+        doubt = 0.5 * 10.0 ** -digits.get(name, _digits(known.ftf)) / value
+        passed = isfinite(known.bpfo) or isfinite(known.bpfi)
+        if doubt <= _SEARCHED or (name == "ftf" and counted and passed):
+            continue
+        needed = math.ceil(math.log10(0.5 / (_SEARCHED * value)))
+        also = "roller_count and ftf, or the diameters" if name != "ftf" else "bpfo and bpfi"
+        yield (
+            f"{name} is {value:g}; its last digit leaves the order open by {100.0 * doubt:.2g} %, and a "
+            f"monitor searches within {100.0 * _SEARCHED:g} %: give it with {needed} or more digits behind "
+            f"the point; where {value:.{needed}f} is exact, give {also}, too"
+        )
 
 
 def _against_count(known: Factors) -> Iterator[str]:

@@ -42,19 +42,17 @@ class NamePlate:
     ] = nan
     bpfo: A[
         float,
-        At(gt=0.0, le=100.0, absent=True),
+        At(absent=True),
         "maker's factor of the outer ring: passes of rolling elements in a turn of the shaft",
     ] = nan
-    bpfi: A[float, At(gt=0.0, le=100.0, absent=True), "the same of the inner ring"] = nan
+    bpfi: A[float, At(absent=True), "the same of the inner ring"] = nan
     bsf: A[
         float,
-        At(gt=0.0, le=100.0, absent=True),
+        At(absent=True),
         "maker's factor of a rolling element: its turns about itself in a turn of the shaft; some makers "
         "list twice that",
     ] = nan
-    ftf: A[
-        float, At(gt=0.0, le=1.0, absent=True), "maker's factor of the cage: its turns in a turn of the shaft"
-    ] = nan
+    ftf: A[float, At(absent=True), "maker's factor of the cage: its turns in a turn of the shaft"] = nan
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:

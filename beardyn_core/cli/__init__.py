@@ -12,6 +12,7 @@ quantities       numbers with units in options
 demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are
 catalogue_list   bearings of the catalogue, all or those of some dimensions
+catalogue_line   what a command says of the line of the catalogue that it took
 new              a copy of a shipped file to start from
 simulate         a desk run
 simulate_train   the same of several axleboxes at once
@@ -24,7 +25,7 @@ view             a recording in 3-D
 report           what a recording holds
 report_page      a page about an axlebox: `beardyn report --html`, `--pdf`
 monitor          what a monitor says over a recording
-monitor_settings certainty of speed and bearing, limits of temperature, for who judges a bearing
+monitor_settings options that settle what the monitor assumes
 monitored_files  the files of a command through a monitor
 estimate         load, end play and spall of a recording, what remains
 follow           the same over successive stretches and recordings, health, residual beside a twin

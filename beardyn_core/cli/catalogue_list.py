@@ -8,8 +8,9 @@ from math import isnan
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.cli.catalogue_line import size_text
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.which_bearing import add_sizes, chosen_entries, size_options, size_text
+from beardyn_core.cli.which_bearing import add_sizes, chosen_entries, size_options
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.catalogue_entry import CatalogueEntry

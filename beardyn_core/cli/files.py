@@ -35,17 +35,6 @@ def check_inputs(more: Callable[[list[Path]], list[str]] = lambda _: []) -> Iter
         raise InputError(problems)
 
 
-def input_problems(*makers: Callable[[], object]) -> list[str]:
-    """List the mistakes of all that is made of options, each by itself."""
-    problems: list[str] = []
-    for make in makers:
-        try:
-            make()
-        except InputError as error:
-            problems += error.problems
-    return problems
-
-
 def tell_doubts(scene: Scene) -> None:
     """Warn, on standard error, of what is possible in a scene but unusual."""
     for doubt in scene.doubts:

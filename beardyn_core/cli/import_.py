@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.measuring import import_measured
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import InputError, collect_problems
 from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import recording_problems
+from beardyn_core.cli.catalogue_line import catalogue_sentence
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import add_plates, add_reading, mounted_of, reading_of
@@ -30,6 +31,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_json(parser)
     add_plates(parser, "default none; they are kept in the recording")
     add_reading(parser)
+    # of the monitor: who asks for it here is told where it is
+    parser.add_argument("--which-bearing", action="store_true", help=argparse.SUPPRESS)
     parser.set_defaults(run=run)
 
 
@@ -42,15 +45,16 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.measured.writing import write_measured
 
     problems = recording_problems("--output", args.output, inputs=args.files, force=args.force)
-    found: list[Any] = []
-    for make in (lambda: reading_of(args), lambda: mounted_of(args)):
-        try:
-            found.append(make())
-        except InputError as error:
-            problems += error.problems
-    if len(found) < 2:
+    if args.which_bearing:
+        problems.append(
+            "--which-bearing: is an option of `beardyn monitor`, which reads measured files and recordings: "
+            f"`beardyn monitor {args.files[0]} --which-bearing`; import without it, or with the bearing that "
+            "it names as --bearing"
+        )
+    reading = collect_problems(problems, lambda: reading_of(args))
+    bearings = collect_problems(problems, lambda: mounted_of(args))
+    if reading is None or bearings is None:
         raise InputError(problems)
-    reading, bearings = found
     try:
         measured = with_heard_speed(survey(args.files, reading), bearings)
         problems += sensor_problems(measured.sensors, bearings)
@@ -75,7 +79,8 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json_text("import", json_object(made)))
         return 0
-    for sentence in measured.told:
+    taken = [catalogue_sentence(each.entry) for each in bearings if each.entry is not None]
+    for sentence in (*measured.told, *taken):
         print(sentence)
     print(f"{made.path}: {made.duration:.6g} s, {made.path.stat().st_size / 1e6:.2f} MB")
     return 0

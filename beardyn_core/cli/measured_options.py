@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -67,6 +68,19 @@ def reading_options(args: argparse.Namespace) -> list[str]:
     return [flag(place.key) for place in places(Reading) if _is_given(args, place.key)]
 
 
+def misplaced_options(args: argparse.Namespace, recorded: bool) -> list[str]:
+    """Say which options of measured files a recording leaves aside, and the other way round."""
+    path = args.files[0]
+    options = [each for each in reading_options(args) if each != "--channels"]
+    if recorded and options:
+        verb = "is" if len(options) == 1 else "are"
+        what = f"{path} is a recording, which is taken as it is"
+        return [f"{', '.join(options)} {verb} for measured files; {what}"]
+    if not recorded and args.box:
+        return [f"--box: is for recordings; {path} is a measured file, which has no axleboxes"]
+    return []
+
+
 def plate_options(args: argparse.Namespace) -> list[str]:
     """List the numbers of the bearing data that were given."""
     return [flag(key) for key in _PLATE if _is_given(args, key)]
@@ -84,7 +98,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
     InputError
         With every mistake.
     """
-    from beardyn_core.config import load_plate
+    from beardyn_core.config.plates import find_entry, load_plate
     from beardyn_core.measured.about import USUAL_LABEL, Mounted
 
     found: list[Mounted] = []
@@ -96,7 +110,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
             continue
         label = match[1] or (USUAL_LABEL if len(args.bearing) == 1 else match[2])
         try:
-            found.append(Mounted(label, load_plate(match[2]), match[3] or ""))
+            found.append(Mounted(label, load_plate(match[2]), match[3] or "", find_entry(match[2])))
         except InputError as error:
             problems += [f"--bearing {text}: {each}" for each in error.problems]
     for label in {each.label for each in found}:
@@ -128,8 +142,30 @@ def _plate_of(args: argparse.Namespace) -> NamePlate | None:
     except InputError as error:
         factors = rf"\b({'|'.join(SYMBOLS)})\b"
         problems = [in_options(each, list(_PLATE)) for each in error.problems]
-        raise InputError([re.sub(factors, r"--\1", each) for each in problems]) from None
+        problems = [re.sub(factors, r"--\1", each) for each in problems]
+        raise InputError([each + _as_order(each, args) for each in problems]) from None
     return made
+
+
+def _as_order(problem: str, args: argparse.Namespace) -> str:
+    """Say what a frequency that was given as a factor is at the stated speed; empty where none is stated."""
+    from beardyn_core.bearing.factors import PER_TURN
+
+    match = re.search(r"--\w+ is (\S+);", problem)
+    rpm = _stated_rpm(args)
+    if not problem.endswith(PER_TURN) or match is None or not rpm > 0.0:
+        return ""
+    return f"; {match[1]} Hz at {rpm:.5g} rpm is {60.0 * float(match[1]) / rpm:.4g}"
+
+
+def _stated_rpm(args: argparse.Namespace) -> float:
+    """Give the speed of the shaft that the options state, 0 where they state none, [rpm]."""
+    if args.measured_speed_rpm:
+        return float(args.measured_speed_rpm)
+    if args.measured_speed_kmh and args.measured_wheel_diameter_mm:
+        around = math.pi * args.measured_wheel_diameter_mm / 1000.0  # [m]
+        return float(args.measured_speed_kmh / 0.06 / around)
+    return 0.0
 
 
 def _in_words_of_options(make: Callable[[], Any], keys: list[str]) -> Any:

@@ -4,27 +4,40 @@ from __future__ import annotations
 
 import argparse
 import sys
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.reading import monitor
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import collect_problems
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
+from beardyn_core.cli.catalogue_line import catalogue_object, catalogue_sentence
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.measured_options import add_plates, add_reading
-from beardyn_core.cli.monitor_settings import add_certainty, add_limits
-from beardyn_core.cli.monitored_files import inspect_files, is_recorded, reading_problems
+from beardyn_core.cli.measured_options import add_plates, add_reading, misplaced_options, mounted_of
+from beardyn_core.cli.monitor_settings import add_settings, settings_of
+from beardyn_core.cli.monitored_files import inspect_files, is_recorded
 from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing, size_options
 
 if TYPE_CHECKING:
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.study.inspection import BearingResults
+    from beardyn_core.study.inspection import BearingResults, Inspection
     from beardyn_core.study.monitored_recording import Finding
+    from beardyn_core.study.smallest_spall import SmallestSpalls
+
+# of the finding that stands for all analyses
+_WHOLE_KEYS = (
+    "confidence",
+    "stage",
+    "stage_reason",
+    "spall_width_m",
+    "spall_width_low_m",
+    "spall_width_high_m",
+)
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -32,6 +45,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser = add_command(subparsers, "monitor", monitor)
     add_parameter(parser, monitor, "run", "files", nargs="+", metavar="FILE")
     add_box(parser, "every one")
+    _add_smallest_spall(parser)
     add_parameter(parser, monitor, "algorithm", "--monitor", metavar="MODULE:FUNCTION", default="")
     parser.add_argument(
         "--picture",
@@ -42,43 +56,67 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_force(parser, "replace the picture when it exists; default refuse")
     add_json(parser)
     add_plates(parser, "default that of the recording")
-    add_certainty(parser)
-    add_limits(parser)
+    add_settings(parser)
     add_trend(parser)
     add_which_bearing(parser)
     add_reading(parser)
     parser.set_defaults(run=run)
 
 
+def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group(
+        "smallest spall", "what a healthy verdict leaves open; a few runs of the twin, some ten seconds"
+    )
+    group.add_argument(
+        "--smallest-spall",
+        action="store_true",
+        help="add spalls of the twin to a healthy record, and name the smallest that is found; default not",
+    )
+    group.add_argument(
+        "--twin",
+        metavar="SCENE",
+        default="",
+        help="scene of the axlebox, or of one like it; default that of the recording; of --smallest-spall",
+    )
+
+
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
     from beardyn_core.monitor.chain.explanations import PART_NAMES
+    from beardyn_core.study.monitored_recording import conclude
 
     if args.trend:
         return run_trend(args)
-    if args.memory:
-        raise InputError("--memory is that of --trend; give both")
-    if args.which_bearing:
-        return run_which_bearing(args, recorded=is_recorded(args))
-    if sizes := size_options(args):
-        raise InputError(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
-    algorithm = algorithm_named(args.monitor)
     recorded = is_recorded(args)
-    problems = _picture_problems(args) + reading_problems(args, recorded=recorded)
-    if problems:
-        raise InputError(problems)
-    inspections = inspect_files(args, algorithm, recorded=recorded)
+    if args.which_bearing:
+        return run_which_bearing(args, recorded=recorded)
+    problems = _picture_problems(args) + misplaced_options(args, recorded)
+    if args.memory:
+        problems.append("--memory is that of --trend; give both")
+    if args.twin and not args.smallest_spall:
+        problems.append("--twin is that of --smallest-spall; give both")
+    if args.smallest_spall and not recorded:
+        problems.append(
+            f"--smallest-spall: {args.files[0]} is no recording; `beardyn import` makes one of measured files"
+        )
+    if sizes := size_options(args):
+        problems.append(f"{', '.join(sizes)}: of --which-bearing; give both, or neither")
+    algorithm = collect_problems(problems, lambda: algorithm_named(args.monitor))
+    bearings = collect_problems(problems, lambda: mounted_of(args))
+    collect_problems(problems, lambda: settings_of(args, 0.0))
+    inspections = inspect_files(args, algorithm, bearings, problems, recorded=recorded)
     results = {each.mounted: each.results for each in inspections}
-    for each in inspections if recorded and not args.json else ():
-        if each.severity is not None:
-            print(f"beardyn: {each.mounted.label}: {each.severity.reason}", file=sys.stderr)
-    heard = {each.mounted: each.results.findings for each in inspections}
+    smallest = {each.mounted: _smallest_spalls(args, each) for each in inspections}
+    heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
     if args.json:
-        print(json_text("monitor", json_object(args, heard)))
+        print(json_text("monitor", json_object(args, heard, smallest)))
         return _exit_code(heard)
+    taken = [catalogue_sentence(each.entry) for each in heard if each.entry is not None]
+    for sentence in dict.fromkeys(taken):  # of several axleboxes once
+        print(sentence)
     labelled = len(heard) > 1
     for mounted, findings in heard.items():
         if labelled:
@@ -86,10 +124,33 @@ def run(args: argparse.Namespace) -> int:
         for finding in findings:
             print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
     for mounted, findings in heard.items():
-        print(f"{f'{mounted.label} ' if labelled else ''}{_ending(findings)}")
+        label = f"{mounted.label} " if labelled else ""
+        print(f"{label}{_ending(findings)}")
+        whole = conclude(findings).finding
+        if whole is not None and whole.stage_reason:
+            print(f"{label}size: {whole.stage_reason}")
+        if (spalls := smallest[mounted]) is not None:
+            print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
-            print(f"{f'{mounted.label} ' if labelled else ''}cannot tell, {PART_NAMES[part]}: {why}")
+            print(f"{label}not judged, {PART_NAMES[part]}: {why}")
     return _exit_code(heard)
+
+
+def _smallest_spalls(args: argparse.Namespace, inspection: Inspection) -> SmallestSpalls | None:
+    """Find the smallest spalls where they are asked for and the verdict is healthy."""
+    from beardyn_core.api.sensitivity import smallest_spalls
+    from beardyn_core.study.monitored_recording import HEALTHY
+
+    if not args.smallest_spall or inspection.verdict != HEALTHY:
+        return None
+    mounted = inspection.mounted
+    return smallest_spalls(
+        inspection.run,
+        args.twin or None,
+        bearing=mounted.plate,
+        sensor=mounted.sensor,
+        settings=inspection.settings,
+    )
 
 
 def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
@@ -130,33 +191,50 @@ def _ending(findings: list[Finding]) -> str:
     if conclusion.finding is not None and conclusion.verdict != WAITING:
         unclear = conclusion.verdict in (NOT_DIAGNOSABLE, UNEXPLAINED)
         why = f"; {conclusion.finding.reason}" if unclear else ""
-        return f"{conclusion.verdict}: {conclusion.agreeing} of {conclusion.analyses} analyses{why}"
+        counts = f"{conclusion.agreeing} of {conclusion.analyses} analyses"
+        return f"{conclusion.verdict}: {counts}{_confidence_text(conclusion.finding)}{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason
     many = "; --trend watches the levels of many short records" if short else ""
     return f"{NOT_DIAGNOSABLE}: no analysis; {reason}{many}"
 
 
-def json_object(args: argparse.Namespace, heard: dict[Mounted, list[Finding]]) -> dict[str, Any]:
+def _confidence_text(finding: Finding) -> str:
+    return f", confidence {finding.confidence:.2f}" if isfinite(finding.confidence) else ""
+
+
+def json_object(
+    args: argparse.Namespace,
+    heard: dict[Mounted, list[Finding]],
+    smallest: dict[Mounted, SmallestSpalls | None],
+) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
-    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, conclude, worst
+    from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
     for mounted, findings in heard.items():
         conclusion = conclude(findings)
+        spall = keyed_fields(conclusion.finding or Finding(conclusion.verdict, "", 0.0))
         every.append(
             {
                 "label": mounted.label,
                 "bearing": mounted.plate.name,
+                "catalogue": catalogue_object(mounted.entry),
                 "sensor": mounted.sensor or None,
                 "verdict": NOT_DIAGNOSABLE if conclusion.verdict == WAITING else conclusion.verdict,
                 "agreeing": conclusion.agreeing,
                 "analyses": conclusion.analyses,
+                **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
+                "not_judged": list(mounted.plate.cannot_tell),
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
+        if (found := smallest[mounted]) is not None:
+            every[-1]["smallest_spalls"] = [keyed_fields(each) for each in found.spalls]
+            every[-1]["twin"] = found.twin
     verdict = worst(each["verdict"] for each in every)
     decides = next(each for each in every if each["verdict"] == verdict)
-    top = {key: decides[key] for key in ("bearing", "verdict", "agreeing", "analyses", "findings")}
+    keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings", "not_judged")
+    top = {key: decides[key] for key in keys}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}

@@ -1,4 +1,4 @@
-"""Options of the commands that judge a bearing: certainty of speed and bearing, limits of temperature."""
+"""Options of `beardyn monitor` that settle what it assumes: certainty of speed, neighbours, temperatures."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees C
 _COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]
 
 
-def add_certainty(parser: argparse.ArgumentParser) -> None:
-    """Declare what the stated speed and bearing leave open."""
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """Declare the options."""
     from beardyn_core.measured.stated_speed import UNCERTAINTY
 
     group = parser.add_argument_group("certainty", "what the stated speed and bearing leave open")
@@ -36,10 +36,6 @@ def add_certainty(parser: argparse.ArgumentParser) -> None:
         help="another bearing on the same shaft, whose strikes reach the accelerometer; again for each; "
         "default the others of --bearing",
     )
-
-
-def add_limits(parser: argparse.ArgumentParser) -> None:
-    """Declare the limits of temperature."""
     group = parser.add_argument_group(
         "temperature",
         "limits of the vehicle; a scene's, in kelvin: bd.heat_interval(scene).warm_from(air in kelvin)",
@@ -49,20 +45,35 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
             f"--{name}",
             type=float,
             metavar="CELSIUS",
-            default=_LIMITS[name],
-            help=f"temperature of the axlebox from which it is {what}; default %(default)g, which is assumed",
+            help=f"temperature of the axlebox from which it is {what}; default {_LIMITS[name]:g}, which is "
+            "assumed",
         )
 
 
 def given_settings(args: argparse.Namespace) -> list[str]:
-    """List the options of certainty and temperature that were given."""
-    limits = [f"--{name}" for name, usual in _LIMITS.items() if getattr(args, name) != usual]
-    uncertain = ["--speed-uncertainty"] if args.speed_uncertainty is not None else []
-    return [*uncertain, *(["--neighbour"] if args.neighbour else []), *limits]
+    """List the options that were given."""
+    given = {
+        "--speed-uncertainty": args.speed_uncertainty is not None,
+        "--neighbour": bool(args.neighbour),
+        "--warm": args.warm is not None,
+        "--hot": args.hot is not None,
+    }
+    return [option for option, there in given.items() if there]
 
 
 def settings_of(args: argparse.Namespace, uncertainty: float) -> MonitorSettings:
-    """Make the settings of the monitor; raises `InputError` with every mistake."""
+    """Make the settings of the monitor.
+
+    Parameters
+    ----------
+    uncertainty : float
+        Of the speed, where no option says it, [-].
+
+    Raises
+    ------
+    InputError
+        With every mistake.
+    """
     from beardyn_core.config import load_plate
     from beardyn_core.monitor.chain import MonitorSettings
 
@@ -84,19 +95,21 @@ def settings_of(args: argparse.Namespace, uncertainty: float) -> MonitorSettings
             neighbours.append(load_plate(name).frequencies)
         except InputError as error:
             problems += [f"--neighbour {name}: {each}" for each in error.problems]
-    for name in _LIMITS:
-        if not _COLDEST_LIMIT <= getattr(args, name) <= _HOTTEST_LIMIT:
+    given = {name: getattr(args, name) for name in _LIMITS}
+    limits = _LIMITS | {name: limit for name, limit in given.items() if limit is not None}
+    for name, limit in limits.items():
+        if not _COLDEST_LIMIT <= limit <= _HOTTEST_LIMIT:
             problems.append(
-                f"--{name} is {getattr(args, name):g}; it must be from {_COLDEST_LIMIT:g} to "
+                f"--{name} is {limit:g}; it must be from {_COLDEST_LIMIT:g} to "
                 f"{_HOTTEST_LIMIT:g} degrees Celsius"
             )
-    if args.warm > args.hot:
-        problems.append(f"--warm is {args.warm:g}; it must be at most --hot, which is {args.hot:g}")
+    if limits["warm"] > limits["hot"]:
+        problems.append(f"--warm is {limits['warm']:g}; it must be at most --hot, which is {limits['hot']:g}")
     if problems:
         raise InputError(problems)
     return MonitorSettings(
         speed_uncertainty=uncertainty,
         neighbours=tuple(neighbours),
-        warm=args.warm + ZERO_CELSIUS,
-        hot=args.hot + ZERO_CELSIUS,
+        warm=limits["warm"] + ZERO_CELSIUS,
+        hot=limits["hot"] + ZERO_CELSIUS,
     )

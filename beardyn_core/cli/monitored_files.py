@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from beardyn_core.base.errors import InputError
-from beardyn_core.cli.measured_options import mounted_of, reading_of, reading_options
+from beardyn_core.base.errors import InputError, collect_problems
+from beardyn_core.cli.measured_options import reading_of, reading_options
 from beardyn_core.cli.monitor_settings import settings_of
 
 if TYPE_CHECKING:
@@ -34,41 +34,61 @@ def is_recorded(args: argparse.Namespace) -> bool:
     return any(each.is_file() and is_recording(each) for each in files)
 
 
-def inspect_files(args: argparse.Namespace, algorithm: Algorithm, *, recorded: bool) -> list[Inspection]:
-    """Let a monitor judge every bearing of the files, of the axlebox that is asked for or of all."""
-    return _inspect_recording(args, algorithm) if recorded else _inspect_measured_files(args, algorithm)
+def inspect_files(
+    args: argparse.Namespace,
+    algorithm: Algorithm | None,
+    bearings: tuple[Mounted, ...] | None,
+    problems: list[str],
+    *,
+    recorded: bool,
+) -> list[Inspection]:
+    """Let a monitor judge every bearing of the files, of the axlebox that is asked for or of all.
+
+    Parameters
+    ----------
+    algorithm, bearings : optional
+        As the options say; ``None`` where they are wrong.
+    problems : list of str
+        Found before.
+    recorded : bool
+        What `is_recorded` says.
+
+    Raises
+    ------
+    InputError
+        With the problems found before, and those of the files.
+    """
+    inspect = _inspect_recording if recorded else _inspect_measured_files
+    return inspect(args, algorithm, bearings, problems)
 
 
-def reading_problems(args: argparse.Namespace, *, recorded: bool) -> list[str]:
-    """List the options of measured files that a recording has no use for."""
-    options = [each for each in reading_options(args) if each != "--channels"]
-    if not (recorded and options):
-        return []
-    verb = "is" if len(options) == 1 else "are"
-    return [
-        f"{', '.join(options)} {verb} for measured files; {args.files[0]} is a recording, which is taken "
-        "as it is"
-    ]
-
-
-def _inspect_recording(args: argparse.Namespace, algorithm: Algorithm) -> list[Inspection]:
+def _inspect_recording(
+    args: argparse.Namespace,
+    algorithm: Algorithm | None,
+    bearings: tuple[Mounted, ...] | None,
+    problems: list[str],
+) -> list[Inspection]:
     """Let the monitor analyse a recording, every axlebox of it or the one that is asked for."""
     from beardyn_core.record.reading import read_run
     from beardyn_core.study.inspection import inspect_boxes
 
-    path = args.files[0]
-    recording = read_run(path, args.box)
+    recording = collect_problems(problems, lambda: read_run(args.files[0], args.box))
+    if problems or algorithm is None or bearings is None or recording is None:
+        raise InputError(problems)
     if recording.problem:
         print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    return inspect_boxes(recording, lambda run: _inspect_box(args, run, algorithm), alone=bool(args.box))
+    return inspect_boxes(
+        recording, lambda run: _inspect_box(args, run, algorithm, bearings), alone=bool(args.box)
+    )
 
 
-def _inspect_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm) -> list[Inspection]:
+def _inspect_box(
+    args: argparse.Namespace, recording: Run, algorithm: Algorithm, bearings: tuple[Mounted, ...]
+) -> list[Inspection]:
     """Let the monitor analyse the signals of one axlebox."""
     from beardyn_core.measured.stated_speed import recorded_uncertainty
     from beardyn_core.study.inspection import inspect_run, recorded_plate
 
-    bearings = mounted_of(args)
     recorded = recorded_plate(recording, lenient=True) if bearings else None
     for each in bearings if recorded is not None else ():
         assert recorded is not None
@@ -78,45 +98,46 @@ def _inspect_box(args: argparse.Namespace, recording: Run, algorithm: Algorithm)
     return inspect_run(recording, bearings, algorithm, settings)
 
 
-def _inspect_measured_files(args: argparse.Namespace, algorithm: Algorithm) -> list[Inspection]:
-    """Let the monitor analyse measured files, block by block."""
+def _inspect_measured_files(
+    args: argparse.Namespace,
+    algorithm: Algorithm | None,
+    bearings: tuple[Mounted, ...] | None,
+    problems: list[str],
+) -> list[Inspection]:
+    """Let the monitor analyse measured files, block by block.
+
+    Raises
+    ------
+    InputError
+        With the problems found before, and those of the files.
+    """
     from beardyn_core.cli.import_ import sensor_problems
     from beardyn_core.measured.heard_speed import with_heard_speed
     from beardyn_core.measured.stated_speed import uncertainty_of
     from beardyn_core.measured.survey import survey
     from beardyn_core.study.inspection import inspect_measured
 
-    problems: list[str] = []
-    bearings: tuple[Mounted, ...] = ()
-    try:
-        bearings = mounted_of(args)
-        if not bearings:
-            numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
-            problems.append(
-                f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
-                "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
-            )
-    except InputError as error:
-        problems += error.problems
-    try:
-        settings_of(args, 0.0)
-    except InputError as error:
-        problems += error.problems
+    if bearings == ():
+        numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
+        problems.append(
+            f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
+            "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
+        )
+    bearings = bearings or ()
     try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
         measured = with_heard_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems
-    if problems:
+    if problems or algorithm is None:
         raise InputError(problems)
     told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
     for sentence in told:
         print(f"beardyn: {sentence}", file=sys.stderr)
     warnings: list[str] = []
-    found = inspect_measured(
-        measured, bearings, algorithm, settings_of(args, uncertainty_of(measured)), warnings
-    )
+    settings = settings_of(args, uncertainty_of(measured))
+    found = inspect_measured(measured, bearings, algorithm, settings, warnings)
     for sentence in warnings:
         print(f"beardyn: warning: {sentence}", file=sys.stderr)
     return found

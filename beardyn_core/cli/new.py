@@ -131,7 +131,7 @@ def bearing_data_text(entry: CatalogueEntry, target: Path) -> str:
         f"# {entry.name} of the catalogue of bearings. Units stand in the keys.",
         *textwrap.wrap(f"Source: {entry.source}.", 108, initial_indent="# ", subsequent_indent="# "),
         "# Every key with its meaning, unit, limits and default: docs/reference.md; for editors:",
-        "# `beardyn schema plate`.",
+        "# `beardyn schema bearing_data`.",
         f"# {_HOW[CATALOGUE].format(file=_show_path(target))}",
     ]
     text = yaml.safe_dump(said, sort_keys=False, allow_unicode=True, width=110)

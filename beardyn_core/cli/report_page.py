@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from beardyn_core.api.report_pages import report
-from beardyn_core.base.errors import InputError
-from beardyn_core.cli.files import input_problems
+from beardyn_core.base.errors import InputError, collect_problems
 from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.measured_options import (
     add_plates,
     add_reading,
+    misplaced_options,
     mounted_of,
     plate_options,
     reading_of,
     reading_options,
 )
-from beardyn_core.cli.monitor_settings import add_certainty, add_limits, given_settings, settings_of
-from beardyn_core.cli.monitored_files import inspect_files, is_recorded, reading_problems
+from beardyn_core.cli.monitor_settings import add_settings, given_settings, settings_of
+from beardyn_core.cli.monitored_files import inspect_files, is_recorded
 
 if TYPE_CHECKING:
     from beardyn_core.study.inspection import Inspection
@@ -40,8 +40,7 @@ def add_page(parser: argparse.ArgumentParser) -> None:
         help="your algorithm, its module may be in this folder; default the reference chain",
     )
     add_plates(parser, "default that of the recording")
-    add_certainty(parser)
-    add_limits(parser)
+    add_settings(parser)
     add_reading(parser)
 
 
@@ -65,12 +64,10 @@ def run_page(args: argparse.Namespace) -> int:
     from beardyn_core.study.report_page.page_writing import page_problems, write_pages
 
     problems = page_problems(args.html, args.pdf, [Path(each) for each in args.files], force=args.force)
-    problems += input_problems(
-        lambda: algorithm_named(args.monitor),
-        lambda: settings_of(args, 0.0),
-        lambda: mounted_of(args),
-        lambda: reading_of(args),
-    )
+    algorithm = collect_problems(problems, lambda: algorithm_named(args.monitor))
+    bearings = collect_problems(problems, lambda: mounted_of(args))
+    collect_problems(problems, lambda: settings_of(args, 0.0))
+    collect_problems(problems, lambda: reading_of(args))
     if args.json:
         problems.append("--json: a page is no JSON; `beardyn monitor --json` prints the verdicts")
     each_alone = [argparse.Namespace(**{**vars(args), "files": [file]}) for file in args.files]
@@ -81,14 +78,13 @@ def run_page(args: argparse.Namespace) -> int:
             "not; give recordings or measured files"
         )
     for one, own in zip(each_alone, recorded, strict=True):
-        problems += reading_problems(one, recorded=own)
+        problems += misplaced_options(one, own)
     if problems:
         raise InputError(problems)
-    algorithm = algorithm_named(args.monitor)
     records: list[list[Inspection]] = (
-        [inspect_files(one, algorithm, recorded=True) for one in each_alone]
+        [inspect_files(one, algorithm, bearings, problems, recorded=True) for one in each_alone]
         if all(recorded)
-        else [inspect_files(args, algorithm, recorded=False)]
+        else [inspect_files(args, algorithm, bearings, problems, recorded=False)]
     )
     told = write_pages(
         records, html=args.html, pdf=args.pdf, train=args.train, axlebox=args.axlebox, force=args.force

@@ -18,8 +18,9 @@ KINDS = (
     "modes",
     "sensor",
     "background",
-    "plate",
+    "bearing_data",
 )
+_FORMER = {"plate": "bearing_data"}  # a name of before
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -31,7 +32,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "`beardyn schema > scene.schema.json`, and as first line of the scene "
         "`# yaml-language-server: $schema=scene.schema.json`.",
     )
-    parser.add_argument("kind", nargs="?", choices=KINDS, default="scene", help="kind of file; default scene")
+    parser.add_argument(
+        "kind",
+        nargs="?",
+        type=lambda name: _FORMER.get(name, name),
+        choices=KINDS,
+        default="scene",
+        help="kind of file; default scene",
+    )
     parser.set_defaults(run=run)
 
 

@@ -12,6 +12,8 @@ from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import plate_options, reading_of
+from beardyn_core.cli.monitor_settings import given_settings
+from beardyn_core.cli.which_bearing import size_options
 
 if TYPE_CHECKING:
     from beardyn_core.monitor.trend import TrendPoint
@@ -63,6 +65,9 @@ def option_problems(args: argparse.Namespace) -> list[str]:
         "--box": (args.box, "reads measured files, which have no axleboxes"),
         "--monitor": (args.monitor, "watches levels itself, without a monitor"),
         "--picture": (args.picture, "analyses nothing that could be drawn"),
+        "--force": (args.force, "writes no picture"),
+        **dict.fromkeys(given_settings(args), (True, "calls no fault and no hot box")),
+        **dict.fromkeys(size_options(args), (True, bearing)),
     }
     return [
         f"{option}: --trend {why}; leave one of both out" for option, (value, why) in given.items() if value

@@ -7,15 +7,18 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.finding import catalogue
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import InputError, collect_problems
 from beardyn_core.base.plain_json import keyed_fields
+from beardyn_core.cli.catalogue_line import size_text
 from beardyn_core.cli.generated_parser import add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.measured_options import in_options, plate_options, reading_of
+from beardyn_core.cli.measured_options import in_options, misplaced_options, plate_options, reading_of
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.catalogue_entry import CatalogueEntry
+    from beardyn_core.measured.survey import Survey
     from beardyn_core.monitor.bearing_search import BearingSearchResult
+    from beardyn_core.record.run import Run
 
 _SHOWN = 12
 SIZE_KEYS = ("bore_mm", "outside_mm", "width_mm", "kind", "maker")
@@ -68,29 +71,22 @@ def chosen_entries(args: argparse.Namespace) -> tuple[CatalogueEntry, ...]:
 
 def run_which_bearing(args: argparse.Namespace, *, recorded: bool) -> int:
     """Run the command; gives the exit code."""
-    from beardyn_core.measured.survey import survey
     from beardyn_core.monitor.bearing_search import SEVERAL
     from beardyn_core.study.fitting_bearing import bearing_search, search_in_files, search_in_run
 
-    problems = option_problems(args)
-    try:
-        search = bearing_search(chosen_entries(args))
-    except InputError as error:
-        problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems = option_problems(args) + misplaced_options(args, recorded)
+    search = collect_problems(problems, lambda: bearing_search(chosen_entries(args)))
     if recorded:
-        from beardyn_core.record.reading import read_run
-
-        found = search_in_run(read_run(args.files[0], args.box), search)
+        recording = collect_problems(problems, lambda: _recording_of(args))
+        if problems or search is None or recording is None:
+            raise InputError(problems)
+        if recording.problem:
+            print(f"beardyn: warning: {recording.problem}; compared is what is there", file=sys.stderr)
+        found = search_in_run(recording, search)
     else:
-        measured = survey(args.files, reading_of(args), needs_speed=True)
-        if not measured.has_speed:
-            raise InputError(
-                f"{args.files[0]}: --which-bearing needs the speed of the shaft, and --speed-range-rpm finds "
-                "it only with the bearing; give one of --speed-rpm, --speed-kmh, --speed-channel, "
-                "--tacho-channel"
-            )
+        measured = collect_problems(problems, lambda: _survey_of(args))
+        if problems or search is None or measured is None:
+            raise InputError(problems)
         warnings: list[str] = []
         found = search_in_files(measured, search, warnings=warnings)
         for sentence in (*measured.warnings, *warnings):
@@ -101,6 +97,34 @@ def run_which_bearing(args: argparse.Namespace, *, recorded: bool) -> int:
         fewer = found.answer == SEVERAL and not size_options(args)
         print("\n".join(_lines(found)) + ("; --bore-mm and --outside-mm leave fewer" if fewer else ""))
     return 0
+
+
+def _recording_of(args: argparse.Namespace) -> Run:
+    """Read the one axlebox that is compared."""
+    from beardyn_core.record.reading import read_run
+
+    path = args.files[0]
+    recording = read_run(path, args.box)
+    if not args.box and len(recording.boxes) > 1:
+        raise InputError(
+            f"{path}: has {len(recording.boxes)} axleboxes, and --which-bearing compares the vibration of "
+            f"one; give --box with one of {', '.join(recording.boxes)}"
+        )
+    return recording
+
+
+def _survey_of(args: argparse.Namespace) -> Survey:
+    """Read the measured files for the first time; they must have a speed."""
+    from beardyn_core.measured.survey import survey
+
+    measured = survey(args.files, reading_of(args), needs_speed=True)
+    if not measured.has_speed:
+        raise InputError(
+            f"{args.files[0]}: --which-bearing needs the speed of the shaft, and --speed-range-rpm finds "
+            "it only with the bearing; give one of --speed-rpm, --speed-kmh, --speed-channel, "
+            "--tacho-channel"
+        )
+    return measured
 
 
 def option_problems(args: argparse.Namespace) -> list[str]:
@@ -116,6 +140,10 @@ def option_problems(args: argparse.Namespace) -> list[str]:
             args.speed_uncertainty is not None,
             "takes that of the way the speed is known",
         ),
+        "--warm": (args.warm is not None, "judges no temperature"),
+        "--hot": (args.hot is not None, "judges no temperature"),
+        "--force": (args.force, "writes no picture"),
+        "--memory": (args.memory, "watches no trend"),
     }
     return [
         f"{option}: --which-bearing {why}; leave one of both out"
@@ -126,6 +154,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
 
 def _object(found: BearingSearchResult) -> dict[str, Any]:
     whole = keyed_fields(found)
+    whole["speeds"] = [keyed_fields(each) for each in found.speeds]
     whole["fits"] = [
         {
             "bearing": fit.name,
@@ -151,9 +180,3 @@ def _lines(found: BearingSearchResult) -> list[str]:
     if len(found.fits) > _SHOWN:
         lines.append(f"  ... and {len(found.fits) - _SHOWN} more; --json lists all")
     return [*lines, f"{found.answer}: {found.reason}"]
-
-
-def size_text(entry: CatalogueEntry) -> str:
-    """Write the boundary dimensions of a bearing; '' where they are not stated."""
-    sizes = (entry.bore, entry.outer_diameter, entry.width)
-    return f"{' x '.join(f'{1e3 * each:g}' for each in sizes)} mm" if sizes[0] == sizes[0] else ""

@@ -22,6 +22,7 @@ KINDS = (
     "backgrounds",
 )
 _SUFFIXES = (".yaml", ".yml")
+_CALLED = {"effects": "effects preset", "plates": "bearing data"}  # one of a kind, in messages
 _AUTO = "auto"  # in place of a set of effects
 _FORMER = {("effects", "full"): "all"}  # names of before, in scenes and recordings that are kept
 
@@ -50,7 +51,7 @@ def find(kind: str, name: str, beside: Path | None = None) -> Path:
     InputError
         With the places searched or the names there are.
     """
-    singular = "effects preset" if kind == "effects" else kind[:-1]
+    singular = _CALLED.get(kind, kind[:-1])
     if "/" in name or os.sep in name or Path(name).suffix in _SUFFIXES:
         places = [Path(name)] if beside is None else [beside / name, Path(name)]
         for path in dict.fromkeys(places):

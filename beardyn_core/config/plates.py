@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.catalogue import find_bearing
 from beardyn_core.config.folders import find, shipped_names
@@ -23,7 +24,7 @@ def load_plate(name: str | Path) -> NamePlate:
     text = str(name)
     if text in shipped_names("bearings"):
         return NamePlate.of(load_bearing(text))
-    if not (Path(text).suffix in (".yaml", ".yml") or os.sep in text or "/" in text) or _is_designation(text):
+    if _is_name(text):
         return find_bearing(text).plate
     path = find("plates", text)
     data = read_file(path)
@@ -31,6 +32,27 @@ def load_plate(name: str | Path) -> NamePlate:
         return NamePlate.of(bearing_from_mapping(data, str(path)))
     plate: NamePlate = read_noun(NamePlate, data, str(path))
     return plate
+
+
+def find_entry(name: str | Path) -> CatalogueEntry | None:
+    """Find the line of the catalogue that `load_plate` takes; None for a file and for a whole bearing.
+
+    Raises
+    ------
+    InputError
+        With the nearest names there are.
+    """
+    text = str(name)
+    if text in shipped_names("bearings") or not _is_name(text):
+        return None
+    entry = find_bearing(text)
+    return None if entry.name in shipped_names("bearings") else entry
+
+
+def _is_name(text: str) -> bool:
+    """Tell whether a text is a name and no path."""
+    is_path = Path(text).suffix in (".yaml", ".yml") or os.sep in text or "/" in text
+    return not is_path or _is_designation(text)
 
 
 def _is_designation(text: str) -> bool:

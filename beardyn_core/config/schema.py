@@ -31,7 +31,7 @@ _NOUNS: dict[str, type] = {
     "modes": ModeFile,
     "sensor": SensorType,
     "background": Background,
-    "plate": NamePlate,
+    "bearing_data": NamePlate,
 }
 SCHEMA_KINDS = tuple(_NOUNS)
 

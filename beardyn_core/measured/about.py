@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from math import isnan, nan
 from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 from beardyn_core.bearing.factors import SYMBOLS
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.claimed_start import Start
@@ -27,6 +28,9 @@ class Mounted:
     label: A[str, "such as ``drive_end``"]
     plate: NamePlate
     sensor: A[str, "name of an accelerometer; empty: the first"] = ""
+    entry: A[CatalogueEntry | None, "line of the catalogue that was taken; None: none"] = field(
+        default=None, compare=False
+    )
 
 
 def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:

@@ -37,6 +37,7 @@ def watch(
             survey.rate(each.sensor or first),
             beside_others(settings, each, bearings),
             algorithm,
+            each.plate,
         )
         for each in bearings
     }

@@ -36,6 +36,8 @@ _ALIKE = 0.006  # orders that differ by less are of one comb, [-]
 _NEAR = 0.01  # slip of an order beyond which a comb is rather that of another bearing, [-]
 _BIN = 0.01  # patterns whose orders differ by less are laid as one, [-]
 _FINER = 1.5  # times its order is below that of a pattern: a comb has lines between those of the pattern
+_OTHER_SPEED, _SPEEDS = 2.0, 3  # times a stated speed, up to which others are named; how many
+_RPM = 60.0  # of a hertz
 _CAGE_BIN = 0.004  # and those whose cage orders do
 
 
@@ -69,6 +71,21 @@ class BearingFit:
 
 
 @dataclass(frozen=True)
+class FittingSpeed:
+    """A speed of the shaft at which a part of a bearing would have the order of the comb."""
+
+    bearing: A[str, "designation"]
+    part: A[str, "``cup``, ``cone`` or ``roller``"]
+    shaft_frequency: A[float, "without slip, [Hz]"]
+    change: A[float, "against the stated speed, relative, [-]"]
+
+    def sentence(self) -> str:
+        """Write it for a reason."""
+        rpm = f"{_RPM * self.shaft_frequency:.5g} rpm"
+        return f"the {PART_NAMES[self.part]} of {self.bearing} at {rpm} ({100.0 * self.change:+.1f} %)"
+
+
+@dataclass(frozen=True)
 class BearingSearchResult:
     """Bearings that fit a vibration."""
 
@@ -79,6 +96,7 @@ class BearingSearchResult:
     analyses: A[int, "of stretches of the vibration"]
     with_comb: A[int, "analyses that found a comb of strikes"]
     searched: A[int, "bearings that were compared"]
+    speeds: A[tuple[FittingSpeed, ...], "at which one would fit, the nearest first, where none fits"] = ()
 
 
 @dataclass(frozen=True)
@@ -86,6 +104,7 @@ class _Look:
     """What one analysis says: the order of its comb, and the parts of each bearing that explain it."""
 
     order: float
+    shaft_frequency: float
     parts: dict[str, tuple[FittingPart, ...]]
 
 
@@ -122,7 +141,6 @@ class BearingSearch:
         }
         self._looks: list[_Look | None] = []
         self._refusals: list[str] = []
-        self._nearest: list[tuple[float, str, str]] = []
 
     def __call__(
         self, stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
@@ -146,7 +164,7 @@ class BearingSearch:
             passed = False
             loudest = max(measured.combs, key=lambda each: each.strikes)
             if loudest.strikes >= settings.least_strikes or loudest.sharpest >= min(settings.least_sharpest):
-                self._looks.append(_Look(bare.order, {}))
+                self._looks.append(_Look(bare.order, stretch.shaft_frequency, {}))
                 reason = f"a comb of order {bare.order:.3f} that no bearing has"
                 return MonitorResult(UNEXPLAINED, reason, stretch.end_ns)
         if not passed:
@@ -154,7 +172,8 @@ class BearingSearch:
             return MonitorResult(HEALTHY, "no comb", stretch.end_ns)
         parts = self._explaining(found.candidates, surest, settings)
         self._add_other_parts(parts, tracked, surest, stretch, band, settings)
-        self._looks.append(_Look(surest.order, {name: tuple(each) for name, each in parts.items()}))
+        explained = {name: tuple(each) for name, each in parts.items()}
+        self._looks.append(_Look(surest.order, stretch.shaft_frequency, explained))
         return MonitorResult(HEALTHY, f"a comb of order {surest.order:.3f}", stretch.end_ns)
 
     def _explaining(
@@ -167,12 +186,8 @@ class BearingSearch:
             if abs(each.order / comb.order - 1.0) > _ALIKE or _strength(each) < _EQUAL * comb.evidence:
                 continue
             for name, pattern in alike:
-                away = abs(comb.order / pattern.order - 1.0)
-                if away > near:
-                    self._nearest.append((away, name, pattern.fault))
-                else:
+                if abs(comb.order / pattern.order - 1.0) <= near:
                     parts[name].append(FittingPart(pattern.fault, comb.order, pattern.order, each.evidence))
-        self._nearest = [min(self._nearest)] if self._nearest else []
         return parts
 
     def _add_other_parts(
@@ -229,9 +244,17 @@ class BearingSearch:
         fits = sorted(self._fits(struck), key=lambda each: (-len(each.parts), each.deviation, each.name))
         comb = f"a comb of order {order:.3f}"
         if not fits:
-            away, name, part = min(self._nearest, default=(nan, "", ""))
-            near = f"; nearest is the {PART_NAMES[part]} of {name}, {100.0 * away:.2g} % off" if name else ""
-            return answer(NONE, f"{comb} is that of no part of {self.searched} bearings{near}")
+            speeds = self._speeds(order, median(each.shaft_frequency for each in struck))
+            reason = f"{comb} is that of no part of {self.searched} bearings"
+            if speeds:
+                near = speeds[0]
+                would = ", ".join(each.sentence() for each in speeds)
+                reason += (
+                    f"; nearest is the {PART_NAMES[near.part]} of {near.bearing}, "
+                    f"{100.0 * abs(near.change):.2g} % off; a wrong speed moves all orders alike: it would "
+                    f"be {would}"
+                )
+            return replace(answer(NONE, reason), speeds=speeds)
         nearest = fits[0]
         part = " and ".join(PART_NAMES[each.part] for each in nearest.parts)
         off = f"{100.0 * nearest.deviation:.2g} % off"
@@ -243,6 +266,21 @@ class BearingSearch:
             f"{nearest.name}, {off}",
             fits,
         )
+
+    def _speeds(self, order: float, stated: float) -> tuple[FittingSpeed, ...]:
+        """List the speeds, [Hz], nearest to the stated one, at which a part has the order of a comb."""
+        ratios = sorted(
+            (abs(log(order / each.order)), order / each.order, name, each.fault)
+            for name, patterns in self._patterns.items()
+            for each in patterns
+        )
+        found: list[FittingSpeed] = []
+        for away, ratio, name, part in ratios:
+            if away > log(_OTHER_SPEED) or len(found) == _SPEEDS:
+                break
+            if all(abs(ratio / (1.0 + each.change) - 1.0) > _ALIKE for each in found):
+                found.append(FittingSpeed(name, part, stated * ratio, ratio - 1.0))
+        return tuple(found)
 
     def _fits(self, struck: Sequence[_Look]) -> list[BearingFit]:
         found = []

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.monitor.passage_order import band_envelope
+from beardyn_core.monitor.passage_order import band_envelope, find_passage_order
 
 NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
 # a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]
@@ -64,6 +64,22 @@ class Events(NamedTuple):
     profile: Float = np.empty(0)  # shape [step], mean squared envelope over a passage, from its loudest place
 
 
+def severity_near(
+    acceleration: Float, rate: float, shaft_angle: Float, fault: str, found_order: float, plate: NamePlate
+) -> Severity:
+    """Measure a spall as `severity_of` does, from an order that is known to about 1 %.
+
+    Parameters
+    ----------
+    found_order : float
+        Passages of the fault per revolution of the shaft, of an analysis or of the bearing data, [-].
+    """
+    order = found_order
+    if fault in ("cup", "cone"):
+        order = find_passage_order(acceleration, rate, shaft_angle, found_order)
+    return severity_of(acceleration, rate, shaft_angle, fault, order, plate)
+
+
 def severity_of(
     acceleration: Float, rate: float, shaft_angle: Float, fault: str, order: float, plate: NamePlate
 ) -> Severity:
@@ -110,14 +126,14 @@ def severity_of(
     Process. 25: the two events, pre-whitening and the cepstrum of them.
     """
     if fault not in ("cup", "cone"):
-        return _severity_unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
+        return unmeasured(f"the width of a spall is measured on cup and cone, not on {fault}")
     if not plate.has_dimensions:
-        return _severity_unmeasured(
+        return unmeasured(
             "the bearing data are maker's factors; give roller_count, roller_diameter_mm and "
             "pitch_diameter_mm, from which the distance of two rollers follows"
         )
     if plate.roller_diameter < _LEAST_ROLLER:
-        return _severity_unmeasured(
+        return unmeasured(
             f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "
             "mm on, not of "
             f"{1e3 * plate.roller_diameter:.3g} mm"
@@ -125,10 +141,10 @@ def severity_of(
     spacing = spacing_of(fault, plate)
     events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
     if events is None:
-        return _severity_unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
+        return unmeasured(f"fewer than {_LEAST_PASSAGES} passages of the fault")
     way = _clear_peak(events)
     if not isfinite(way):
-        return _severity_unmeasured(
+        return unmeasured(
             "no second event stands out: a small spall, one that is worn round, one wider than "
             f"{1e3 * (events.longest + ENTRY_AND_EXIT):.0f} mm, or a noisy sensor"
         )
@@ -175,7 +191,8 @@ def narrow_width(
     return way + ENTRY_AND_EXIT
 
 
-def _severity_unmeasured(reason: str) -> Severity:
+def unmeasured(reason: str) -> Severity:
+    """Say why the size of a spall cannot be given."""
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 
 import numpy as np
@@ -11,9 +11,11 @@ from scipy.fft import next_fast_len
 
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor import chain
 from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.rotation_segments import turning_legs
+from beardyn_core.monitor.severity import Severity, severity_near, unmeasured
 from beardyn_core.sensors.block import Block
 
 _REMEMBERED = 1000  # results whose levels are kept for the trend
@@ -75,6 +77,14 @@ def fast_length(count: int) -> int:
     From 5000 samples on at most 1.6 % are left out, from 20 000 on at most 1 %.
     """
     return next((length for length in range(count, 0, -1) if next_fast_len(length) == length), 0)
+
+
+def _severity_of(result: chain.MonitorResult, stretch: chain.Stretch, bearing: NamePlate) -> Severity:
+    """Measure the spall of the fault that an algorithm has named."""
+    if not np.isfinite(result.fault_order):
+        return unmeasured("the monitor states no order of the fault")
+    axes = stretch.acceleration[:, np.ptp(stretch.acceleration, axis=0) > 0.0]
+    return severity_near(axes, stretch.rate, stretch.shaft_angle, result.verdict, result.fault_order, bearing)
 
 
 class _Samples:
@@ -148,6 +158,8 @@ class Monitor:
         Of the vibration, by default as its first block is stamped, [Hz].
     algorithm : function, optional
         In place of the reference chain.
+    bearing : NamePlate, optional
+        What the spall of a fault is measured with; without it no size is given.
 
     Attributes
     ----------
@@ -167,8 +179,10 @@ class Monitor:
         rate: float | None = None,
         settings: chain.MonitorSettings | None = None,
         algorithm: chain.Algorithm = chain.REFERENCE,
+        bearing: NamePlate | None = None,
     ) -> None:
         self.orders = orders
+        self.bearing = bearing
         self.roller_count = roller_count
         self.rate = rate
         self.settings = settings or chain.MonitorSettings()
@@ -344,6 +358,8 @@ class Monitor:
             earlier=tuple(self._levels),
         )
         result = chain.answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
+        if self.bearing is not None and result.verdict in chain.FAULTS:
+            result = replace(result, severity=_severity_of(result, stretch, self.bearing))
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result

@@ -74,7 +74,7 @@ TOPICS: tuple[Topic, ...] = (
     Topic("load/wrench", WRENCH, *_RELIABLE, 200, "live", "one load on the journal, N, N m"),
     Topic("load/shaft", TWIST, *_RELIABLE, 200, "live", "one shaft speed, twist.angular.y, rad/s"),
     Topic("monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides",
-          "verdict, lines and scores"),
+          "verdict, lines and scores; parts not judged"),
     Topic("follower/estimate", STRING, *_RELIABLE, 50, "every stretch of 1.5 s",
           "JSON: health, condition, estimates with intervals, covariance, growth and forecast, as steps[] of "
           "`beardyn follow --json`"),

@@ -13,6 +13,7 @@ summary_picture     one picture of a run
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 measured_severity   how wide the spall is that a monitor found in a run
+smallest_spall      the smallest spall that a monitor would have found in a healthy record
 fitting_bearing     bearings of the catalogue that fit a run or measured files
 compiling           kernels compiled once on a machine, whatever processes want them
 trial               its runs with a monitor beside each, kept and taken up again

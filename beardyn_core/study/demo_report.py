@@ -174,7 +174,7 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
             ),
             (
                 "frequency",
-                f"{finding.found_frequency:.2f} Hz; {finding.symbol} from geometry "
+                f"{finding.found_frequency:.2f} Hz; {finding.symbol} from bearing data "
                 f"{finding.expected_frequency:.2f} Hz ({100.0 * finding.deviation:+.2f} %)",
             ),
             ("signal to background", f"{finding.signal_to_background:.1f} dB"),

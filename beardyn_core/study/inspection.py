@@ -18,7 +18,6 @@ from beardyn_core.measured.watching import watch
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
 from beardyn_core.monitor.severity import Severity
 from beardyn_core.record.run import Run
-from beardyn_core.study.measured_severity import severity_in
 from beardyn_core.study.monitored_recording import (
     NOT_DIAGNOSABLE,
     WAITING,
@@ -88,9 +87,10 @@ class Inspection:
     def severity(self) -> Severity | None:
         """How wide the spall is; ``None`` where no part was called."""
         finding = self.conclusion.finding
-        if finding is None or not finding.is_fault:
+        if finding is None or not finding.stage:
             return None
-        return severity_in(self.run, self.conclusion, self.mounted.plate, self.mounted.sensor)
+        width, low, high = finding.spall_width, finding.spall_width_low, finding.spall_width_high
+        return Severity(finding.stage, width, low, high, finding.stage_reason)
 
 
 def recorded_plate(run: Run, *, lenient: bool = False) -> NamePlate | None:

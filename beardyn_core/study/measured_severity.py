@@ -6,9 +6,8 @@ import numpy as np
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.monitor.passage_order import find_passage_order
 from beardyn_core.monitor.rotation_segments import turning_legs
-from beardyn_core.monitor.severity import Severity, severity_of
+from beardyn_core.monitor.severity import Severity, severity_near
 from beardyn_core.monitor.streaming import measured_axes
 from beardyn_core.record.run import Run
 from beardyn_core.study.monitored_recording import Conclusion
@@ -30,5 +29,4 @@ def severity_in(
         return None
     plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
     heard = measured_axes(signal.values)[legs.samples]
-    order = find_passage_order(heard, signal.rate, legs.angle, finding.found_order)
-    return severity_of(heard, signal.rate, legs.angle, finding.verdict, order, plate)
+    return severity_near(heard, signal.rate, legs.angle, finding.verdict, finding.found_order, plate)

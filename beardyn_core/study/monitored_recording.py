@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from math import isfinite, nan
 from typing import Annotated as A
+from typing import Any
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
@@ -14,6 +15,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
+from beardyn_core.monitor.severity import Severity
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics
@@ -25,6 +27,9 @@ from beardyn_core.sensors.block import Block
 WAITING, HEALTHY, NOT_DIAGNOSABLE = "waiting", "healthy", "not_diagnosable"
 UNEXPLAINED, HOT_BOX = "unexplained", "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
+SPALL_FIELDS = ("stage", "stage_reason", "spall_width", "spall_width_low", "spall_width_high")
+_TEXTS = ("stage", "stage_reason")
+_LATEST = 25  # findings of a verdict of which one stands for the size of the spall
 # from the best to the worst
 _ORDER = (HEALTHY, WAITING, NOT_DIAGNOSABLE, UNEXPLAINED, *FAULT_SYMBOLS, HOT_BOX)
 EXIT_CODES = {HEALTHY: 0, WAITING: 10, NOT_DIAGNOSABLE: 10, UNEXPLAINED: 11} | dict.fromkeys(
@@ -39,10 +44,11 @@ class Finding:
     verdict: A[str, "one of `beardyn_core.monitor.chain.VERDICTS`"]
     reason: A[str, "the verdict in a sentence"]
     time: A[float, "simulated time of the last sample analysed, [s]"]
+    confidence: A[float, "probability that the verdict is right; NaN of one that cannot tell, [-]"] = nan
     found_frequency: A[float, "line found; NaN without a fault, [Hz]"] = nan
-    expected_frequency: A[float, "the same from geometry, [Hz]"] = nan
+    expected_frequency: A[float, "the same from bearing data, [Hz]"] = nan
     found_order: A[float, "line found, per shaft revolution, [-]"] = nan
-    expected_order: A[float, "the same from geometry, [-]"] = nan
+    expected_order: A[float, "the same from bearing data, [-]"] = nan
     signal_to_background: A[float, "of the fundamental line; without a fault of the strongest, [dB]"] = nan
     fitting_shaft_frequency: A[
         float, "speed at which the line or the comb found is that of a part without slip, [Hz]"
@@ -61,14 +67,28 @@ class Finding:
     band_high: A[float, "upper end, [Hz]"] = nan
     rms_rise: A[float, "over earlier results at a like speed, [dB]"] = nan
     temperature: A[float, "of the axlebox, [K]"] = nan
+    spall_width: A[float, "in rolling direction; NaN where it cannot be measured, [m]"] = nan
+    spall_width_low: A[
+        float, "lower end of its 95 % interval, also where only the least width is known, [m]"
+    ] = nan
+    spall_width_high: A[float, "upper end, [m]"] = nan
+    stage: A[str, "``incipient``, ``developed``, ``severe``, ``not measurable``; '' without a fault"] = ""
+    stage_reason: A[str, "size and stage in a sentence, or why they cannot be given"] = ""
+    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
         """Make the finding of a monitor's result."""
         fundamental = [line.level for line in result.lines if line.expected_order == result.expected_order]
         named = {member.name for member in fields(result)} & {member.name for member in fields(cls)}
+        spall = result.severity or Severity("", nan, nan, nan, "")
         return cls(
             **{name: getattr(result, name) for name in named},
+            stage=spall.grade,
+            stage_reason=spall.reason,
+            spall_width=spall.width,
+            spall_width_low=spall.low,
+            spall_width_high=spall.high,
             time=result.end_ns * 1e-9,
             found_frequency=result.fault_frequency,
             found_order=result.fault_order,
@@ -89,15 +109,16 @@ class Finding:
 
     @property
     def deviation(self) -> float:
-        """Frequency found against geometry, relative, [-]."""
+        """Frequency found against bearing data, relative, [-]."""
         return self.found_order / self.expected_order - 1.0
 
     def to_diagnostic(self, name: str, extra: Sequence[tuple[str, str]] = ()) -> Diagnostic:
         """Write as a status of ``monitor/result``: a hot box is an error, all but healthy a warning."""
-        values = [("verdict", self.verdict)]
-        for member in fields(self)[2:]:
-            number = float(getattr(self, member.name))
-            values.append((member.name, f"{number:.9g}" if isfinite(number) else "nan"))
+        values = [(field, getattr(self, field)) for field in ("verdict", *_TEXTS)]
+        for field in _numbers():
+            number = float(getattr(self, field))
+            values.append((field, f"{number:.9g}" if isfinite(number) else "nan"))
+        values.append(("not_judged", " ".join(self.not_judged)))
         level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
@@ -107,15 +128,27 @@ class Finding:
         verdict = status.value("verdict")
         if verdict is None:
             return None
-        numbers = {member.name: float(status.value(member.name) or "nan") for member in fields(cls)[2:]}
-        return cls(verdict, status.message, **numbers)
+        values: dict[str, Any] = {name: status.value(name) or "" for name in _TEXTS}
+        values |= {name: float(status.value(name) or "nan") for name in _numbers()}
+        values["not_judged"] = tuple((status.value("not_judged") or "").split())
+        return cls(verdict, status.message, **values)
+
+
+def _numbers() -> list[str]:
+    """List the fields of a finding that are numbers."""
+    texts = ("verdict", "reason", "not_judged", *_TEXTS)
+    return [member.name for member in fields(Finding) if member.name not in texts]
 
 
 @dataclass(frozen=True)
 class Conclusion:
     """Results of a monitor over a whole run, summed up."""
 
-    finding: A[Finding | None, "latest of the most frequent verdict; ``None``: never enough signal"]
+    finding: A[
+        Finding | None,
+        "latest of the most frequent verdict, with the spall of middle width and the confidence of the run: "
+        "the mean over all analyses, 0 of one with another verdict; ``None``: never enough signal",
+    ]
     agreeing: A[int, "results with that verdict"]
     analyses: A[int, "results at all"]
 
@@ -140,6 +173,8 @@ class Tally:
         self.latest: Finding | None = None
         self.analyses = 0
         self._counts: Counter[str] = Counter()
+        self._confidences: dict[str, float] = defaultdict(float)  # sums
+        self._faults: dict[str, deque[Finding]] = defaultdict(lambda: deque(maxlen=_LATEST))
         self._last: dict[str, Finding] = {}  # the one that came last at the end
 
     def add(self, finding: Finding) -> None:
@@ -150,6 +185,9 @@ class Tally:
             self._counts[finding.verdict] += 1
             self._last.pop(finding.verdict, None)
             self._last[finding.verdict] = finding
+            self._confidences[finding.verdict] += finding.confidence
+            if finding.is_fault:
+                self._faults[finding.verdict].append(finding)
 
     def conclusion(self) -> Conclusion:
         """Find the most frequent verdict, of equally frequent ones the later, which has seen more.
@@ -164,7 +202,21 @@ class Tally:
         counts = self._counts if 2 * self._counts[HEALTHY] >= total else others
         agreeing = max(counts.values())
         verdict = [name for name in self._last if counts.get(name) == agreeing][-1]
-        return Conclusion(self._last[verdict], agreeing, total)
+        # an analysis that says something else, or that it cannot tell, does not support the verdict
+        confidence = self._confidences[verdict] / total
+        return Conclusion(
+            self._with_spall(replace(self._last[verdict], confidence=confidence)), agreeing, total
+        )
+
+    def _with_spall(self, finding: Finding) -> Finding:
+        """Give a finding the spall of middle width where at least half of the latest analyses have one."""
+        latest = self._faults[finding.verdict] if finding.is_fault else ()
+        measured = [each for each in latest if isfinite(each.spall_width)]
+        if 2 * len(measured) >= len(latest) and measured:
+            chosen = sorted(measured, key=lambda each: each.spall_width)[len(measured) // 2]
+        else:
+            chosen = next((each for each in reversed(latest) if not isfinite(each.spall_width)), finding)
+        return replace(finding, **{name: getattr(chosen, name) for name in SPALL_FIELDS})
 
 
 def worst(verdicts: Iterable[str]) -> str:
@@ -219,7 +271,8 @@ class MonitoredRecording(McapSink):
         """Create the file and a fresh monitor."""
         super().open(run)
         orders, count = fault_frequencies(self._bearing), self._bearing.roller_count
-        self._monitor = Monitor(orders, count, run.sensor_rates[0])
+        plate = NamePlate.of(self._bearing)
+        self._monitor = Monitor(orders, count, run.sensor_rates[0], bearing=plate)
         self.findings = []
 
     def write(self, block: Block) -> None:
@@ -256,7 +309,10 @@ def results_of(
     if not len(run.vibration) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
     settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
-    monitor = Monitor(bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm)
+    plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
+    monitor = Monitor(
+        bearing.frequencies, bearing.roller_count, settings=settings, algorithm=algorithm, bearing=plate
+    )
     yield from run_monitor(monitor, run.monitor_inputs(sensor))
 
 

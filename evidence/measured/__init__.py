@@ -8,6 +8,7 @@ grades             how well the faults can be diagnosed at all, as published
 run                monitors over the records, and what is right, wrong or missed
 page               docs/monitor_measured.md
 wrong_inputs       docs/monitor_wrong_inputs.md: the monitor given a wrong speed or a wrong bearing
+confidence         docs/confidence.md: how often verdicts are right, and the weights of their confidence
 speed              how often the interval of the speed from vibration holds, on records it was not fitted on
 bearing_ranks      at which place the true bearing is among those that fit a record
 cycbd              blind deconvolution, aimed at an order

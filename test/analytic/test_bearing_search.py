@@ -105,6 +105,18 @@ def test_an_order_of_no_bearing_fits_none_and_the_nearest_is_named() -> None:
     assert searched(SAME_SIZE, stretch_of(4.3)).answer == NONE
 
 
+def test_where_none_fits_the_speeds_are_named_at_which_one_would() -> None:
+    right = ALL["6205"].bpfo
+    found = searched({"6205": ALL["6205"]}, stretch_of(right / 0.93))  # the stated speed is 7 % too low
+    nearest = found.speeds[0]
+    assert found.answer == NONE
+    assert (nearest.bearing, nearest.part) == ("6205", "cup")
+    assert nearest.shaft_frequency == pytest.approx(SHAFT / 0.93, rel=3e-3)
+    assert nearest.change == pytest.approx(1.0 / 0.93 - 1.0, abs=3e-3)
+    assert [abs(each.change) for each in found.speeds] == sorted(abs(each.change) for each in found.speeds)
+    assert searched({"6205": ALL["6205"]}, stretch_of(right)).speeds == ()
+
+
 def test_a_stated_speed_lets_more_bearings_fit() -> None:
     certain = searched(ALL, stretch_of(3.585))
     stated = searched(ALL, stretch_of(3.585), uncertainty=0.03)

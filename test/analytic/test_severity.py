@@ -5,7 +5,10 @@ import pytest
 from scipy.signal import lfilter
 
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.monitor.chain import REFERENCE, MonitorResult
 from beardyn_core.monitor.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_of
+from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
+from beardyn_core.study.monitored_recording import Finding, conclude
 
 RATE = 25_600.0
 PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitch_diameter=185e-3)
@@ -82,3 +85,76 @@ def test_one_event_noise_and_rollers_are_not_measurable():
     assert "fewer than" in severity_of(signal[:3000], RATE, angle[:3000], "cup", order, PLATE).reason
     small = NamePlate(name="6205", roller_count=9, roller_diameter=7.94e-3, pitch_diameter=39.04e-3)
     assert "of rollers from 15 mm on" in severity_of(signal, RATE, angle, "cup", order, small).reason
+
+
+def _results(fault, width, algorithm=REFERENCE, speed=19.0):
+    signal, angle, _ = _passages(fault, width, speed=speed, seconds=4.0)
+    monitor = Monitor(
+        PLATE.frequencies, PLATE.roller_count, RATE, algorithm=algorithm, bearing=PLATE,
+    )  # fmt: skip
+    time_ns = np.round(np.arange(len(angle)) * (1e9 / RATE)).astype(np.int64)
+    none = np.empty(0, np.int64)
+    parts = (
+        MonitorInput(
+            time_ns[here], signal[here], time_ns[here], angle[here], none, np.empty(0), none, np.empty(0)
+        )
+        for here in (slice(first, first + 5120) for first in range(0, len(angle), 5120))
+    )
+    return list(run_monitor(monitor, parts))
+
+
+def test_every_analysis_that_names_a_part_says_how_wide_the_spall_is():
+    findings = [Finding.of(each) for each in _results("cup", 6e-3)]
+    named = [each for each in findings if each.verdict == "cup"]
+    assert len(named) > 3
+    for each in named:
+        assert each.spall_width == pytest.approx(6e-3, abs=0.4e-3)
+        assert each.spall_width_low <= 6e-3 <= each.spall_width_high
+        assert each.stage == "developed"
+    assert _of_run(findings).spall_width == pytest.approx(6e-3, abs=0.3e-3)
+
+
+def test_without_a_width_the_reason_is_given():
+    for each in (Finding.of(result) for result in _results("cup", None)):
+        if each.is_fault:
+            assert each.stage == NOT_MEASURABLE
+            assert "no second event" in each.stage_reason
+            assert np.isnan(each.spall_width)
+
+    def algorithm(stretch, orders, count, settings):
+        return MonitorResult("cup", "it is loud", stretch.end_ns)
+
+    finding = Finding.of(_results("cup", 6e-3, algorithm)[-1])
+    assert finding.stage == NOT_MEASURABLE
+    assert "states no order" in finding.stage_reason
+
+
+def test_size_and_stage_pass_through_the_topic_unchanged():
+    finding = Finding.of(_results("cup", 6e-3)[-1])
+    heard = Finding.from_diagnostic(finding.to_diagnostic("axlebox/monitor"))
+    for name in ("stage", "stage_reason"):
+        assert getattr(heard, name) == getattr(finding, name) != ""
+    for name in ("spall_width", "spall_width_low", "spall_width_high"):
+        assert getattr(heard, name) == pytest.approx(getattr(finding, name), rel=1e-8)
+
+
+def _of_run(findings):
+    finding = conclude(findings).finding
+    assert finding is not None
+    return finding
+
+
+def _sized(width, verdict="cup", time=0.0):
+    stage = NOT_MEASURABLE if np.isnan(width) else "developed"
+    return Finding(verdict, "", time, spall_width=width, stage=stage, stage_reason=f"{width:g}")
+
+
+def test_the_spall_of_a_run_is_that_of_middle_width_where_half_of_the_analyses_have_one():
+    widths = (6e-3, 20e-3, np.nan, 5e-3, np.nan)
+    found = _of_run([_sized(each, time=float(at)) for at, each in enumerate(widths)])
+    assert (found.time, found.spall_width) == (4.0, 6e-3)
+    rare = _of_run([_sized(each) for each in (np.nan, 6e-3, np.nan)])
+    assert np.isnan(rare.spall_width)
+    assert rare.stage == NOT_MEASURABLE
+    other = _of_run([_sized(6e-3, "cone"), _sized(8e-3), _sized(8e-3)])
+    assert other.spall_width == 8e-3

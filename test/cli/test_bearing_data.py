@@ -60,14 +60,89 @@ def test_factors_give_the_verdict_of_the_dimensions_and_what_they_cannot_tell(
     found = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert found["verdict"] == "cup"
     assert set(found["bearings"][0]["cannot_tell"]) == {"roller"}
+    assert found["not_judged"] == found["bearings"][0]["not_judged"] == ["roller"]
+    assert {tuple(each["not_judged"]) for each in found["findings"]} == {("roller",)}
     assert main([*words, *FACTORS]) == EXIT_CODES["cup"]
-    assert "cannot tell, rolling elements: bsf: the contact angle is not known" in capsys.readouterr().out
+    assert "not judged, rolling elements: bsf: the contact angle is not known" in capsys.readouterr().out
     assert main([*words, *FACTORS, "--bsf", "4.714", "--ftf", "0.6"]) == BAD_INPUT
     told = capsys.readouterr().err
     assert "--ftf is 0.6" in told
     assert "some makers list twice the spin, give 2.357" in told
     assert main([*words, "--bearing", "6205", *FACTORS]) == BAD_INPUT
     assert "give one of both" in capsys.readouterr().err
+
+
+def test_a_frequency_in_hertz_is_answered_with_the_factor_at_the_stated_speed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(motor(tmp_path))
+    hertz = ["--bpfo", "107.4", "--bpfi", "162.2"]
+    assert main(["monitor", path, "--speed-rpm", "1797", *hertz]) == BAD_INPUT
+    told = capsys.readouterr().err
+    assert "--bpfo is 107.4; it must be at most 40; a factor is per turn of the shaft" in told
+    assert "107.4 Hz at 1797 rpm is 3.586" in told
+    assert "162.2 Hz at 1797 rpm is 5.416" in told
+    speed = ["--speed-kmh", "100", "--wheel-diameter-mm", "920"]  # 9.611 turns a second
+    assert main(["monitor", path, *speed, "--bpfo", "60"]) == BAD_INPUT
+    assert "60 Hz at 576.65 rpm is 6.243" in capsys.readouterr().err
+    assert main(["monitor", path, "--bpfo", "60"]) == BAD_INPUT
+    assert "rpm is" not in capsys.readouterr().err
+
+
+def test_mistakes_of_bearing_data_and_of_other_options_are_reported_at_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [
+        "--bpfo",
+        "4",
+        "--warm",
+        "500",
+        "--monitor",
+        "no_module:x",
+        "--picture",
+        "a.txt",
+        "--box",
+        "left",
+    ]
+    assert main(["monitor", str(motor(tmp_path)), *words, "--bore-mm", "3", "--memory", "m"]) == BAD_INPUT
+    told = capsys.readouterr().err
+    for part in (
+        "--bpfo is 4; its last digit",
+        "--warm is 500",
+        "no_module",
+        "--picture a.txt",
+        "--box: is for recordings",
+        "--bore-mm: of --which-bearing",
+        "--memory is that of --trend",
+        "the speed of the shaft is not known",
+    ):
+        assert part in told
+
+
+def test_the_line_of_the_catalogue_that_was_taken_is_named_with_its_source(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["monitor", str(motor(tmp_path)), "--speed-rpm", "1797", "--bearing"]
+    assert main([*words, "skf 6205-2rs"]) == EXIT_CODES["cup"]
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.startswith(
+        "6205 of the catalogue: SKF, deep groove ball, 25 x 52 x 15 mm; source: Case Western"
+    )
+    assert main([*words, "6205", "--json"]) == EXIT_CODES["cup"]
+    taken = json.loads(capsys.readouterr().out)["bearings"][0]["catalogue"]
+    assert (taken["name"], taken["maker"]) == ("6205", "SKF")
+    assert taken["source"].startswith("Case Western")
+    main([*words, "HS130x230", "--json"])
+    assert json.loads(capsys.readouterr().out)["bearings"][0]["catalogue"] is None
+
+
+def test_an_import_points_to_the_monitor_that_compares_bearings(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = str(motor(tmp_path)), tmp_path / "run.mcap"
+    assert main(["import", path, "-o", str(out), "--which-bearing"]) == BAD_INPUT
+    assert f"`beardyn monitor {path} --which-bearing`" in capsys.readouterr().err
+    assert not out.exists()
 
 
 def test_an_imported_recording_keeps_factors(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -93,6 +168,11 @@ def test_which_bearing_ranks_those_of_the_catalogue(
     assert found["searched"] == len(bd.catalogue())
     assert main([*words, "--bore-mm", "130"]) == DONE
     assert capsys.readouterr().out.startswith("none fits: a comb of order 3.59")
+    words[3] = "1700"
+    assert main([*words, "--bore-mm", "25", "--outside-mm", "52"]) == DONE
+    assert "a wrong speed moves all orders alike: it would be the outer ring (cup) of 6205 at 1800" in (
+        capsys.readouterr().out
+    )
 
 
 def test_which_bearing_refuses_what_it_would_leave_aside(
@@ -104,6 +184,23 @@ def test_which_bearing_refuses_what_it_would_leave_aside(
     told = capsys.readouterr().err
     assert "--bearing: --which-bearing compares those of the catalogue" in told
     assert "--bore-mm is -3" in told
+    idle = [
+        "--warm",
+        "90",
+        "--hot",
+        "120",
+        "--neighbour",
+        "6203",
+        "--force",
+        "--memory",
+        "m",
+        "--box",
+        "left",
+    ]
+    assert main([*words, "--which-bearing", *idle]) == BAD_INPUT
+    told = capsys.readouterr().err
+    for option in ("--warm", "--hot", "--neighbour", "--force", "--memory", "--box"):
+        assert f"beardyn: {option}: " in told
     assert main([*words, "--bore-mm", "25"]) == BAD_INPUT
     assert "--bore-mm: of --which-bearing" in capsys.readouterr().err
     assert main([*words, "--which-bearing", "--bore-mm", "25", "--outside-mm", "53"]) == BAD_INPUT

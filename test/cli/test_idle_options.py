@@ -38,11 +38,17 @@ def test_a_trend_refuses_every_option_that_it_would_leave_aside(
     for option in ("--bearing", "--roller-count", "--box", "--monitor", "--picture"):
         assert f"beardyn: {option}: --trend " in told
     assert len(told.splitlines()) == 5
+    words = ["--warm", 80, "--hot", 90, "--neighbour", "6203", "--speed-uncertainty", 2, "--bore-mm", 25]
+    told = refused(capsys, "monitor", recording, "--trend", *words)
+    for option in ("--warm", "--hot", "--neighbour", "--speed-uncertainty", "--bore-mm"):
+        assert f"beardyn: {option}: --trend " in told
 
 
 def test_options_of_measured_files_are_refused_with_a_recording_of_a_run(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    told = refused(capsys, "monitor", recording, "--speed-rpm", 1800, "--which-bearing")
+    assert "--speed-rpm is for measured files" in told
     told = refused(capsys, "monitor", recording, "--speed-rpm", 1800)
     wanted = f"--speed-rpm is for measured files; {recording} is a recording, which is taken as it is"
     assert told == f"beardyn: {wanted}\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 from dataclasses import asdict, dataclass, replace
@@ -19,6 +20,9 @@ from beardyn_core.cli import report as report_command
 from beardyn_core.cli import simulate, simulate_train
 from beardyn_core.cli.json_output import SCHEMA_VERSION, json_text
 from beardyn_core.cli.main import COMMANDS, DONE, main, module_of
+from beardyn_core.cli.monitor import json_object
+from beardyn_core.config import load_plate
+from beardyn_core.measured.about import Mounted
 from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.statics.rating_life import RatingLife
 from beardyn_core.physics.thermal import NODES
@@ -32,7 +36,8 @@ from beardyn_core.study.desk_run import RunSummary
 from beardyn_core.study.ladder import comparison_of
 from beardyn_core.study.ladder_report import json_object as ladder_object
 from beardyn_core.study.measures import FaultLine
-from beardyn_core.study.monitored_recording import EXIT_CODES
+from beardyn_core.study.monitored_recording import EXIT_CODES, Finding
+from beardyn_core.study.smallest_spall import SmallestSpall, SmallestSpalls
 from beardyn_core.study.trial_report import json_object as trial_object
 from beardyn_core.study.trial_result import TrialResult
 from test.cli.json_page import PAGE, check, documented
@@ -154,11 +159,19 @@ def test_monitor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         "time_s,az_g\n" + "".join(f"{k / 25600:.8f},{each:.5f}\n" for k, each in enumerate(noise))
     )
     motor_file = str(motor(tmp_path))
+    mounted, spalls = Mounted("bearing", load_plate("6205")), (SmallestSpall("cup", math.nan, 21e-3, 21e-3),)
     check(
         "monitor",
+        json_object(
+            argparse.Namespace(files=["run.mcap"]),
+            {mounted: [Finding("healthy", "", 1.0)]},
+            {mounted: SmallestSpalls(spalls, "a scene")},
+        ),
         printed(capsys, "monitor", str(path), "--bearing", "HS130x230"),
         printed(capsys, "monitor", str(short), "--trend"),
         printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--bpfo", "3.585"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--bearing", "6205"),
+        printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--which-bearing", "--bore-mm", "130"),
         printed(capsys, "monitor", motor_file, "--speed-rpm", "1800", "--which-bearing", "--bore-mm", "25"),
     )
 

@@ -102,6 +102,14 @@ def test_factors_of_the_list_are_those_of_other_sources(
     assert (orders.bpfo, orders.bpfi) == pytest.approx((bpfo, bpfi), rel=tolerance)
 
 
+def test_the_unit_of_a_high_speed_train_has_the_orders_of_its_dimensions() -> None:
+    """Zhao et al. (2026), table 2: 17 rollers of 26.7 mm on 185 mm, at 10.5 degrees."""
+    entry = find_bearing("CRH380B")
+    share = 26.7 / 185.0 * math.cos(math.radians(10.5))
+    assert entry.kind == "tapered unit"
+    assert entry.plate.frequencies.bpfo == pytest.approx(8.5 * (1.0 - share), rel=1e-9)
+
+
 def test_rollers_of_the_class_f_unit_are_those_of_its_patent() -> None:
     """US 2002/0164102: the cone assembly HM133444 of AAR class F has 23 rollers."""
     entry = find_bearing("HM133444")

@@ -66,8 +66,10 @@ def test_the_page_leads_from_a_csv_file_to_a_verdict_in_three_commands(
     assert "bearing  6205: 9 rolling elements of 7.94 mm on a circle of 39.04 mm" in report
     assert "no samples missing" in report
     assert main(three[2]) == EXIT_CODES["cup"]
-    assert capsys.readouterr().out.splitlines()[-1] == "cup: 7 of 7 analyses"
-    assert "cup: 7 of 7 analyses" in PAGE
+    verdict, size = capsys.readouterr().out.splitlines()[-2:]
+    assert verdict == "cup: 7 of 7 analyses, confidence 0.98"
+    assert size.startswith("size: not measurable: ")
+    assert verdict in PAGE
 
 
 def _without_figures(text: str) -> str:
@@ -84,16 +86,16 @@ def test_the_programs_and_other_commands_of_the_page_do_what_it_says(
     inline = re.search(r"`beardyn (monitor motor\.csv [^`]*)`", PAGE)
     assert inline is not None
     assert main(shlex.split(inline[1])) == EXIT_CODES["cup"]
-    assert capsys.readouterr().out.splitlines()[-1] == "cup: 7 of 7 analyses"
+    assert capsys.readouterr().out.splitlines()[-2].startswith("cup: 7 of 7 analyses, confidence 0.9")
     (program,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     exec(compile(program, "page", "exec"), {"bd": bd})
     assert "cup" in capsys.readouterr().out.splitlines()
     two = next(words for words in commands(PAGE) if "both.csv" in words)
     assert main(two) == EXIT_CODES["cone"]  # the worst decides
-    assert capsys.readouterr().out.splitlines()[-2:] == [
-        "drive_end healthy: 7 of 7 analyses",
-        "fan_end cone: 7 of 7 analyses",
-    ]
+    healthy, cone, size = capsys.readouterr().out.splitlines()[-3:]
+    assert healthy.startswith("drive_end healthy: 7 of 7 analyses, confidence 0.")
+    assert cone.startswith("fan_end cone: 7 of 7 analyses, confidence 0.9")
+    assert size.startswith("fan_end size: not measurable: ")
     plate = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
     assert plate is not None
     (tmp_path / "mine.yaml").write_text(plate[1])

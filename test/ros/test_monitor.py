@@ -86,9 +86,11 @@ def test_unknown_algorithm_and_bearing_are_refused_together(graph: Graph) -> Non
 
 
 def test_factors_that_contradict_each_other_are_refused(graph: Graph) -> None:
-    graph.node_process("monitor", bpfo=10.76, bpfi=8.24)
+    graph.node_process("monitor", bpfo=10.76, bpfi=8.24, bsf=70.6)
     assert graph.exit_code("monitor") == 2
-    assert "are they exchanged?" in graph.processes.log("monitor")
+    log = graph.processes.log("monitor")
+    assert "are they exchanged?" in log
+    assert "bsf is 70.6; it must be at most 20; a factor is per turn of the shaft" in log
 
 
 def test_unknown_bearing_is_refused_with_the_known_ones(graph: Graph) -> None:

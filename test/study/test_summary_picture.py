@@ -19,7 +19,7 @@ def _data():
         amplitude += 2.0 / h * np.exp(-(((order - h * 7.294) / 0.03) ** 2))
     return SummaryData(
         title="cup_spall",
-        verdict="cup fault: BPFO found at 140.02 Hz, 140.04 Hz from geometry (-0.01 %), 24.1 dB",
+        verdict="cup fault: BPFO found at 140.02 Hz, 140.04 Hz from bearing data (-0.01 %), 24.1 dB",
         time=time,
         force=load + np.random.default_rng(1).normal(size=load.shape) * 300,
         load=load,

@@ -10,7 +10,7 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
-from beardyn_core.cli.main import main
+from beardyn_core.cli.main import BAD_INPUT, main
 from beardyn_core.config.boxes import scene_of_box
 from beardyn_core.rail.build import length_of_load
 from beardyn_core.rail.train import TrainLoads
@@ -95,6 +95,10 @@ def test_commands_take_a_box(
     assert len(np.load(target, allow_pickle=False)["force_waveform.values"]) == len(in_memory.force_waveform)
     assert main(["monitor", str(recording)]) == EXIT_CODES["not_diagnosable"]
     assert capsys.readouterr().out.count("not_diagnosable") >= 4
+    assert main(["monitor", str(recording), "--which-bearing"]) == BAD_INPUT
+    assert "has 4 axleboxes" in capsys.readouterr().err
+    assert main(["monitor", str(recording), "--which-bearing", "--box", "axle_1_right"]) == 0
+    assert capsys.readouterr().out.startswith("cannot tell: ")
     assert main(["view", str(recording), "--box", "axle_1_right", "--save", str(tmp_path / "v.rrd")]) == 0
 
 

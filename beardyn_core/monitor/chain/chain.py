@@ -10,9 +10,10 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score, parts_without_order
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -80,11 +81,13 @@ class Chain:
             Rollers of one row; 0 where that is not known.
         """
         speed = stretch.shaft_frequency
+        not_judged = parts_without_order(orders)
         if why := unheard(stretch, settings):
             return MonitorResult(
                 NOT_DIAGNOSABLE,
                 why,
                 stretch.end_ns,
+                not_judged=not_judged,
                 shaft_frequency=speed,
                 revolutions=stretch.revolutions,
             )
@@ -94,7 +97,7 @@ class Chain:
         tracked = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         found = with_strikes(found, stretch, band, settings)
-        verdict = self.decide(found, stretch, settings)
+        verdict, lined = self.decide(found, stretch, settings), tracked
         if verdict.name not in (*FAULTS, UNEXPLAINED) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is heard as measured
@@ -105,13 +108,14 @@ class Chain:
             deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
             heard = self.decide(clockwork, stretch, deep)
             if heard.name in (*FAULTS, UNEXPLAINED):
-                found, verdict = clockwork, heard
+                found, verdict, lined = clockwork, heard, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
-        unknown = [PART_NAMES[part] for part in FAULTS if part not in score]
-        if unknown and verdict.name not in FAULTS:
-            cannot = f"cannot tell: {', '.join(unknown)}, whose order is not known"
+        if not_judged and verdict.name not in FAULTS:
+            named = ", ".join(PART_NAMES[part] for part in not_judged)
+            cannot = f"not judged: {named}, whose order is not known"
             verdict = replace(verdict, reason=f"{verdict.reason}; {cannot}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
@@ -122,6 +126,8 @@ class Chain:
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
+            confidence=confidence_of(verdict.name, grounds),
+            grounds=grounds,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,
             expected_order=best.pattern.order if called else np.nan,
@@ -134,6 +140,7 @@ class Chain:
             score=best.score,
             threshold=best.threshold,
             scores=(score.get("cup", np.nan), score.get("cone", np.nan), score.get("roller", np.nan)),
+            not_judged=not_judged,
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,

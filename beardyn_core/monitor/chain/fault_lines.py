@@ -54,7 +54,7 @@ class Line:
 
     name: A[str, "such as ``2 x BPFO`` or ``BPFI - shaft``"]
     order: A[float, "found, cycles per shaft revolution, [-]"]
-    expected_order: A[float, "from geometry, [-]"]
+    expected_order: A[float, "from bearing data, [-]"]
     frequency: A[float, "at the mean shaft speed, [Hz]"]
     level: A[float, "over the background, [dB]"]
 
@@ -160,6 +160,12 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
     return tuple(each for each in several if not isnan(each.order + each.sideband))
 
 
+def parts_without_order(orders: FaultFrequencies) -> tuple[str, ...]:
+    """List the parts that cannot be judged, since the bearing data do not give their orders."""
+    known = {each.fault for each in fault_patterns(orders)}
+    return tuple(part for part in FAULTS if part not in known)
+
+
 def comb_score(
     tracked: Float,
     orders: FaultFrequencies,
@@ -190,7 +196,7 @@ def comb_score(
     others = [each for orders in settings.neighbours for each in fault_patterns(orders)]
     highest = max(_highest(each, _FOREIGN, settings) for each in (*patterns, *others))
     wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
-    beside = _beside_shaft(_beside_wheel(wide), settings)
+    beside = _beside_shaft(beside_wheel(wide), settings)
     strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))
     inside = ((-known, known),)
     outside = tuple(each for each in ((slowest, -known), (known, fastest)) if each[0] < each[1])
@@ -223,7 +229,7 @@ def lay_patterns(
     known = settings.tolerance + settings.speed_uncertainty
     highest = max(_highest(each, _FOREIGN, settings) for each in patterns)
     wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
-    beside = _beside_shaft(_beside_wheel(wide), settings)
+    beside = _beside_shaft(beside_wheel(wide), settings)
     if without is not None:
         beside = _taken_out(beside, without.explains(beside.order, beside.resolution))
     rate = settings.false_alarm_rate / len(patterns)
@@ -262,7 +268,7 @@ def _combs(
     for each in neighbours:
         if each.evidence > -np.log(settings.false_alarm_rate):
             known |= each.explains(spectrum.order, spectrum.resolution)
-    best = strongest_rival(spectrum, _over_noise(spectrum), known, settings.harmonics)
+    best = strongest_rival(spectrum, over_noise(spectrum), known, settings.harmonics)
     if not best.own > -np.log(settings.false_alarm_rate):
         return ()
     return tuple(
@@ -280,7 +286,7 @@ def _combs(
     )
 
 
-def _over_noise(spectrum: OrderSpectrum) -> Float:
+def over_noise(spectrum: OrderSpectrum) -> Float:
     """Compute the power of every line over the mean of noise, shape [line]."""
     return np.asarray(_MEDIAN_OVER_MEAN * 10.0 ** (0.1 * spectrum.level), np.float64)
 
@@ -307,7 +313,7 @@ def _lay(
     step = 0.25 * resolution / harmonics
     deviation = np.concatenate([np.arange(low, high, step / pattern.order) for low, high in ranges])
     trial = pattern.order * (1.0 + deviation)
-    power = _over_noise(spectrum)
+    power = over_noise(spectrum)
     scales = [np.zeros(len(trial))]
     if speed_error > 0.0 and pattern.sidebands:
         scales.append(np.clip(deviation, -speed_error, speed_error))
@@ -330,7 +336,7 @@ def _lay(
     threshold = score_threshold(count, round(independent, 1), rate)
     if hasty and score < threshold:
         return Candidate(fitted, order, score, threshold, sure, Rival(), ())
-    weigh = partial(_evidence_of, power, spectrum, independent)
+    weigh = partial(evidence_at, power, spectrum, independent)
     alone, otherwise = sure, -np.inf
     if pattern.sidebands:
         alone = weigh(order * np.arange(1.0, harmonics + 1.0))
@@ -365,7 +371,7 @@ def _beside_shaft(spectrum: OrderSpectrum, settings: MonitorSettings) -> OrderSp
     chance = -np.log(settings.false_alarm_rate)
     for _ in range(_MOST_SHAFTS):
         nothing = np.zeros(len(spectrum.order), dtype=bool)
-        power = _over_noise(spectrum)
+        power = over_noise(spectrum)
         best = strongest_rival(spectrum, power, nothing, settings.harmonics)
         if not best.evidence > chance:
             break
@@ -376,14 +382,14 @@ def _beside_shaft(spectrum: OrderSpectrum, settings: MonitorSettings) -> OrderSp
     return spectrum
 
 
-def _evidence_of(power: Float, spectrum: OrderSpectrum, independent: float, orders: Float) -> float:
+def evidence_at(power: Float, spectrum: OrderSpectrum, independent: float, orders: Float) -> float:
     """Compute the evidence of lines at some orders, found within one of several independent places."""
     index = np.minimum(np.rint(orders / spectrum.order[1]).astype(int), len(power) - 1)
     laid = power[index]
     return evidence(float(laid.sum() - laid.max()), len(laid), independent * len(FAULTS))
 
 
-def _beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
+def beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
     """Remove the whole orders from a spectrum, where a wheel of varying strikes leaves a residue."""
     return _without(spectrum, 1.0)
 

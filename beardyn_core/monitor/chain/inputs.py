@@ -102,9 +102,9 @@ class MonitorSettings:
     fills the band, `least_sharpest` in one octave does; there healthy ones had up to 0.7 at BPFO, with which
     their rollers pass, and 0.4 at the lines of cone and roller. How loud a fault is does not count.
 
-    Rollers slip, so that lines lie 1 to 2 % beside geometry (Randall, Antoni 2011, section 2.2); a roller
-    that spins on through the unloaded side in settled grease does so here, by 1.8 % in
-    `service_metro_roller`.
+    Rollers slip, so that lines lie 1 to 2 % next to the orders of the bearing data (Randall, Antoni 2011,
+    section 2.2); a roller that spins on through the unloaded side in settled grease does so here, by 1.8 %
+    in `service_metro_roller`.
 
     EN 15437-2 asks for levels and leaves their values to the vehicle; those here are assumed: 90 and
     120 °C, and 5 K a minute above 60 °C. Healthy boxes with settled grease are silent up to 300 km/h in air
@@ -137,7 +137,7 @@ class MonitorSettings:
     interval: A[float, "time between two analyses, [s]"] = 0.5
     samples_per_revolution: A[int, "angular grid of the order tracking"] = 1024
     background_width: A[float, "of the neighbourhood whose median is the background, [shaft orders]"] = 3.0
-    tolerance: A[float, "of a fault frequency against geometry, for rollers slip by 1 to 2 %, [-]"] = 0.02
+    tolerance: A[float, "of a fault frequency against bearing data, for rollers slip by 1 to 2 %, [-]"] = 0.02
     speed_uncertainty: A[
         float, "of the stated speed, 0 where a tachometer counts the revolutions; searched over, [-]"
     ] = 0.0

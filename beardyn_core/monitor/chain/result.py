@@ -7,9 +7,11 @@ from typing import Annotated as A
 
 import numpy as np
 
+from beardyn_core.monitor.chain.confidence import Grounds
 from beardyn_core.monitor.chain.explanations import Explanation
 from beardyn_core.monitor.chain.fault_lines import Line
 from beardyn_core.monitor.features import OrderSpectrum
+from beardyn_core.monitor.severity import Severity
 
 VERDICTS = ("waiting", "healthy", "cup", "cone", "roller", "unexplained", "hot_box", "not_diagnosable")
 
@@ -25,10 +27,15 @@ class MonitorResult:
     ]
     reason: A[str, "the verdict in a sentence"]
     end_ns: A[int, "simulated time of the last sample analysed, [ns]"]
+    confidence: A[
+        float,
+        "probability that the verdict is right, NaN of one that cannot tell; see `chain.confidence`, [-]",
+    ] = np.nan
+    grounds: A[Grounds | None, "what that rests on"] = None
     fault_order: A[float, "found, NaN without a fault, per shaft revolution"] = np.nan
     fault_frequency: A[float, "the same, [Hz]"] = np.nan
-    expected_order: A[float, "of that fault from geometry, [-]"] = np.nan
-    expected_frequency: A[float, "of that fault from geometry, [Hz]"] = np.nan
+    expected_order: A[float, "of that fault from bearing data, [-]"] = np.nan
+    expected_frequency: A[float, "of that fault from bearing data, [Hz]"] = np.nan
     fitting_shaft_frequency: A[
         float, "speed at which a fault has its order without slip, or a comb that of a part; else NaN, [Hz]"
     ] = np.nan
@@ -43,6 +50,7 @@ class MonitorResult:
         0.0,
         0.0,
     )
+    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
     lines: A[tuple[Line, ...], "lines of the strongest candidate that stand out one by one"] = ()
     strongest_order: A[float, "of the strongest line above the cage's own, [-]"] = np.nan
     strongest_level: A[float, "of that line, [dB]"] = np.nan
@@ -57,3 +65,6 @@ class MonitorResult:
     temperature: A[float, "of the axlebox, NaN when unknown, [K]"] = np.nan
     temperature_state: A[str, "``unknown``, ``normal``, ``warm`` or ``hot``"] = "unknown"
     spectrum: A[OrderSpectrum | None, "of the envelope"] = None
+    severity: A[
+        Severity | None, "size and stage of the spall; a `Monitor` that knows the bearing sets it"
+    ] = None

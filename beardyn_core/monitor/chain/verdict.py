@@ -19,7 +19,7 @@ _RPM = 60.0  # of a hertz
 NEIGHBOUR = "another bearing on this shaft explains more"
 _SURER = 1.6  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
 _MULTIPLE = 1.5  # over which an order is a multiple of another, [-]
-_NO_DOUBT = 0.01  # of an order against geometry, [-]
+_NO_DOUBT = 0.01  # of an order against bearing data, [-]
 
 
 @dataclass(frozen=True)
@@ -199,7 +199,7 @@ def _fault_sentence(best: Candidate, shaft_frequency: float, settings: MonitorSe
     deviation = best.order / expected - 1.0
     sentence = (
         f"{best.pattern.fault} fault: {best.pattern.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
-        f"{expected * shaft_frequency:.2f} Hz from geometry ({100.0 * deviation:+.2f} %), "
+        f"{expected * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )
     if settings.speed_uncertainty > 0.0:

@@ -189,6 +189,9 @@ def _confidence(inspection: Inspection) -> str:
     result = inspection.results.concluded
     if finding.is_fault and result is not None and isfinite(result.threshold):
         text += f". In the latest the fault passes the alarm by {result.score - result.threshold:.1f} dB"
+    if isfinite(finding.confidence):
+        share = "over 99" if finding.confidence > 0.99 else f"{100.0 * finding.confidence:.0f}"
+        text = f"the verdict is right with a probability of {share} %; {text}"
     return f"{text}."
 
 

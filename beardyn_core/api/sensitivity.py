@@ -1,0 +1,114 @@
+"""How small a spall a record would have shown: spalls of the twin, added to it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from beardyn_core.base.errors import InputError
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.monitor.chain import MonitorSettings
+    from beardyn_core.record.run import Run
+    from beardyn_core.scene.scene import Scene
+    from beardyn_core.study.smallest_spall import SmallestSpalls
+
+_LEAST_LOAD = 1000.0  # of a record, below which it is none: that of the twin is taken [N]
+_ALIKE = 0.03  # orders of record and twin, relative
+
+
+def smallest_spalls(
+    run: Run | Path | str,
+    twin: Scene | Path | str | None = None,
+    *,
+    bearing: Bearing | NamePlate | str | None = None,
+    sensor: str = "",
+    settings: MonitorSettings | None = None,
+) -> SmallestSpalls:
+    """Find the smallest spall of each part that the monitor would have named in a record without a fault.
+
+    Spalls of the twin, at the speed and load of the record, are added to the vibration of its last
+    revolutions.
+
+    Parameters
+    ----------
+    run, bearing, sensor, settings
+        See `monitor`.
+    twin : Scene, Path or str, optional
+        Scene of the axlebox, or of one like it, of which box, sensor and spalls are taken, and the load where
+        the record has none; by default that of the recording. It runs in the tier of the scene.
+
+    Returns
+    -------
+    SmallestSpalls
+        For each part, with the twin that they are of.
+
+    Raises
+    ------
+    InputError
+        The record is shorter than an analysis, has no scene, or the twin has a bearing of other orders.
+    """
+    from beardyn_core.api.making import scene as make_scene
+    from beardyn_core.api.reading import heard_of
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.choice.load_cases import circumstances
+    from beardyn_core.measured.stated_speed import recorded_uncertainty
+    from beardyn_core.monitor.chain import MonitorSettings
+    from beardyn_core.study.monitored_recording import results_of
+    from beardyn_core.study.smallest_spall import WIDTHS, LastStretch, SmallestSpalls, smallest_spalls_in
+
+    heard, data, sensor = heard_of(run, bearing, sensor)
+    if twin is None:
+        if not heard.scene_text:
+            raise InputError(
+                f"{heard.label}: has no scene of a twin; give twin, a scene of this axlebox or of one like it"
+            )
+        twin = scene_from_text(heard.scene_text, heard.label)
+    base = replace(make_scene(twin), background=None, axleboxes=None)  # what both runs hear alike
+    own, orders = base.bearing.frequencies, data.frequencies
+    for symbol in ("bpfo", "bpfi"):
+        twins, stated = getattr(own, symbol), getattr(orders, symbol)
+        if abs(twins / stated - 1.0) > _ALIKE:
+            raise InputError(
+                f"twin {base.name}: its {base.bearing.name} has {symbol.upper()} {twins:.4f}, that of "
+                f"{heard.label} has {stated:.4f}: a twin must have the bearing of the record"
+            )
+    settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(heard.measured))
+    kept = LastStretch()
+    for _ in results_of(heard, data, kept, settings, sensor):
+        pass
+    if kept.stretch is None:
+        raise InputError(f"{heard.label}: is shorter than an analysis of the monitor needs")
+    force = circumstances(base).typical.force
+    if isfinite(kept.stretch.load) and abs(kept.stretch.load) > _LEAST_LOAD:
+        force = (0.0, 0.0, kept.stretch.load)
+    made = make_scene(
+        base,
+        faults=[{"kind": "field_spall", "on": "cup", "width_mm": 1e3 * WIDTHS[-1]}],
+        load_kN=[1e-3 * each for each in force],
+        speed_rpm=60.0 * kept.stretch.shaft_frequency,
+    )
+    signal = heard.sensors[sensor] if sensor else heard.vibration
+    axes = tuple(np.flatnonzero(~np.isnan(signal.values).all(axis=0)).tolist())
+    same = sensor if sensor in [each.name for each in made.sensors] else ""
+    spalls = smallest_spalls_in(
+        kept.stretch,
+        axes,
+        orders,
+        data.roller_count,
+        made,
+        same,
+        settings,
+    )
+    words = (
+        f"{base.name}, {base.bearing.name} at {60.0 * kept.stretch.shaft_frequency:.4g} rpm and "
+        f"{1e-3 * abs(force[2]):.3g} kN, field spalls that begin in the middle of the "
+        f"load zone, tier {made.tier}"
+    )
+    return SmallestSpalls(tuple(spalls), words)
