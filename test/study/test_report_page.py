@@ -76,7 +76,8 @@ def test_the_page_has_its_parts_in_the_order_in_which_a_reader_asks(inspection: 
     html = page_of(inspection, train="train 7", axlebox="axle 2 left")
     text = text_of(html)
     wanted = [
-        "train 7", "axle 2 left", "FAULT", "outer ring (cup)", "Confidence: the verdict is right with a probability of ", "analyses agree", "Record",
+        "train 7", "axle 2 left", "FAULT", "outer ring (cup)",
+        "Confidence: the verdict is right with a probability of ", "analyses agree", "Record",
         "Kind of record: measured", "Axlebox: axle 2 left", "Bearing: HS130x230", "BPFO 7.294",
         "Files: cup.mcap", "Date of the record: not stated", "Shaft speed: 1152.0 rpm", "uncertain by 3 %",
         "Sampling: 25600 Hz, axes x, y, z, in m/s²", "Spectrum of the envelope", "Waveform",
