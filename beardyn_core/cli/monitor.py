@@ -83,7 +83,9 @@ def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code, which the worst bearing decides."""
     from beardyn_core.monitor.chain import algorithm_named
+    from beardyn_core.monitor.chain.ambiguity import ON_THE_SHAFT
     from beardyn_core.monitor.chain.explanations import PART_NAMES
+    from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import conclude
 
     if args.trend:
@@ -133,6 +135,8 @@ def run(args: argparse.Namespace) -> int:
             print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
+        for part in hidden_parts(mounted.plate, findings):
+            print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
     return _exit_code(heard)
 
 
@@ -209,6 +213,7 @@ def json_object(
     smallest: dict[Mounted, SmallestSpalls | None],
 ) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
+    from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
@@ -226,7 +231,7 @@ def json_object(
                 "analyses": conclusion.analyses,
                 **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
-                "not_judged": list(mounted.plate.cannot_tell),
+                "not_judged": [*mounted.plate.cannot_tell, *hidden_parts(mounted.plate, findings)],
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )

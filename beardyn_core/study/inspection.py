@@ -93,6 +93,13 @@ class Inspection:
         return Severity(finding.stage, width, low, high, finding.stage_reason)
 
 
+def hidden_parts(plate: NamePlate, findings: Sequence[Finding]) -> list[str]:
+    """List the parts that no analysis has judged although their orders are known."""
+    judged = [each.not_judged for each in findings if each.verdict != WAITING]
+    hidden = [part for part in (judged[-1] if judged else ()) if all(part in each for each in judged)]
+    return [part for part in hidden if part not in plate.cannot_tell]
+
+
 def recorded_plate(run: Run, *, lenient: bool = False) -> NamePlate | None:
     """Read the bearing data of the scene in a recording; ``None`` where there is no scene.
 

@@ -29,6 +29,7 @@ UNEXPLAINED, HOT_BOX = "unexplained", "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 SPALL_FIELDS = ("stage", "stage_reason", "spall_width", "spall_width_low", "spall_width_high")
 _TEXTS = ("stage", "stage_reason")
+_PARTS = ("not_judged", "also_fits")
 _LATEST = 25  # findings of a verdict of which one stands for the size of the spall
 # from the best to the worst
 _ORDER = (HEALTHY, WAITING, NOT_DIAGNOSABLE, UNEXPLAINED, *FAULT_SYMBOLS, HOT_BOX)
@@ -74,7 +75,11 @@ class Finding:
     spall_width_high: A[float, "upper end, [m]"] = nan
     stage: A[str, "``incipient``, ``developed``, ``severe``, ``not measurable``; '' without a fault"] = ""
     stage_reason: A[str, "size and stage in a sentence, or why they cannot be given"] = ""
-    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
+    not_judged: A[
+        tuple[str, ...],
+        "parts whose order is not known, or whose lines are multiples of the shaft's",
+    ] = ()
+    also_fits: A[tuple[str, ...], "other parts that explain the lines of the one that is named as well"] = ()
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:
@@ -118,7 +123,7 @@ class Finding:
         for field in _numbers():
             number = float(getattr(self, field))
             values.append((field, f"{number:.9g}" if isfinite(number) else "nan"))
-        values.append(("not_judged", " ".join(self.not_judged)))
+        values += [(field, " ".join(getattr(self, field))) for field in _PARTS]
         level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
 
@@ -130,13 +135,13 @@ class Finding:
             return None
         values: dict[str, Any] = {name: status.value(name) or "" for name in _TEXTS}
         values |= {name: float(status.value(name) or "nan") for name in _numbers()}
-        values["not_judged"] = tuple((status.value("not_judged") or "").split())
+        values |= {name: tuple((status.value(name) or "").split()) for name in _PARTS}
         return cls(verdict, status.message, **values)
 
 
 def _numbers() -> list[str]:
     """List the fields of a finding that are numbers."""
-    texts = ("verdict", "reason", "not_judged", *_TEXTS)
+    texts = ("verdict", "reason", *_PARTS, *_TEXTS)
     return [member.name for member in fields(Finding) if member.name not in texts]
 
 

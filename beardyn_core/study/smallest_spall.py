@@ -28,8 +28,8 @@ class SmallestSpall:
     """Spalls of one part, added to a record: which of them the monitor names."""
 
     part: A[str, "``cup``, ``cone`` or ``roller``"]
-    named: A[float, "least width from which on spalls are named, NaN: none that was tried is, [m]"]
-    missed: A[float, "largest width that was tried below it, and missed; 0: none was, [m]"]
+    named: A[float, "least width from which on all that were tried are named, NaN: the widest is not, [m]"]
+    missed: A[float, "largest width that is missed; 0: none that was tried is, [m]"]
     widest: A[float, "largest width that was tried, [m]"]
 
     @property
@@ -37,9 +37,9 @@ class SmallestSpall:
         """Say it in a sentence."""
         part = PART_NAMES[self.part]
         if not isfinite(self.named):
-            return f"{part}: no spall up to {1e3 * self.widest:g} mm would have been named"
+            return f"{part}: a spall of {1e3 * self.widest:g} mm, the widest tried, would have been missed"
         less = f", one of {1e3 * self.missed:g} mm would have been missed" if self.missed else ""
-        return f"{part}: a spall of {1e3 * self.named:g} mm would have been named{less}"
+        return f"{part}: a spall of {1e3 * self.named:g} mm or more would have been named{less}"
 
 
 @dataclass(frozen=True)
@@ -102,30 +102,25 @@ def smallest_spalls_in(
     Notes
     -----
     What a spall adds to the vibration is the difference of two runs of the twin that differ by the spall
-    alone. It is added over the angle of the shaft. A wider spall is taken to be named where a narrower one
-    is. Box, sensor and load are the twin's: where those of the record are others, so is the smallest spall.
+    alone. It is added over the angle of the shaft. Spalls are tried from the widest on until one is missed;
+    a narrower one may be named all the same, for two events a mode's period apart strike less. Box, sensor
+    and load are the twin's: where those of the record are others, so is the smallest spall.
     """
     settings = settings or MonitorSettings()
     turns = stretch.revolutions + 2.0 * _SETTLED
     scene = replace(scene, duration=ceil(50.0 * turns / stretch.shaft_frequency) / 50.0)
     _, healthy = _vibration(scene, (), sensor)
     for part in FAULTS:
-        named, missed = len(WIDTHS), -1
-        while named - missed > 1:
-            middle = (named + missed) // 2
-            angle, faulty = _vibration(scene, (_spall(part, WIDTHS[middle], scene),), sensor)
+        named, missed = nan, 0.0
+        for width in reversed(WIDTHS):
+            angle, faulty = _vibration(scene, (_spall(part, width, scene),), sensor)
             added = _over_angle((faulty - healthy)[:, list(axes)], angle, stretch.shaft_angle)
             heard = replace(stretch, acceleration=stretch.acceleration + added)
-            if algorithm(heard, orders, roller_count, settings).verdict == part:
-                named = middle
-            else:
-                missed = middle
-        yield SmallestSpall(
-            part,
-            WIDTHS[named] if named < len(WIDTHS) else nan,
-            WIDTHS[missed] if missed >= 0 else 0.0,
-            WIDTHS[-1],
-        )
+            if algorithm(heard, orders, roller_count, settings).verdict != part:
+                missed = width
+                break
+            named = width
+        yield SmallestSpall(part, named, missed, WIDTHS[-1])
 
 
 def _spall(part: str, width: float, scene: Scene) -> FieldSpall:

@@ -56,7 +56,7 @@ def test_the_search_finds_the_first_width_that_is_named(bound_mm, monkeypatch):
     if bound_mm > widths[-1]:
         assert isnan(cup.named)
         assert cup.missed == WIDTHS[-1]
-        assert "no spall up to 21 mm" in cup.sentence
+        assert "a spall of 21 mm, the widest tried, would have been missed" in cup.sentence
     else:
         assert 1e3 * cup.named == pytest.approx(widths[widths > bound_mm][0])
         below = widths[widths <= bound_mm]
@@ -64,6 +64,18 @@ def test_the_search_finds_the_first_width_that_is_named(bound_mm, monkeypatch):
     assert [each.part for each in found] == ["cup", "cone", "roller"]
     assert isnan(found[1].named)
     assert isnan(found[2].named)
+
+
+def test_a_width_that_is_missed_between_named_ones_ends_the_search(monkeypatch):
+    _twin_that_adds({"cup": 1e3, "cone": 0.0, "roller": 0.0}, monkeypatch)
+
+    def but_for_12_mm(stretch, orders, count, settings):
+        level = np.mean(stretch.acceleration[1000:-1000, 0])
+        return MonitorResult("healthy" if abs(level - 12.0) < 0.5 else "cup", "", 0)
+
+    scene = bd.scene(tier="quasistatic")
+    (cup, *_) = smallest_spalls_in(_stretch(), (0, 1, 2), ORDERS, 17, scene, algorithm=but_for_12_mm)
+    assert (cup.named, cup.missed) == (16e-3, 12e-3)
 
 
 def test_only_the_axes_of_the_record_are_added(monkeypatch):
@@ -96,6 +108,6 @@ def test_a_short_record_and_a_twin_of_another_bearing_are_refused():
 
 def test_sentences():
     found = SmallestSpall("cone", 4e-3, 3e-3, 21e-3)
-    named = "inner ring (cone): a spall of 4 mm would have been named"
+    named = "inner ring (cone): a spall of 4 mm or more would have been named"
     assert found.sentence == f"{named}, one of 3 mm would have been missed"
     assert replace(found, missed=0.0).sentence == named

@@ -151,7 +151,7 @@ def test_an_imported_recording_keeps_factors(tmp_path: Path, capsys: pytest.Capt
     assert main(["report", str(out)]) == DONE
     assert "bearing data: 9 rolling elements, BPFO 3.585, BPFI 5.415" in capsys.readouterr().out
     assert main(["monitor", str(out)]) == EXIT_CODES["cup"]
-    assert "give roller_count, roller_diameter_mm and pitch_diameter_mm" in capsys.readouterr().err
+    assert "give roller_count, roller_diameter_mm and pitch_diameter_mm" in capsys.readouterr().out
     assert main(["monitor", str(out), "--which-bearing", "--bore-mm", "25", "--outside-mm", "52"]) == DONE
     assert "6205" in capsys.readouterr().out
     assert "6205" in [each.name for each in bd.which_bearing(out, bore_mm=25).fits]

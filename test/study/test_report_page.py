@@ -45,11 +45,11 @@ def inspection(faulty: Path) -> Inspection:
     return found
 
 
-def judged(inspection: Inspection, verdict: str, **numbers: float | str) -> Inspection:
+def judged(inspection: Inspection, verdict: str, **numbers: Any) -> Inspection:
     """The same signals with another verdict."""
     results = BearingResults()
     if verdict != "waiting":
-        results.add(MonitorResult(verdict, f"because of <{verdict}>", 10**9, **numbers))  # type: ignore[arg-type]
+        results.add(MonitorResult(verdict, f"because of <{verdict}>", 10**9, **numbers))
     found = Inspection(inspection.mounted, FROM_USER, inspection.settings, results, lambda: inspection.run)
     found.__dict__["severity"] = None
     return found
@@ -140,6 +140,12 @@ def test_size_and_heat_come_into_headline_and_advice(inspection: Inspection) -> 
         NOT_MEASURABLE, np.nan, np.nan, np.nan, f"{NOT_MEASURABLE}: a noisy sensor"
     )
     assert "Size: not measurable; a noisy sensor." in headline_of(why).details
+
+
+def test_a_verdict_that_fits_two_parts_names_both(inspection: Inspection) -> None:
+    found = judged(inspection, "cup", also_fits=("cone",), not_judged=("roller",))
+    assert "The lines fit inner ring (cone) as well" in headline_of(found).sentence
+    assert "rolling elements, whose lines are multiples" in dict(assumed_rows(found))["Not judged"]
 
 
 def test_analyses_that_disagree_are_counted(inspection: Inspection) -> None:

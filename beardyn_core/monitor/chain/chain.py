@@ -10,10 +10,16 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.monitor.chain.ambiguity import (
+    alike_parts,
+    not_judged_sentence,
+    parts_on_the_shaft,
+    parts_without_order,
+)
 from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score, parts_without_order
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -81,7 +87,8 @@ class Chain:
             Rollers of one row; 0 where that is not known.
         """
         speed = stretch.shaft_frequency
-        not_judged = parts_without_order(orders)
+        unknown, hidden = parts_without_order(orders), parts_on_the_shaft(orders, stretch.revolutions)
+        not_judged = (*unknown, *hidden)
         if why := unheard(stretch, settings):
             return MonitorResult(
                 NOT_DIAGNOSABLE,
@@ -114,9 +121,11 @@ class Chain:
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         if not_judged and verdict.name not in FAULTS:
-            named = ", ".join(PART_NAMES[part] for part in not_judged)
-            cannot = f"not judged: {named}, whose order is not known"
-            verdict = replace(verdict, reason=f"{verdict.reason}; {cannot}")
+            verdict = replace(verdict, reason=f"{verdict.reason}; {not_judged_sentence(unknown, hidden)}")
+        alike: tuple[str, ...] = ()
+        if verdict.name in FAULTS and (alike := alike_parts(verdict.best, found.candidates)):
+            others = " and ".join(PART_NAMES[part] for part in alike)
+            verdict = replace(verdict, reason=f"{verdict.reason}; the {others} would have these lines, too")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
         own = [each.speed for each in verdict.fits if not each.bearing]
@@ -126,7 +135,8 @@ class Chain:
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
-            confidence=confidence_of(verdict.name, grounds),
+            confidence=confidence_of(verdict.name, grounds)
+            / (1 + len(alike)),  # one is as likely as the other
             grounds=grounds,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,
@@ -141,6 +151,7 @@ class Chain:
             threshold=best.threshold,
             scores=(score.get("cup", np.nan), score.get("cone", np.nan), score.get("roller", np.nan)),
             not_judged=not_judged,
+            also_fits=alike,
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,

@@ -44,6 +44,7 @@ _ODD = (1.0, 3.0, 5.0, 7.0)  # harmonics that are those of no comb of twice the 
 _OF_SHAFT = 0.05  # parts of a comb that near twice the shaft are lines of the shaft, [-]
 _MOST_SHAFTS = 3  # combs near whole orders that are taken out
 _PARTS_OF_A_COMB = (1, 2, 3)  # every second or third line of a comb may be stronger than those between
+SHAFT_REACH = 2.0  # resolutions next to a multiple of the shaft within which lines are left out
 _NOTHING = -300.0  # [dB]
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
@@ -158,12 +159,6 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
         Pattern("roller", "2 BSF", 2.0 * orders.bsf, orders.ftf, "FTF", 1, 4, 2, other_sideband=1.0),
     )
     return tuple(each for each in several if not isnan(each.order + each.sideband))
-
-
-def parts_without_order(orders: FaultFrequencies) -> tuple[str, ...]:
-    """List the parts that cannot be judged, since the bearing data do not give their orders."""
-    known = {each.fault for each in fault_patterns(orders)}
-    return tuple(part for part in FAULTS if part not in known)
 
 
 def comb_score(
@@ -397,7 +392,7 @@ def beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
 def _without(spectrum: OrderSpectrum, turns: float) -> OrderSpectrum:
     """Remove the multiples of an order from a spectrum."""
     away = np.abs(spectrum.order - turns * np.round(spectrum.order / turns))
-    return _taken_out(spectrum, away <= 2.0 * spectrum.resolution)
+    return _taken_out(spectrum, away <= SHAFT_REACH * spectrum.resolution)
 
 
 def _taken_out(spectrum: OrderSpectrum, lines: Bool) -> OrderSpectrum:

@@ -50,7 +50,11 @@ class MonitorResult:
         0.0,
         0.0,
     )
-    not_judged: A[tuple[str, ...], "parts whose order is not known: ``cup``, ``cone`` or ``roller``"] = ()
+    not_judged: A[
+        tuple[str, ...],
+        "parts whose order is not known, or whose lines are multiples of the shaft's",
+    ] = ()
+    also_fits: A[tuple[str, ...], "other parts that explain the lines of the one that is named as well"] = ()
     lines: A[tuple[Line, ...], "lines of the strongest candidate that stand out one by one"] = ()
     strongest_order: A[float, "of the strongest line above the cage's own, [-]"] = np.nan
     strongest_level: A[float, "of that line, [dB]"] = np.nan

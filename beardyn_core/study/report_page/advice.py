@@ -139,6 +139,10 @@ def headline_of(inspection: Inspection, files: Sequence[str] = ()) -> Headline:
         if files and files[-1] in _CALLED:
             sentence += f" The latest file: {in_words(files[-1])}."
         word, colour = f"{word}, CHECK", _AMBER
+    finding = inspection.conclusion.finding
+    if finding is not None and finding.also_fits:
+        others = " and ".join(map(in_words, finding.also_fits))
+        sentence += f" The lines fit {others} as well: which of them it is cannot be told."
     severity = inspection.severity
     if severity is not None and isfinite(severity.width):
         sentence += f" The spall is about {1e3 * severity.width:.1f} mm wide ({severity.grade})."

@@ -11,7 +11,7 @@ from typing import Any
 from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.monitor.severity import NOT_MEASURABLE, grade_limits
 from beardyn_core.scene.scene import Scene
-from beardyn_core.study.inspection import FROM_SCENE, Inspection
+from beardyn_core.study.inspection import FROM_SCENE, Inspection, hidden_parts
 from beardyn_core.study.report_page.identity import (
     bearing_source,
     fact_of,
@@ -113,9 +113,12 @@ def _without_path(sentence: str, path: Path | None) -> str:
 
 
 def _not_judged(inspection: Inspection) -> str:
+    from beardyn_core.monitor.chain.ambiguity import ON_THE_SHAFT
     from beardyn_core.monitor.chain.explanations import PART_NAMES
 
     found = ["the cage"]
     for part, why in inspection.mounted.plate.cannot_tell.items():
         found.append(f"the {PART_NAMES[part]}, because {why}")
+    hidden = hidden_parts(inspection.mounted.plate, inspection.results.findings)
+    found += [f"the {PART_NAMES[part]}, {ON_THE_SHAFT}" for part in hidden]
     return "; ".join(found)
