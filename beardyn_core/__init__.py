@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
     from beardyn_core.api.reading import monitor, read, severity
+    from beardyn_core.api.report_pages import report
     from beardyn_core.api.sensitivity import smallest_spalls
     from beardyn_core.api.simulating import simulate
     from beardyn_core.api.statics import (
@@ -105,7 +106,16 @@ __all__ += [
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
-__all__ += ["read_measured", "scene", "severity", "simulate", "smallest_spalls", "steady_heat", "stiffness"]
+__all__ += [
+    "read_measured",
+    "report",
+    "scene",
+    "severity",
+    "simulate",
+    "smallest_spalls",
+    "steady_heat",
+    "stiffness",
+]
 __all__ += ["sweep", "torque", "train", "trend", "which_bearing"]
 
 _MODULES = {
@@ -119,6 +129,7 @@ _MODULES = {
     "api.making": ("lubricant", "name_plate"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
     "api.reading": ("read", "severity"),
+    "api.report_pages": ("report",),
     "api.simulating": ("simulate",),
     "api.statics": (
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),

@@ -7,6 +7,7 @@ finding       bearings of the catalogue by dimensions, and those that fit a vibr
 making        bearings, lubricants and scenes from a handful of arguments
 simulating    simulate a scene
 reading       read a recording, let a monitor judge a run
+report_pages  a page for each axlebox, to read on screen and paper
 sensitivity   the smallest spall that a healthy record would have shown
 exporting     signals of a recording for other programs
 measuring     read measured files, make recordings of them

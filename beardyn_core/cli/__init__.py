@@ -23,8 +23,10 @@ ladder           what accuracy costs
 warmup           kernels compiled ahead
 view             a recording in 3-D
 report           what a recording holds
+report_page      a page about an axlebox: `beardyn report --html`, `--pdf`
 monitor          what a monitor says over a recording
 monitor_settings options that settle what the monitor assumes
+monitored_files  the files of a command through a monitor
 estimate         load, end play and spall of a recording, what remains
 follow           the same over successive stretches and recordings, health, residual beside a twin
 calibrate        the scene of one measured axlebox, fitted to its healthy recordings

@@ -21,7 +21,6 @@ _PLATE = (
     *("roller_count", "roller_diameter_mm", "pitch_diameter_mm", "contact_angle_deg"),
     *("bpfo", "bpfi", "bsf", "ftf"),
 )
-USUAL_LABEL = "bearing"
 
 
 def add_reading(parser: argparse.ArgumentParser) -> None:
@@ -100,7 +99,7 @@ def mounted_of(args: argparse.Namespace) -> tuple[Mounted, ...]:
         With every mistake.
     """
     from beardyn_core.config.plates import find_entry, load_plate
-    from beardyn_core.measured.about import Mounted
+    from beardyn_core.measured.about import USUAL_LABEL, Mounted
 
     found: list[Mounted] = []
     problems: list[str] = []

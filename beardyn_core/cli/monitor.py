@@ -4,40 +4,28 @@ from __future__ import annotations
 
 import argparse
 import sys
-from contextlib import nullcontext, suppress
-from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.reading import monitor
-from beardyn_core.base.errors import InputError, collect_problems
+from beardyn_core.base.errors import collect_problems
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
-from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.catalogue_line import catalogue_object, catalogue_sentence
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.measured_options import (
-    USUAL_LABEL,
-    add_plates,
-    add_reading,
-    misplaced_options,
-    mounted_of,
-    reading_of,
-    reading_options,
-)
+from beardyn_core.cli.measured_options import add_plates, add_reading, misplaced_options, mounted_of
 from beardyn_core.cli.monitor_settings import add_settings, settings_of
+from beardyn_core.cli.monitored_files import inspect_files, is_recorded
 from beardyn_core.cli.options import add_box, add_force, add_json
 from beardyn_core.cli.trend import add_trend, run_trend
 from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing, size_options
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.measured.about import Mounted
-    from beardyn_core.monitor.chain import Algorithm, MonitorResult
-    from beardyn_core.record.run import Run
+    from beardyn_core.study.inspection import BearingResults, Inspection
     from beardyn_core.study.monitored_recording import Finding
     from beardyn_core.study.smallest_spall import SmallestSpalls
 
@@ -97,11 +85,12 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.monitor.chain import algorithm_named
     from beardyn_core.monitor.chain.ambiguity import ON_THE_SHAFT
     from beardyn_core.monitor.chain.explanations import PART_NAMES
+    from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import conclude
 
     if args.trend:
         return run_trend(args)
-    recorded = _is_recorded(args)
+    recorded = is_recorded(args)
     if args.which_bearing:
         return run_which_bearing(args, recorded=recorded)
     problems = _picture_problems(args) + misplaced_options(args, recorded)
@@ -118,13 +107,13 @@ def run(args: argparse.Namespace) -> int:
     algorithm = collect_problems(problems, lambda: algorithm_named(args.monitor))
     bearings = collect_problems(problems, lambda: mounted_of(args))
     collect_problems(problems, lambda: settings_of(args, 0.0))
-    find = _monitor_recording if recorded else _monitor_measured_files
-    results = find(args, algorithm, bearings, problems)
+    inspections = inspect_files(args, algorithm, bearings, problems, recorded=recorded)
+    results = {each.mounted: each.results for each in inspections}
+    smallest = {each.mounted: _smallest_spalls(args, each) for each in inspections}
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
     if args.json:
-        smallest = {mounted: each.smallest for mounted, each in results.items()}
         print(json_text("monitor", json_object(args, heard, smallest)))
         return _exit_code(heard)
     taken = [catalogue_sentence(each.entry) for each in heard if each.entry is not None]
@@ -142,20 +131,30 @@ def run(args: argparse.Namespace) -> int:
         whole = conclude(findings).finding
         if whole is not None and whole.stage_reason:
             print(f"{label}size: {whole.stage_reason}")
-        if (spalls := results[mounted].smallest) is not None:
+        if (spalls := smallest[mounted]) is not None:
             print(f"{label}smallest spall: {spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
-        for part in _hidden_parts(mounted, findings):
+        for part in hidden_parts(mounted.plate, findings):
             print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
     return _exit_code(heard)
 
 
-def _hidden_parts(mounted: Mounted, findings: list[Finding]) -> list[str]:
-    """List the parts that no analysis has judged although their orders are known."""
-    judged = [each.not_judged for each in findings if each.verdict != "waiting"]
-    hidden = [part for part in (judged[-1] if judged else ()) if all(part in each for each in judged)]
-    return [part for part in hidden if part not in mounted.plate.cannot_tell]
+def _smallest_spalls(args: argparse.Namespace, inspection: Inspection) -> SmallestSpalls | None:
+    """Find the smallest spalls where they are asked for and the verdict is healthy."""
+    from beardyn_core.api.sensitivity import smallest_spalls
+    from beardyn_core.study.monitored_recording import HEALTHY
+
+    if not args.smallest_spall or inspection.verdict != HEALTHY:
+        return None
+    mounted = inspection.mounted
+    return smallest_spalls(
+        inspection.run,
+        args.twin or None,
+        bearing=mounted.plate,
+        sensor=mounted.sensor,
+        settings=inspection.settings,
+    )
 
 
 def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
@@ -165,43 +164,6 @@ def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
     return EXIT_CODES[worst(conclude(findings).verdict for findings in heard.values())]
 
 
-class _Results:
-    """Findings of one bearing, the latest result of each verdict, and the smallest spall."""
-
-    def __init__(self) -> None:
-        self.findings: list[Finding] = []
-        self.latest: dict[str, MonitorResult] = {}
-        self.smallest: SmallestSpalls | None = None  # where it is asked for and the verdict is healthy
-
-    def add(self, result: MonitorResult) -> None:
-        """Keep a result."""
-        from beardyn_core.study.monitored_recording import Finding
-
-        self.findings.append(Finding.of(result))
-        self.latest[result.verdict] = result
-
-    @property
-    def concluded(self) -> MonitorResult | None:
-        """The latest result of the most frequent verdict."""
-        from beardyn_core.study.monitored_recording import conclude
-
-        return self.latest.get(conclude(self.findings).verdict)
-
-
-def _is_recorded(args: argparse.Namespace) -> bool:
-    """Tell whether the one file is a recording of an axlebox, of which no part is to be taken by channels."""
-    from beardyn_core.record.other_messages import is_recording
-
-    path, options = Path(args.files[0]), reading_options(args)
-    if len(args.files) > 1 or "--channels" in options:
-        return False
-    if not options:
-        return is_recording(path)
-    # a folder, or a file that there is not, may be of another tool
-    files = path.glob("*.mcap") if path.is_dir() else (path,)
-    return any(each.is_file() and is_recording(each) for each in files)
-
-
 def _picture_problems(args: argparse.Namespace) -> list[str]:
     """List why the picture cannot be written."""
     inputs = [Path(each) for each in args.files]
@@ -209,7 +171,7 @@ def _picture_problems(args: argparse.Namespace) -> list[str]:
     return problems + file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
 
 
-def _draw(results: dict[Mounted, _Results], path: Path, *, replace: bool) -> None:
+def _draw(results: dict[Mounted, BearingResults], path: Path, *, replace: bool) -> None:
     """Write the picture of all bearings that have a verdict."""
     from beardyn_core.study.monitor_picture import monitor_picture
 
@@ -245,132 +207,13 @@ def _confidence_text(finding: Finding) -> str:
     return f", confidence {finding.confidence:.2f}" if isfinite(finding.confidence) else ""
 
 
-def _monitor_recording(
-    args: argparse.Namespace,
-    algorithm: Algorithm | None,
-    bearings: tuple[Mounted, ...] | None,
-    problems: list[str],
-) -> dict[Mounted, _Results]:
-    """Let the monitor analyse a recording, every axlebox of it or the one that is asked for.
-
-    Raises
-    ------
-    InputError
-        With the problems found before, and those of the recording.
-    """
-    from beardyn_core.record.reading import read_run
-
-    recording = collect_problems(problems, lambda: read_run(args.files[0], args.box))
-    if problems or algorithm is None or bearings is None or recording is None:
-        raise InputError(problems)
-    if recording.problem:
-        print(f"beardyn: warning: {recording.problem}; monitored is what is there", file=sys.stderr)
-    if args.box or len(recording.boxes) == 1:
-        return _of_box(args, recording, algorithm, bearings)
-    found: dict[Mounted, _Results] = {}
-    for name, run in recording.boxes.items():
-        for mounted, results in _of_box(args, run, algorithm, bearings).items():
-            label = name if mounted.label == USUAL_LABEL else f"{name} {mounted.label}"
-            found[replace(mounted, label=label)] = results
-    return found
-
-
-def _of_box(
-    args: argparse.Namespace, recording: Run, algorithm: Algorithm, bearings: tuple[Mounted, ...]
-) -> dict[Mounted, _Results]:
-    """Let the monitor analyse the signals of one axlebox."""
-    from beardyn_core.api.sensitivity import smallest_spalls
-    from beardyn_core.choice import scene_from_text
-    from beardyn_core.measured.about import Mounted, beside_others, mounted_in
-    from beardyn_core.measured.stated_speed import recorded_uncertainty
-    from beardyn_core.study.monitored_recording import HEALTHY, conclude, results_of
-
-    path = args.files[0]
-    recorded = None
-    with suppress(InputError) if bearings else nullcontext():
-        if recording.scene_text:
-            recorded = NamePlate.of(scene_from_text(recording.scene_text, str(path)).bearing)
-    known = mounted_in(recording.measured, path)
-    for each in bearings if recorded is not None else ():
-        assert recorded is not None
-        if doubt := other_bearing(each.plate, recorded):
-            print(f"beardyn: warning: --bearing {each.plate.name}: {doubt}", file=sys.stderr)
-    bearings = bearings or known or (() if recorded is None else (Mounted(USUAL_LABEL, recorded),))
-    problems = [] if bearings else [f"{path}: does not say which bearing it is of; give --bearing"]
-    if recording.measured and len(recording.vibration) and not len(recording.shaft):
-        problems.append(
-            f"{path}: was imported without the speed of the shaft, and a monitor needs it; import the file "
-            "that it is of again with one of --speed-rpm, --speed-kmh, --speed-channel, --tacho-channel, "
-            "--speed-range-rpm"
-        )
-    if problems:
-        raise InputError(problems)
-    heard = {each: _Results() for each in bearings}
-    settings = settings_of(args, recorded_uncertainty(recording.measured))
-    for each, results in heard.items():
-        own = beside_others(settings, each, bearings)
-        for result in results_of(recording, each.plate, algorithm, own, each.sensor):
-            results.add(result)
-        if args.smallest_spall and conclude(results.findings).verdict == HEALTHY:
-            results.smallest = smallest_spalls(
-                recording, args.twin or None, bearing=each.plate, sensor=each.sensor, settings=own
-            )
-    return heard
-
-
-def _monitor_measured_files(
-    args: argparse.Namespace,
-    algorithm: Algorithm | None,
-    bearings: tuple[Mounted, ...] | None,
-    problems: list[str],
-) -> dict[Mounted, _Results]:
-    """Let the monitor analyse measured files, block by block.
-
-    Raises
-    ------
-    InputError
-        With the problems found before, and those of the files.
-    """
-    from beardyn_core.cli.import_ import sensor_problems
-    from beardyn_core.measured.heard_speed import with_heard_speed
-    from beardyn_core.measured.stated_speed import uncertainty_of
-    from beardyn_core.measured.survey import survey
-    from beardyn_core.measured.watching import watch
-
-    if bearings == ():
-        numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
-        problems.append(
-            f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
-            "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
-        )
-    bearings = bearings or ()
-    try:
-        measured = survey(args.files, reading_of(args), needs_speed=True)
-        measured = with_heard_speed(measured, bearings) if not problems else measured
-        problems += sensor_problems(measured.sensors, bearings)
-    except InputError as error:
-        problems += error.problems
-    if problems or algorithm is None:
-        raise InputError(problems)
-    told = [*(f"warning: {each}" for each in measured.warnings), *measured.told]
-    for sentence in told:
-        print(f"beardyn: {sentence}", file=sys.stderr)
-    found = {each: _Results() for each in bearings}
-    warnings: list[str] = []
-    settings = settings_of(args, uncertainty_of(measured))
-    for mounted, result in watch(measured, bearings, algorithm, settings, warnings):
-        found[mounted].add(result)
-    for sentence in warnings:
-        print(f"beardyn: warning: {sentence}", file=sys.stderr)
-    return found
-
-
 def json_object(
     args: argparse.Namespace,
     heard: dict[Mounted, list[Finding]],
     smallest: dict[Mounted, SmallestSpalls | None],
 ) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
+    from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
@@ -388,7 +231,7 @@ def json_object(
                 "analyses": conclusion.analyses,
                 **{key: spall[key] for key in _WHOLE_KEYS},
                 "findings": [keyed_fields(finding) for finding in findings],
-                "not_judged": [*mounted.plate.cannot_tell, *_hidden_parts(mounted, findings)],
+                "not_judged": [*mounted.plate.cannot_tell, *hidden_parts(mounted.plate, findings)],
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
@@ -400,17 +243,3 @@ def json_object(
     keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings", "not_judged")
     top = {key: decides[key] for key in keys}
     return {"recording": args.files[0], "files": args.files, **top, "bearings": every}
-
-
-def other_bearing(given: Bearing | NamePlate, recorded: Bearing | NamePlate) -> str:
-    """Say how a bearing differs from the recorded one for a monitor; empty when it does not."""
-    from dataclasses import astuple
-
-    one, other = given.frequencies, recorded.frequencies
-    if astuple(one) == astuple(other) and given.roller_count == recorded.roller_count:
-        return ""
-    return (
-        f"the recording is of {recorded.name}, {recorded.roller_count} rollers in a row, BPFO "
-        f"{other.bpfo:.4f} and BPFI {other.bpfi:.4f} per revolution; searched for is what {given.name} would "
-        f"show, {given.roller_count} rollers, {one.bpfo:.4f} and {one.bpfi:.4f}"
-    )

@@ -1,4 +1,4 @@
-"""``beardyn report``: what a recording holds; a cut-off one is recovered."""
+"""``beardyn report``: what a recording holds, a cut-off one is recovered; a page about an axlebox."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import is_being_written
 from beardyn_core.cli.json_output import json_text, rename_keys
 from beardyn_core.cli.options import add_box, add_force, add_json
+from beardyn_core.cli.report_page import add_page, page_option_problems, run_page
 
 if TYPE_CHECKING:
     from beardyn_core.record.reporting import Report
@@ -38,14 +39,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="say what a recording holds; recover one that was cut off",
         description="Say what a recording holds: topics, counts, rates, gaps, scene, faults, status. A file "
         "that was cut off by a crash is copied, as far as it is readable, to NAME.recovered.mcap; one that "
-        "is there already stays as it is.",
+        "is there already stays as it is. With --html or --pdf: a page for each axlebox instead, with the "
+        "verdict of `beardyn monitor`, its evidence, what was assumed and what to do next.",
     )
     parser.add_argument(
-        "recording", metavar="run.mcap", help="recording to report on, or its folder of several"
+        "files",
+        nargs="+",
+        metavar="FILE",
+        help="recording to report on, or its folder of several; with --html or --pdf also measured files as "
+        "`beardyn monitor` takes them, or several recordings, the latest last",
     )
-    add_box(parser)
-    add_force(parser, "replace NAME.recovered.mcap when it exists")
+    add_box(parser, "the first one, on pages every one")
+    add_force(parser, "replace pages, or NAME.recovered.mcap, when they exist; default refuse")
     add_json(parser)
+    add_page(parser)
     parser.set_defaults(run=run)
 
 
@@ -55,11 +62,16 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.record.mcap_scanning import EmptyRecordingError, recover, recovered_name
     from beardyn_core.record.reporting import report
 
-    found = report(args.recording, args.box)
+    if args.html is not None or args.pdf is not None:
+        return run_page(args)
+    if problems := page_option_problems(args):
+        raise InputError(problems)
+    recording = args.files[0]
+    found = report(recording, args.box)
     recovered: list[Path] = []
-    problems: list[str] = []
+    problems = []
     notes: list[str] = []
-    for file in () if found.complete else cut_files(args.recording):
+    for file in () if found.complete else cut_files(recording):
         target = recovered_name(file)
         if is_being_written(file):
             notes.append(f"{file}: another process is writing this file; this is what it holds now")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
 from math import isnan, nan
 from typing import Annotated as A
 from typing import Any
@@ -12,9 +13,12 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 from beardyn_core.bearing.factors import SYMBOLS
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.measured.claimed_start import Start
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.chain import MonitorSettings
+
+USUAL_LABEL = "bearing"  # of the only one on a shaft
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,7 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
                 "format": each.chosen.format.name,
                 "size_bytes": each.chosen.path.stat().st_size,
                 "begin_s": each.begin_ns * 1e-9,
+                "date": _date(each.start),
                 "says": {**each.chosen.source.facts, **each.chosen.source.numbers},
             }
             for each in survey.files
@@ -120,6 +125,13 @@ def _write_bearing(mounted: Mounted) -> dict[str, Any]:
         **{each: value for each in SYMBOLS if (value := _known(getattr(plate, each))) is not None},
         "sensor": mounted.sensor or None,
     }
+
+
+def _date(start: Start | None) -> str | None:
+    """Write when a file began by its own clock, whatever its time zone; ``None`` where it does not say."""
+    if start is None or not start.dated:
+        return None
+    return f"{datetime.fromtimestamp(start.ns * 1e-9, UTC):%Y-%m-%d %H:%M:%S}"
 
 
 def _number(value: Any) -> float:

@@ -163,7 +163,7 @@ def severity_of(
             f"{NOT_MEASURABLE}: at least {1e3 * least:.1f} mm wide; a spall of {1e3 * width:.1f} mm and one "
             f"wider by the distance of two rollers, {1e3 * spacing:.1f} mm, strike alike",
         )  # fmt: skip
-    severe = _SEVERE_SHARE * spacing
+    _, severe = grade_limits(fault, plate)
     grade = INCIPIENT if width < _DEVELOPED_FROM else DEVELOPED if width < severe else SEVERE
     low, high = width - doubt, width + doubt
     return Severity(
@@ -194,6 +194,11 @@ def narrow_width(
 def unmeasured(reason: str) -> Severity:
     """Say why the size of a spall cannot be given."""
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
+
+
+def grade_limits(fault: str, plate: NamePlate) -> tuple[float, float]:
+    """Give the widths from which a spall of cup or cone is developed, and severe, [m]; both are assumed."""
+    return _DEVELOPED_FROM, _SEVERE_SHARE * spacing_of(fault, plate)
 
 
 def spacing_of(fault: str, plate: NamePlate) -> float:

@@ -6,6 +6,8 @@ module              responsibility
 desk_run            a scene from start to end, with its means
 train_run           several axleboxes at once, in a few threads
 monitored_recording a monitor beside a recording, or over one; its results in words and messages
+inspection          a bearing as a monitor has judged it, with the signals behind
+report_page         a page about each inspected bearing, as HTML and PDF
 monitor_picture     the envelope spectrum behind the verdicts of a monitor
 summary_picture     one picture of a run
 demo_console        arguments and progress of the demo

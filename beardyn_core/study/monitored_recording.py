@@ -226,7 +226,12 @@ class Tally:
 
 def worst(verdicts: Iterable[str]) -> str:
     """Choose the worst of several verdicts: a hot box, a faulty part, unexplained strikes, none at all."""
-    return max(verdicts, key=_ORDER.index)
+    return max(verdicts, key=rank_of)
+
+
+def rank_of(verdict: str) -> int:
+    """Give the place of a verdict from the best, 0, to the worst."""
+    return _ORDER.index(verdict)
 
 
 def conclude(findings: Iterable[Finding]) -> Conclusion:

@@ -275,7 +275,7 @@ def test_the_monitor_command_tells_of_a_cut_recording_and_of_another_bearing(
 
 
 def test_another_bearing_than_the_recorded_one_is_told() -> None:
-    from beardyn_core.cli.monitor import other_bearing
+    from beardyn_core.cli.monitored_files import other_bearing
 
     other = load_bearing("METRO120x220")
     assert other_bearing(BEARING, BEARING) == ""

@@ -48,7 +48,12 @@ from test.study.test_trial import run_of
 
 MEASURED = {
     "duration_s": 1.0,
-    "files": [{"name": "a.csv", "format": "text", "size_bytes": 9, "begin_s": 0.0, "says": {"fs": 12000.0}}],
+    "files": [
+        {
+            "name": "a.csv", "format": "text", "size_bytes": 9, "begin_s": 0.0, "date": None,
+            "says": {"fs": 12000.0},
+        }
+    ],
     "sensors": {"top": {"rate_Hz": 12000.0, "channels": {"z": "a"}, "m_per_s2_per_number": {"z": 9.80665}}},
     "speed": {"from": "constant", "channel": None, "constant_rad_per_s": 188.0},
     "bearings": {
