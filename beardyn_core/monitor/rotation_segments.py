@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Annotated as A
 
@@ -31,6 +31,13 @@ class Legs:
     def revolutions(self) -> float:
         """Revolutions of the shaft, [-]."""
         return float(self.angle[-1] - self.angle[0]) / _TURN if len(self.angle) else 0.0
+
+    def latest(self, most: float) -> Legs:
+        """Keep no more than the last revolutions, [-]."""
+        if not len(self.angle):
+            return self
+        first = int(np.argmax(self.angle >= self.angle[-1] - _TURN * most))
+        return replace(self, samples=self.samples[first:], angle=self.angle[first:])
 
 
 def turning_legs(angle: Float, rate: float, enough: float, most: float) -> Legs:
@@ -75,11 +82,9 @@ def turning_legs(angle: Float, rate: float, enough: float, most: float) -> Legs:
             if own[0] <= joined[-1]:
                 leg, own = leg[1:], own[1:]
         samples, joined = np.concatenate((samples, leg)), np.concatenate((joined, own))
-    if len(joined):
-        first = int(np.argmax(joined >= joined[-1] - _TURN * most))
-        samples, joined = samples[first:], joined[first:]
     last = pieces[-1][1] - 1 if pieces else -1
-    return Legs(samples, joined, len(used), bool(pieces) and last < len(angle) - 1, last)
+    whole = Legs(samples, joined, len(used), bool(pieces) and last < len(angle) - 1, last)
+    return whole.latest(most)
 
 
 def _pieces(angle: Float, rate: float) -> list[tuple[int, int]]:

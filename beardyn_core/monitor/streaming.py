@@ -22,6 +22,7 @@ _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
 _BELIEVED_AFTER = 5  # blocks of a stream in a row behind its last one, after which its time has jumped back
+_SIZE_REVOLUTIONS = 200.0  # of which the size of a spall is measured, as far as they are there
 _WINDOWS_KEPT = 2  # of the longest, of a stream that the others do not follow
 
 
@@ -79,12 +80,14 @@ def fast_length(count: int) -> int:
     return next((length for length in range(count, 0, -1) if next_fast_len(length) == length), 0)
 
 
-def _severity_of(result: chain.MonitorResult, stretch: chain.Stretch, bearing: NamePlate) -> Severity:
+def _severity_of(
+    result: chain.MonitorResult, acceleration: Float, rate: float, angle: Float, bearing: NamePlate
+) -> Severity:
     """Measure the spall of the fault that an algorithm has named."""
     if not np.isfinite(result.fault_order):
         return unmeasured("the monitor states no order of the fault")
-    axes = stretch.acceleration[:, np.ptp(stretch.acceleration, axis=0) > 0.0]
-    return severity_near(axes, stretch.rate, stretch.shaft_angle, result.verdict, result.fault_order, bearing)
+    axes = acceleration[:, np.ptp(acceleration, axis=0) > 0.0]
+    return severity_near(axes, rate, angle, result.verdict, result.fault_order, bearing)
 
 
 class _Samples:
@@ -327,14 +330,17 @@ class Monitor:
             return chain.MonitorResult("waiting", reason, last)
         angle = np.interp(time_ns[begin:end], *self._shaft.joined())
         settings = self.settings
-        legs = turning_legs(angle, self.rate, settings.least_revolutions, settings.window_revolutions)
+        sized = settings.window_revolutions if self.bearing is None else _SIZE_REVOLUTIONS
+        most = max(settings.window_revolutions, sized)
+        whole = turning_legs(angle, self.rate, settings.least_revolutions, most)
+        legs = whole.latest(settings.window_revolutions)
         # what has been analysed is not analysed again while the shaft stands
         ended_ns = int(time_ns[begin + legs.last]) if legs.count else last
-        self._forget(int(time_ns[begin + legs.samples.min()]) if legs.count else first)
+        self._forget(int(time_ns[begin + whole.samples.min()]) if legs.count else first)
         if not legs.count or (legs.ended and ended_ns <= self._analysed_ns):
             return chain.MonitorResult("waiting", "the shaft stands", last)
-        revolutions, whole = legs.revolutions, legs.count == 1 and not legs.ended
-        least = settings.least_revolutions if whole else settings.least_joined_revolutions
+        revolutions, goes_on = legs.revolutions, legs.count == 1 and not legs.ended
+        least = settings.least_revolutions if goes_on else settings.least_joined_revolutions
         if revolutions < least:
             return chain.MonitorResult(
                 "waiting",
@@ -344,12 +350,12 @@ class Monitor:
             )
         self._analysed_ns = ended_ns
         kept = fast_length(len(legs.samples))
-        acceleration, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
+        heard, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
         load_time, load = self._load.joined()
         load = load[load_time <= last]
         stretch = chain.Stretch(
             rate=self.rate,
-            acceleration=acceleration,
+            acceleration=heard,
             shaft_angle=angle,
             load=float(load.mean()) if len(load) else np.nan,
             end_ns=last,
@@ -359,7 +365,10 @@ class Monitor:
         )
         result = chain.answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
         if self.bearing is not None and result.verdict in chain.FAULTS:
-            result = replace(result, severity=_severity_of(result, stretch, self.bearing))
+            severity = _severity_of(
+                result, acceleration[begin + whole.samples], self.rate, whole.angle, self.bearing
+            )
+            result = replace(result, severity=severity)
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result

@@ -31,6 +31,7 @@ SPALL_FIELDS = ("stage", "stage_reason", "spall_width", "spall_width_low", "spal
 _TEXTS = ("stage", "stage_reason")
 _PARTS = ("not_judged", "also_fits")
 _LATEST = 25  # findings of a verdict of which one stands for the size of the spall
+_SIZED = 3  # one of so many of them must have a width, at least
 # from the best to the worst
 _ORDER = (HEALTHY, WAITING, NOT_DIAGNOSABLE, UNEXPLAINED, *FAULT_SYMBOLS, HOT_BOX)
 EXIT_CODES = {HEALTHY: 0, WAITING: 10, NOT_DIAGNOSABLE: 10, UNEXPLAINED: 11} | dict.fromkeys(
@@ -214,11 +215,17 @@ class Tally:
         )
 
     def _with_spall(self, finding: Finding) -> Finding:
-        """Give a finding the spall of middle width where at least half of the latest analyses have one."""
+        """Give a finding the spall of middle width, where enough analyses of late have one and agree."""
         latest = self._faults[finding.verdict] if finding.is_fault else ()
         measured = [each for each in latest if isfinite(each.spall_width)]
-        if 2 * len(measured) >= len(latest) and measured:
-            chosen = sorted(measured, key=lambda each: each.spall_width)[len(measured) // 2]
+        middle = sorted(measured, key=lambda each: each.spall_width)[len(measured) // 2 :][:1]
+        agreeing = sum(
+            each.spall_width_low <= other.spall_width <= each.spall_width_high
+            for each in middle
+            for other in measured
+        )
+        if middle and _SIZED * len(measured) >= len(latest) and 2 * agreeing > len(measured):
+            chosen = middle[0]
         else:
             chosen = next((each for each in reversed(latest) if not isfinite(each.spall_width)), finding)
         return replace(finding, **{name: getattr(chosen, name) for name in SPALL_FIELDS})

@@ -146,15 +146,18 @@ def _of_run(findings):
 
 def _sized(width, verdict="cup", time=0.0):
     stage = NOT_MEASURABLE if np.isnan(width) else "developed"
-    return Finding(verdict, "", time, spall_width=width, stage=stage, stage_reason=f"{width:g}")
+    ends = {"spall_width_low": 0.9 * width, "spall_width_high": 1.1 * width}
+    return Finding(verdict, "", time, spall_width=width, **ends, stage=stage, stage_reason=f"{width:g}")
 
 
-def test_the_spall_of_a_run_is_that_of_middle_width_where_half_of_the_analyses_have_one():
-    widths = (6e-3, 20e-3, np.nan, 5e-3, np.nan)
+def test_the_spall_of_a_run_is_that_of_middle_width_where_a_third_of_the_analyses_have_one_and_agree():
+    widths = (6e-3, 20e-3, np.nan, 5.9e-3, np.nan, np.nan)
     found = _of_run([_sized(each, time=float(at)) for at, each in enumerate(widths)])
-    assert (found.time, found.spall_width) == (4.0, 6e-3)
-    rare = _of_run([_sized(each) for each in (np.nan, 6e-3, np.nan)])
+    assert (found.time, found.spall_width) == (5.0, 6e-3)
+    rare = _of_run([_sized(each) for each in (np.nan, 6e-3, np.nan, np.nan)])
     assert np.isnan(rare.spall_width)
     assert rare.stage == NOT_MEASURABLE
+    apart = _of_run([_sized(each) for each in (6e-3, 12e-3, 20e-3, np.nan)])
+    assert np.isnan(apart.spall_width)
     other = _of_run([_sized(6e-3, "cone"), _sized(8e-3), _sized(8e-3)])
     assert other.spall_width == 8e-3
