@@ -17,6 +17,7 @@ impulsiveness     how much of the power as measured comes in short strikes
 levels            RMS, kurtosis, crest factor and their trend
 verdict           decide: which fault is called, and why; the temperature rule
 ambiguity         parts that a verdict cannot speak of, or cannot tell apart
+speed_drift       whether a speed that is stated as constant changes
 confidence        what a verdict rests on, and how often such verdicts are right
 result            what an algorithm answers
 chain             `Chain`: the steps put together, each replaceable

@@ -25,6 +25,7 @@ from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
 from beardyn_core.monitor.chain.levels import levels_of, rise
 from beardyn_core.monitor.chain.result import MonitorResult
+from beardyn_core.monitor.chain.speed_drift import Drift, speed_drift
 from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
@@ -118,6 +119,8 @@ class Chain:
                 found, verdict, lined = clockwork, heard, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
+            verdict = _doubt_speed(verdict, speed_drift(tracked, settings))
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         if not_judged and verdict.name not in FAULTS:
@@ -167,6 +170,17 @@ class Chain:
             temperature_state=verdict.temperature_state,
             spectrum=found.spectrum,
         )
+
+
+def _doubt_speed(verdict: Verdict, drift: Drift) -> Verdict:
+    """Leave open what is healthy at a speed that is stated and not constant."""
+    if np.isnan(drift.change):
+        return verdict
+    reason = (
+        f"the speed is not constant: it changes by {100.0 * drift.change:+.0f} % within "
+        f"{drift.revolutions:g} revolutions by the rate of strikes; give a tachometer or a speed channel"
+    )
+    return replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{reason}; {verdict.reason}")
 
 
 REFERENCE = Chain()
