@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.reading import monitor
-from beardyn_core.base.errors import collect_problems
+from beardyn_core.base.errors import InputError, collect_problems
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import as_a_whole, file_problems
 from beardyn_core.base.plain_json import keyed_fields
@@ -25,6 +25,7 @@ from beardyn_core.cli.which_bearing import add_which_bearing, run_which_bearing,
 
 if TYPE_CHECKING:
     from beardyn_core.measured.about import Mounted
+    from beardyn_core.monitor.chain import Algorithm
     from beardyn_core.study.inspection import BearingResults, Inspection
     from beardyn_core.study.monitored_recording import Finding
     from beardyn_core.study.smallest_spall import SmallestSpalls
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 # of the finding that stands for all analyses
 _WHOLE_KEYS = (
     "confidence",
+    "also_fits",
     "stage",
     "stage_reason",
     "spall_width_m",
@@ -65,7 +67,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group(
-        "smallest spall", "what a healthy verdict leaves open; a few runs of the twin, some ten seconds"
+        "smallest spall", "what a healthy verdict leaves open; up to 28 runs of the twin, a minute or more"
     )
     group.add_argument(
         "--smallest-spall",
@@ -88,6 +90,8 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import conclude
 
+    if (args.trend or args.which_bearing) and (args.smallest_spall or args.twin):
+        raise InputError("--smallest-spall, --twin: of a verdict; not with --trend or --which-bearing")
     if args.trend:
         return run_trend(args)
     recorded = is_recorded(args)
@@ -107,9 +111,10 @@ def run(args: argparse.Namespace) -> int:
     algorithm = collect_problems(problems, lambda: algorithm_named(args.monitor))
     bearings = collect_problems(problems, lambda: mounted_of(args))
     collect_problems(problems, lambda: settings_of(args, 0.0))
+    collect_problems(problems, lambda: _known_twin(args.twin))
     inspections = inspect_files(args, algorithm, bearings, problems, recorded=recorded)
     results = {each.mounted: each.results for each in inspections}
-    smallest = {each.mounted: _smallest_spalls(args, each) for each in inspections}
+    smallest = {each.mounted: _smallest_spalls(args, each, algorithm) for each in inspections}
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(results, args.picture, replace=args.force)
@@ -132,7 +137,7 @@ def run(args: argparse.Namespace) -> int:
         if whole is not None and whole.stage_reason:
             print(f"{label}size: {whole.stage_reason}")
         if (spalls := smallest[mounted]) is not None:
-            print(f"{label}smallest spall: {spalls.sentence}")
+            print(f"{label}smallest spall: {spalls if isinstance(spalls, str) else spalls.sentence}")
         for part, why in mounted.plate.cannot_tell.items():
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
         for part in hidden_parts(mounted.plate, findings):
@@ -140,21 +145,40 @@ def run(args: argparse.Namespace) -> int:
     return _exit_code(heard)
 
 
-def _smallest_spalls(args: argparse.Namespace, inspection: Inspection) -> SmallestSpalls | None:
-    """Find the smallest spalls where they are asked for and the verdict is healthy."""
+def _smallest_spalls(
+    args: argparse.Namespace, inspection: Inspection, algorithm: Algorithm | None
+) -> SmallestSpalls | str | None:
+    """Find the smallest spalls, or why there are none; ``None`` where they are not asked for.
+
+    What goes wrong costs the verdict nothing.
+    """
     from beardyn_core.api.sensitivity import smallest_spalls
     from beardyn_core.study.monitored_recording import HEALTHY
 
-    if not args.smallest_spall or inspection.verdict != HEALTHY:
+    if not args.smallest_spall:
         return None
+    if inspection.verdict != HEALTHY:
+        return f"not searched, the verdict is {inspection.verdict}"
     mounted = inspection.mounted
-    return smallest_spalls(
-        inspection.run,
-        args.twin or None,
-        bearing=mounted.plate,
-        sensor=mounted.sensor,
-        settings=inspection.settings,
-    )
+    try:
+        return smallest_spalls(
+            inspection.run,
+            args.twin or None,
+            bearing=mounted.plate,
+            sensor=mounted.sensor,
+            algorithm=algorithm,
+            settings=inspection.settings,
+        )
+    except InputError as error:
+        return f"not searched, {'; '.join(error.problems)}"
+
+
+def _known_twin(name: str) -> None:
+    """Read the scene of the twin, so that a mistake in it is told before anything is analysed."""
+    from beardyn_core.api.making import scene
+
+    if name:
+        scene(name)
 
 
 def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
@@ -196,7 +220,8 @@ def _ending(findings: list[Finding]) -> str:
         unclear = conclusion.verdict in (NOT_DIAGNOSABLE, UNEXPLAINED)
         why = f"; {conclusion.finding.reason}" if unclear else ""
         counts = f"{conclusion.agreeing} of {conclusion.analyses} analyses"
-        return f"{conclusion.verdict}: {counts}{_confidence_text(conclusion.finding)}{why}"
+        named = " or ".join((conclusion.verdict, *conclusion.finding.also_fits))
+        return f"{named}: {counts}{_confidence_text(conclusion.finding)}{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason
     many = "; --trend watches the levels of many short records" if short else ""
@@ -210,7 +235,7 @@ def _confidence_text(finding: Finding) -> str:
 def json_object(
     args: argparse.Namespace,
     heard: dict[Mounted, list[Finding]],
-    smallest: dict[Mounted, SmallestSpalls | None],
+    smallest: dict[Mounted, SmallestSpalls | str | None],
 ) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
     from beardyn_core.study.inspection import hidden_parts
@@ -235,9 +260,13 @@ def json_object(
                 "cannot_tell": mounted.plate.cannot_tell,
             }
         )
-        if (found := smallest[mounted]) is not None:
-            every[-1]["smallest_spalls"] = [keyed_fields(each) for each in found.spalls]
-            every[-1]["twin"] = found.twin
+        if isinstance(found := smallest[mounted], str):
+            every[-1] |= {"smallest_spalls": [], "twin": found}
+        elif found is not None:
+            every[-1] |= {
+                "smallest_spalls": [keyed_fields(each) for each in found.spalls],
+                "twin": found.twin,
+            }
     verdict = worst(each["verdict"] for each in every)
     decides = next(each for each in every if each["verdict"] == verdict)
     keys = ("bearing", "verdict", "agreeing", "analyses", *_WHOLE_KEYS, "findings", "not_judged")

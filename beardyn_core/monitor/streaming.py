@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Annotated as A
+from typing import NamedTuple
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -14,7 +15,7 @@ from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor import chain
 from beardyn_core.monitor.chain.levels import Levels
-from beardyn_core.monitor.rotation_segments import turning_legs
+from beardyn_core.monitor.rotation_segments import Legs, turning_legs
 from beardyn_core.monitor.severity import Severity, severity_near, unmeasured
 from beardyn_core.sensors.block import Block
 
@@ -22,7 +23,10 @@ _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
 _BELIEVED_AFTER = 5  # blocks of a stream in a row behind its last one, after which its time has jumped back
+# a spall is measured again on a stretch so many times as long, and where such a part of it is new
+_LONGER, _NEW = 1.25, 0.5
 _SIZE_REVOLUTIONS = 200.0  # of which the size of a spall is measured, as far as they are there
+_SAMPLES_OF_A_PASSAGE = 16  # at least, for two events in it
 _WINDOWS_KEPT = 2  # of the longest, of a stream that the others do not follow
 
 
@@ -86,8 +90,20 @@ def _severity_of(
     """Measure the spall of the fault that an algorithm has named."""
     if not np.isfinite(result.fault_order):
         return unmeasured("the monitor states no order of the fault")
+    turns_a_sample = float(angle[-1] - angle[0]) / (2.0 * np.pi * len(angle))
+    if not 0.0 < result.fault_order * turns_a_sample * _SAMPLES_OF_A_PASSAGE < 1.0:
+        return unmeasured(f"a passage at order {result.fault_order:g} has too few samples")
     axes = acceleration[:, np.ptp(acceleration, axis=0) > 0.0]
     return severity_near(axes, rate, angle, result.verdict, result.fault_order, bearing)
+
+
+class _Sized(NamedTuple):
+    """Spall that was measured last."""
+
+    fault: str
+    revolutions: float  # it was measured on
+    end_ns: int  # of these
+    severity: Severity
 
 
 class _Samples:
@@ -202,6 +218,7 @@ class Monitor:
         self._levels: list[Levels] = []
         self._next_ns: int | None = None
         self._analysed_ns = -1
+        self._sized = _Sized("", 0.0, 0, unmeasured(""))
 
     def take(self, part: MonitorInput) -> chain.MonitorResult | None:
         """Add the samples of all streams, and give a new result when one is due."""
@@ -352,7 +369,8 @@ class Monitor:
         kept = fast_length(len(legs.samples))
         heard, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
         load_time, load = self._load.joined()
-        load = load[load_time <= last]
+        window_ns = time_ns[begin + legs.samples.min()]  # what is kept reaches further back
+        load = load[(window_ns <= load_time) & (load_time <= last)]
         stretch = chain.Stretch(
             rate=self.rate,
             acceleration=heard,
@@ -365,13 +383,26 @@ class Monitor:
         )
         result = chain.answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
         if self.bearing is not None and result.verdict in chain.FAULTS:
-            severity = _severity_of(
-                result, acceleration[begin + whole.samples], self.rate, whole.angle, self.bearing
-            )
-            result = replace(result, severity=severity)
+            if self._is_size_due(result.verdict, whole, last):
+                severity = _severity_of(
+                    result, acceleration[begin + whole.samples], self.rate, whole.angle, self.bearing
+                )
+                self._sized = _Sized(result.verdict, whole.revolutions, last, severity)
+            result = replace(result, severity=self._sized.severity)
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result
+
+    def _is_size_due(self, fault: str, whole: Legs, end_ns: int) -> bool:
+        """Tell whether a spall is to be measured: another one, on a longer stretch, or on a new one.
+
+        It takes three times as long as an analysis.
+        """
+        sized = self._sized
+        if fault != sized.fault or whole.revolutions > _LONGER * sized.revolutions:
+            return True
+        new_ns = end_ns - sized.end_ns
+        return new_ns < 0 or new_ns > _NEW * (end_ns - self._vibration.first_ns)
 
     def _refusals(self) -> str:
         """Say how many blocks were refused, empty when none was."""

@@ -8,7 +8,7 @@ from math import ceil, isfinite, nan
 from typing import Annotated as A
 
 import numpy as np
-from scipy.signal import resample_poly
+from scipy.signal import butter, resample_poly, sosfiltfilt
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
@@ -20,6 +20,7 @@ from beardyn_core.scene.scene import Scene
 
 WIDTHS = (1e-3, 2e-3, 3e-3, 4e-3, 6e-3, 8e-3, 12e-3, 16e-3, 21e-3)
 _FINER = 4  # times the rate of the twin, at which its signal is read over the angle of the shaft
+_FILTER_ORDER, _PASSED = 8, 0.4  # of the anti-alias filter of the record; share of its rate
 _SETTLED = 4.0  # revolutions that the twin's runs begin before the record
 
 
@@ -110,11 +111,13 @@ def smallest_spalls_in(
     turns = stretch.revolutions + 2.0 * _SETTLED
     scene = replace(scene, duration=ceil(50.0 * turns / stretch.shaft_frequency) / 50.0)
     _, healthy = _vibration(scene, (), sensor)
+    rate = next(each.rate for each in scene.sensors if each.name == sensor or not sensor)
     for part in FAULTS:
         named, missed = nan, 0.0
         for width in reversed(WIDTHS):
             angle, faulty = _vibration(scene, (_spall(part, width, scene),), sensor)
-            added = _over_angle((faulty - healthy)[:, list(axes)], angle, stretch.shaft_angle)
+            spall = _in_band((faulty - healthy)[:, list(axes)], rate, stretch.rate)
+            added = _over_angle(spall, angle, stretch.shaft_angle)
             heard = replace(stretch, acceleration=stretch.acceleration + added)
             if algorithm(heard, orders, roller_count, settings).verdict != part:
                 missed = width
@@ -141,6 +144,14 @@ def _vibration(scene: Scene, defects: tuple[FieldSpall, ...], sensor: str) -> tu
     angle = np.unwrap(np.concatenate(angles))
     turned = np.interp(np.concatenate(times), np.concatenate(trend_times), angle)
     return turned, np.concatenate(values).astype(np.float64)
+
+
+def _in_band(added: Float, rate: float, wanted: float) -> Float:
+    """Leave out what a record of a lower rate cannot hold, shape [sample, axis]."""
+    if wanted >= rate:
+        return added
+    low = butter(_FILTER_ORDER, _PASSED * wanted, fs=rate, output="sos")
+    return np.asarray(sosfiltfilt(low, added, axis=0), np.float64)
 
 
 def _over_angle(added: Float, angle: Float, wanted: Float) -> Float:

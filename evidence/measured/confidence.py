@@ -61,7 +61,7 @@ class Answer:
     bearing: A[str, "the same of several records of one bearing"]
     inputs: A[str, "one of `INPUTS`: all right, or which of them is wrong"]
     faulty: A[str, "part, '' of a healthy bearing"]
-    beside: A[bool, "another bearing of the machine is faulty"]
+    loud_neighbour: A[bool, "another bearing of the machine is faulty"]
     verdict: str
     grounds: A[Grounds | None, "``None``: it cannot tell"]
 
@@ -80,7 +80,7 @@ class Answer:
             return self.verdict == self.faulty
         if self.kind == HEALTHY:
             return not self.faulty
-        return self.beside if not self.faulty else self.inputs != "right"
+        return self.loud_neighbour if not self.faulty else self.inputs != "right"
 
 
 def analyse(
@@ -112,11 +112,14 @@ def answers(record: Record) -> list[list[Any]]:
             machine, _, name = record.name.partition("/")
             machine, bearing = f"HIT-SM, {machine}", name.rpartition("_")[0]
         else:
-            machine = f"CWRU, {heard.end}"
-            bearing = f"{record.part} {record.diameter} {record.clock} {record.group[-9:]}"
-        beside = bool(record.part) and not heard.part
+            machine = "CWRU"
+            bearing = f"{record.part} {record.diameter} {record.clock}"
+        # a healthy bearing at the other end stays the same, whatever is faulty
+        bearing = bearing if heard.part else "healthy"
+        name = f"{machine} {heard.end} {bearing}"
+        loud = bool(record.part) and not heard.part
         for inputs, answer in _each(heard):
-            found.append([machine, f"{machine} {bearing}", inputs, heard.part, beside, *answer])
+            found.append([machine, name, inputs, heard.part, loud, *answer])
     return found
 
 
@@ -127,8 +130,6 @@ def _each(heard: Listening) -> Iterator[tuple[str, list[Any]]]:
         yield "right", analyse(heard, first, REVOLUTIONS, *own, 0.0, UNCERTAINTY)
     yield "right", analyse(heard, 0, SHORT, *own, 0.0, UNCERTAINTY)
     yield "right", analyse(heard, 0, REVOLUTIONS, *own, 0.0, 0.0)
-    if not heard.part:
-        return
     for error in ERRORS:
         yield "speed", analyse(heard, 0, REVOLUTIONS, *own, error / 100.0, UNCERTAINTY)
     for name in OTHERS:
@@ -137,12 +138,12 @@ def _each(heard: Listening) -> Iterator[tuple[str, list[Any]]]:
 
 
 def weights_of(several: Sequence[Answer]) -> Float:
-    """Weigh answers: inputs by `SHARES`, as many of healthy bearings as of faulty ones, bearings alike."""
+    """Weigh answers: inputs by `SHARES`, healthy bearings as faulty ones, and bearings alike."""
     here = Counter((bool(each.faulty), each.inputs, each.bearing) for each in several)
     bearings = defaultdict(set)
     for each in several:
         bearings[bool(each.faulty), each.inputs].add(each.bearing)
-    share = {(faulty, inputs): 0.5 * (SHARES[inputs] if faulty else 1.0) for faulty, inputs in bearings}
+    share = {(faulty, inputs): 0.5 * SHARES[inputs] for faulty, inputs in bearings}
     weight = [
         share[bool(each.faulty), each.inputs]
         / len(bearings[bool(each.faulty), each.inputs])
@@ -262,8 +263,12 @@ def calibration(several: Sequence[Answer], confidence: Float, kind: str) -> list
             found.append(Bin(kind, begin, end, np.nan, np.nan, np.nan, np.nan, 0, 0))
             continue
         share = float(np.average(right, weights=weight[here]))
-        # of bearings: records of one are no independent samples
-        interval = binomtest(round(share * len(bearings)), len(bearings)).proportion_ci(0.9, method="wilson")
+        # of bearings: records of one are no independent samples, and those of a large weight count for most
+        each_weight = [
+            sum(weight[index] for index in here if several[index].bearing == name) for name in bearings
+        ]
+        count = max(1, round(sum(each_weight) ** 2 / sum(one**2 for one in each_weight)))
+        interval = binomtest(round(share * count), count).proportion_ci(0.9, method="wilson")
         stated = float(np.average(confidence[here], weights=weight[here]))
         found.append(
             Bin(kind, begin, end, stated, share, interval.low, interval.high, len(here), len(bearings))
@@ -274,7 +279,8 @@ def calibration(several: Sequence[Answer], confidence: Float, kind: str) -> list
 def text(several: Sequence[Answer], confidence: Float, counts: str) -> str:
     """Write the page."""
     bins = [each for kind in KINDS for each in calibration(several, confidence, kind) if each.bearings]
-    shipped = [[KIND_WORDS[kind], *(f"{each:g}" for each in WEIGHTS[kind])] for kind in KINDS]
+    found = fitted(several)
+    shipped = [[KIND_WORDS[kind], *(f"{each:g}" for each in found[kind])] for kind in KINDS if kind in found]
     machines = sorted({each.machine for each in several})
     values = {
         "counts": counts,
@@ -294,6 +300,7 @@ def text(several: Sequence[Answer], confidence: Float, counts: str) -> str:
             for each in bins
         ],
         "sure": _sure(several, confidence),
+        "healthy": len({each.bearing for each in several if not each.faulty}),
         "weights": shipped,
         "machines": [_machine_row(name, several, confidence) for name in machines],
     }
@@ -301,18 +308,18 @@ def text(several: Sequence[Answer], confidence: Float, counts: str) -> str:
 
 
 def _sure(several: Sequence[Answer], confidence: Float) -> list[tuple[str | int, ...]]:
-    """Count the verdicts of 0.9 and more."""
+    """Count the verdicts of `SURE` and more, those that are right, and their bearings."""
     rows: list[tuple[str | int, ...]] = []
     for kind in KINDS:
-        here = [
-            index for index, each in enumerate(several) if each.kind == kind and confidence[index] >= SURE
-        ]
-        right = sum(several[index].is_right for index in here)
-        rows.append((KIND_WORDS[kind], len(here), right, f"{100.0 * right / max(1, len(here)):.1f} %"))
+        own = np.array([each.kind == kind for each in several])
+        sure = [several[index] for index in np.flatnonzero(own & (confidence >= SURE)).tolist()]
+        right = sum(each.is_right for each in sure)
+        rows.append((KIND_WORDS[kind], len(sure), right, len({each.bearing for each in sure})))
     return rows
 
 
 def _machine_row(name: str, several: Sequence[Answer], confidence: Float) -> tuple[str | int, ...]:
+    weight = weights_of(several)
     here = [index for index, each in enumerate(several) if each.machine == name]
     row: list[str | int] = [name]
     for kind in KINDS:
@@ -322,8 +329,8 @@ def _machine_row(name: str, several: Sequence[Answer], confidence: Float) -> tup
             continue
         row += [
             len(own),
-            f"{np.mean([several[index].is_right for index in own]):.2f}",
-            f"{np.mean(confidence[own]):.2f}",
+            f"{np.average([several[index].is_right for index in own], weights=weight[own]):.2f}",
+            f"{np.average(confidence[own], weights=weight[own]):.2f}",
         ]
     return tuple(row)
 
@@ -346,8 +353,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(key, file=sys.stderr)
         found += keep.get(key, partial(answers, record))
     several = kept(found)
-    for kind, weights in fitted(several).items():
+    found_weights = fitted(several)
+    for kind, weights in found_weights.items():
         print(kind, weights)
+    if found_weights != WEIGHTS:
+        print("these are not the shipped ones: beardyn_core/monitor/chain/confidence.py", file=sys.stderr)
     confidence = judged(several)
     draw(several, confidence)
     groups = Counter(record.group for record in chosen)

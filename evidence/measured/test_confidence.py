@@ -35,9 +35,9 @@ def answer(
     *,
     machine: str = "m",
     inputs: str = "right",
-    beside: bool = False,
+    loud: bool = False,
 ) -> Answer:
-    return Answer(machine, bearing, inputs, faulty, beside, verdict, grounds(strikes))
+    return Answer(machine, bearing, inputs, faulty, loud, verdict, grounds(strikes))
 
 
 def synthetic(machines: int = 4, seed: int = 1) -> list[Answer]:
@@ -90,7 +90,7 @@ def test_a_machine_is_judged_with_the_weights_of_the_others() -> None:
 def test_unexplained_is_right_where_an_input_is_wrong_or_a_neighbour_strikes() -> None:
     assert answer("b", "cup", "unexplained", inputs="speed").is_right
     assert not answer("b", "cup", "unexplained").is_right
-    assert answer("b", "", "unexplained", beside=True).is_right
+    assert answer("b", "", "unexplained", loud=True).is_right
     assert not answer("b", "", "unexplained").is_right
 
 
@@ -119,6 +119,15 @@ def test_answers_are_kept_and_read_again() -> None:
     rows = [list(astuple(replace(each, grounds=None)))[:-1] for each in several]
     rows = [[*row, each.grounds and list(each.grounds)] for row, each in zip(rows, several, strict=True)]
     assert kept(rows) == several
+
+
+def test_the_page_shows_the_weights_that_are_shipped() -> None:
+    rows = {}
+    for line in page.PAGE.read_text(encoding="utf-8").splitlines():
+        cells = [each.strip() for each in line.strip("|").split("|")]
+        if len(cells) == 7 and cells[0] in page.KIND_WORDS.values() and "to" not in cells[1]:
+            rows[cells[0]] = tuple(float(each) for each in cells[1:])
+    assert rows == {page.KIND_WORDS[kind]: weights for kind, weights in WEIGHTS.items()}
 
 
 def test_shipped_weights_have_the_prescribed_signs() -> None:

@@ -36,6 +36,17 @@ def test_the_longer_a_stretch_is_the_nearer_lines_are_told_from_those_of_the_sha
     assert parts_on_the_shaft(load_plate("6205").frequencies, 60.0) == ()
 
 
+def test_healthy_without_all_parts_judged_has_no_confidence_and_a_named_part_is_judged():
+    plate = load_plate("6203")
+    assert np.isnan(_analysed(struck(0.0), plate.frequencies, plate.roller_count).confidence)
+    known = replace(frequencies("6205"), bpfi=np.nan, bsf=np.nan, ftf=np.nan)
+    assert np.isnan(_analysed(struck(0.0), known, 9).confidence)
+    named = _analysed(struck(frequencies("6205").bpfo), known, 9)
+    assert named.verdict == "cup"
+    assert named.confidence > 0.8
+    assert "cup" not in named.not_judged
+
+
 def test_a_part_of_which_nothing_is_known_is_not_also_one_on_the_shaft():
     orders = replace(load_plate("6203").frequencies, bsf=np.nan)
     found = _analysed(struck(0.0), orders, 8)

@@ -4,7 +4,7 @@ from math import isnan, nan
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
@@ -22,6 +22,7 @@ _GROUNDS = st.builds(
 )
 
 
+@settings(deadline=None, derandomize=True)
 @given(_GROUNDS, _GROUNDS, st.sampled_from(FAULTS))
 def test_more_evidence_never_makes_a_fault_less_probable(one, other, fault):
     more = Grounds(
@@ -31,6 +32,7 @@ def test_more_evidence_never_makes_a_fault_less_probable(one, other, fault):
     assert 0.0 < confidence_of(fault, one) <= confidence_of(fault, more) < 1.0
 
 
+@settings(deadline=None, derandomize=True)
 @given(_GROUNDS, st.floats(0.0, 20.0))
 def test_more_strikes_never_make_a_healthy_bearing_surer(grounds, strikes):
     more = grounds._replace(strikes=max(grounds.strikes, strikes))

@@ -5,8 +5,9 @@ import pytest
 from scipy.signal import lfilter
 
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.monitor import streaming
 from beardyn_core.monitor.chain import REFERENCE, MonitorResult
-from beardyn_core.monitor.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_of
+from beardyn_core.monitor.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_near, severity_of
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.study.monitored_recording import Finding, conclude
 
@@ -87,8 +88,8 @@ def test_one_event_noise_and_rollers_are_not_measurable():
     assert "of rollers from 15 mm on" in severity_of(signal, RATE, angle, "cup", order, small).reason
 
 
-def _results(fault, width, algorithm=REFERENCE, speed=19.0):
-    signal, angle, _ = _passages(fault, width, speed=speed, seconds=4.0)
+def _results(fault, width, algorithm=REFERENCE, speed=19.0, seconds=4.0):
+    signal, angle, _ = _passages(fault, width, speed=speed, seconds=seconds)
     monitor = Monitor(
         PLATE.frequencies, PLATE.roller_count, RATE, algorithm=algorithm, bearing=PLATE,
     )  # fmt: skip
@@ -161,3 +162,38 @@ def test_the_spall_of_a_run_is_that_of_middle_width_where_a_third_of_the_analyse
     assert np.isnan(apart.spall_width)
     other = _of_run([_sized(6e-3, "cone"), _sized(8e-3), _sized(8e-3)])
     assert other.spall_width == 8e-3
+
+
+def test_the_load_is_that_of_the_analysis_whatever_is_kept_for_the_size():
+    signal, angle, _ = _passages("cup", 6e-3, seconds=8.0)
+    time_ns = np.round(np.arange(len(angle)) * (1e9 / RATE)).astype(np.int64)
+    monitor = Monitor(PLATE.frequencies, PLATE.roller_count, RATE, bearing=PLATE)
+    monitor.push_vibration(time_ns, signal)
+    monitor.push_shaft(time_ns, angle)
+    load_ns = np.arange(0, 8_000_000_000, 2_500_000)
+    monitor.push_load(load_ns, np.where(load_ns < 4.5e9, 50e3, 80e3))  # 60 revolutions are 3.2 s
+    result = monitor.result()
+    assert result.verdict == "cup"
+    assert result.load == pytest.approx(80e3)
+
+
+def test_a_size_is_measured_again_on_longer_and_on_new_stretches_alone(monkeypatch):
+    counted = []
+
+    def measured(*arguments):
+        counted.append(len(arguments[0]))
+        return severity_near(*arguments)
+
+    monkeypatch.setattr(streaming, "severity_near", measured)
+    named = [each for each in _results("cup", 6e-3, seconds=24.0) if each.verdict == "cup"]
+    assert all(each.severity.width == pytest.approx(6e-3, abs=0.4e-3) for each in named[5:])
+    assert len(named) > 40
+    assert 6 <= len(counted) < 0.4 * len(named)
+
+
+def test_an_order_with_too_few_samples_in_a_passage_has_no_size():
+    def algorithm(stretch, orders, count, settings):
+        return MonitorResult("cup", "", stretch.end_ns, fault_order=1e5)
+
+    finding = Finding.of(_results("cup", 6e-3, algorithm)[-1])
+    assert "too few samples" in finding.stage_reason

@@ -106,6 +106,16 @@ def test_a_short_record_and_a_twin_of_another_bearing_are_refused():
         bd.smallest_spalls(run, bd.scene(bearing="FR130x230x150"))
 
 
+def test_what_a_record_of_a_lower_rate_cannot_hold_is_left_out():
+    time = np.arange(25_600) / 25_600.0
+    low, high = np.sin(2.0 * pi * 500.0 * time), np.sin(2.0 * pi * 6000.0 * time)
+    kept = smallest_spall._in_band((low + high)[:, None], 25_600.0, 8533.0)
+    inner = slice(2000, -2000)
+    assert kept[inner, 0] == pytest.approx(low[inner], abs=0.01)
+    same = smallest_spall._in_band((low + high)[:, None], 25_600.0, 25_600.0)
+    assert np.array_equal(same[:, 0], low + high)
+
+
 def test_sentences():
     found = SmallestSpall("cone", 4e-3, 3e-3, 21e-3)
     named = "inner ring (cone): a spall of 4 mm or more would have been named"

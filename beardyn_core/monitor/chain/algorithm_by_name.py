@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import sys
 import traceback
+from math import isnan
 from pathlib import Path
 from typing import cast
 
@@ -98,6 +99,10 @@ def answer_of(
         raise InputError(
             f"the monitor {name} answered {len(result.scores)} scores; there must be one for each of "
             f"{', '.join(FAULTS)}"
+        )
+    if not (isnan(result.confidence) or 0.0 <= result.confidence <= 1.0):
+        raise InputError(
+            f"the monitor {name} answered the confidence {result.confidence:g}; it must be 0 to 1, or NaN"
         )
     return result
 

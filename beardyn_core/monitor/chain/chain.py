@@ -123,12 +123,16 @@ class Chain:
             verdict = _doubt_speed(verdict, speed_drift(tracked, settings))
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
+        not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
         if not_judged and verdict.name not in FAULTS:
             verdict = replace(verdict, reason=f"{verdict.reason}; {not_judged_sentence(unknown, hidden)}")
         alike: tuple[str, ...] = ()
         if verdict.name in FAULTS and (alike := alike_parts(verdict.best, found.candidates)):
             others = " and ".join(PART_NAMES[part] for part in alike)
             verdict = replace(verdict, reason=f"{verdict.reason}; the {others} would have these lines, too")
+        sure = confidence_of(verdict.name, grounds) / (1 + len(alike))  # one is as likely as the other
+        if verdict.name == HEALTHY and not_judged:
+            sure = np.nan  # it says nothing of parts that were not judged
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
         own = [each.speed for each in verdict.fits if not each.bearing]
@@ -138,8 +142,7 @@ class Chain:
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
-            confidence=confidence_of(verdict.name, grounds)
-            / (1 + len(alike)),  # one is as likely as the other
+            confidence=sure,
             grounds=grounds,
             fault_order=best.order if called else np.nan,
             fault_frequency=best.order * speed if called else np.nan,

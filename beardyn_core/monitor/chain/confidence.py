@@ -15,9 +15,9 @@ from beardyn_core.monitor.chain.fault_lines import (
     FAULTS,
     Candidate,
     FaultLines,
-    beside_wheel,
     evidence_at,
     over_noise,
+    without_shaft_lines,
 )
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict
@@ -113,7 +113,7 @@ def _least_of_halves(each: Candidate, tracked: Float, settings: MonitorSettings)
     highest = float(each.places(settings.harmonics).max()) + 1.0
     found = []
     for part in (tracked[:half], tracked[half : 2 * half]):
-        spectrum = beside_wheel(order_spectrum(part, steps, highest, settings.background_width))
+        spectrum = without_shaft_lines(order_spectrum(part, steps, highest, settings.background_width))
         power = over_noise(spectrum)
         reach = 0.5 * spectrum.resolution / settings.harmonics
         orders = each.order + np.linspace(-reach, reach, _PLACES)

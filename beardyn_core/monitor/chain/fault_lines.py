@@ -191,7 +191,7 @@ def comb_score(
     others = [each for orders in settings.neighbours for each in fault_patterns(orders)]
     highest = max(_highest(each, _FOREIGN, settings) for each in (*patterns, *others))
     wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
-    beside = _beside_shaft(beside_wheel(wide), settings)
+    beside = _beside_shaft(without_shaft_lines(wide), settings)
     strongest = line_at(beside, 0.5 * (low + high), 0.5 * (high - low))
     inside = ((-known, known),)
     outside = tuple(each for each in ((slowest, -known), (known, fastest)) if each[0] < each[1])
@@ -224,7 +224,7 @@ def lay_patterns(
     known = settings.tolerance + settings.speed_uncertainty
     highest = max(_highest(each, _FOREIGN, settings) for each in patterns)
     wide = order_spectrum(tracked, settings.samples_per_revolution, highest, settings.background_width)
-    beside = _beside_shaft(beside_wheel(wide), settings)
+    beside = _beside_shaft(without_shaft_lines(wide), settings)
     if without is not None:
         beside = _taken_out(beside, without.explains(beside.order, beside.resolution))
     rate = settings.false_alarm_rate / len(patterns)
@@ -384,7 +384,7 @@ def evidence_at(power: Float, spectrum: OrderSpectrum, independent: float, order
     return evidence(float(laid.sum() - laid.max()), len(laid), independent * len(FAULTS))
 
 
-def beside_wheel(spectrum: OrderSpectrum) -> OrderSpectrum:
+def without_shaft_lines(spectrum: OrderSpectrum) -> OrderSpectrum:
     """Remove the whole orders from a spectrum, where a wheel of varying strikes leaves a residue."""
     return _without(spectrum, 1.0)
 

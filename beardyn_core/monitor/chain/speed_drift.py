@@ -10,7 +10,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.chain.competing_orders import strongest_rival
-from beardyn_core.monitor.chain.fault_lines import beside_wheel, over_noise
+from beardyn_core.monitor.chain.fault_lines import over_noise, without_shaft_lines
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.features import order_spectrum
 
@@ -66,7 +66,7 @@ def _piece(loudness: Float, settings: MonitorSettings) -> _Piece:
     for change in _CHANGES:
         turned = share + 0.5 * change * (share * share - share)  # over the stated angle
         even = np.interp(share, turned, loudness)
-        spectrum = beside_wheel(
+        spectrum = without_shaft_lines(
             order_spectrum(even, settings.samples_per_revolution, _HIGHEST_ORDER, settings.background_width)
         )
         nothing = np.zeros(len(spectrum.order), dtype=bool)
