@@ -29,7 +29,7 @@ from beardyn_core.measured.stated_speed import UNCERTAINTY
 from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from beardyn_core.monitor.chain.confidence import PART, WEIGHTS, Grounds, confidence_of
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED
-from evidence.measured.cases import HIT, MFPT, Listening, Record, listenings, records
+from evidence.measured.cases import HIT, MFPT, PLATES, Listening, Record, listenings, records
 from evidence.measured.wrong_inputs import orders_of
 from evidence.pages import DOCS, PICTURES, render, save_small
 from evidence.runner import KeptResults
@@ -132,9 +132,11 @@ def _each(heard: Listening) -> Iterator[tuple[str, list[Any]]]:
     yield "right", analyse(heard, 0, REVOLUTIONS, *own, 0.0, 0.0)
     for error in ERRORS:
         yield "speed", analyse(heard, 0, REVOLUTIONS, *own, error / 100.0, UNCERTAINTY)
-    for name in OTHERS:
-        if name != heard.plate.name:
-            yield "bearing", analyse(heard, 0, REVOLUTIONS, *orders_of(name), 0.0, UNCERTAINTY)
+    others = set(OTHERS) - {heard.plate.name}
+    if not heard.part and heard.record.part:  # by the data of the bearing at the other end its fault is right
+        others -= set(PLATES.values())
+    for name in sorted(others):
+        yield "bearing", analyse(heard, 0, REVOLUTIONS, *orders_of(name), 0.0, UNCERTAINTY)
 
 
 def weights_of(several: Sequence[Answer]) -> Float:

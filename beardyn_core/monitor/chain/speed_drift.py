@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import copysign, log, nan
+from collections.abc import Sequence
+from math import copysign, isfinite, log, nan
 from typing import Annotated as A
 from typing import NamedTuple
 
@@ -14,8 +15,9 @@ from beardyn_core.monitor.chain.fault_lines import over_noise, without_shaft_lin
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.features import order_spectrum
 
-_REVOLUTIONS = 20  # of a piece, in which the speed changes evenly
-_CHANGES = np.arange(-0.15, 0.1501, 0.01)  # of the speed over a piece, that are tried, [-]
+# revolutions of a piece, in which the speed changes evenly, and the step of the changes that are tried, [-]
+_SCALES = ((20, 0.01), (8, 0.03))
+_TRIED = np.arange(-15, 16)  # steps
 _HIGHEST_ORDER = 60.0
 _FEWEST = 2  # pieces that must agree
 
@@ -30,7 +32,7 @@ class Drift(NamedTuple):
     """Change of a speed that is stated as constant."""
 
     change: A[float, "over `revolutions`, relative; NaN: none was found, [-]"]
-    revolutions: A[float, "of a piece"]
+    revolutions: A[float, "in which that is, NaN without"]
 
 
 def speed_drift(tracked: Float, settings: MonitorSettings) -> Drift:
@@ -44,26 +46,36 @@ def speed_drift(tracked: Float, settings: MonitorSettings) -> Drift:
     Notes
     -----
     At a speed that changes, lines over multiples of a constant one are smeared, and a fault is not found. In
-    pieces of 20 revolutions the change is taken to be even, and the strongest comb of any order is sought for
-    each of 31 changes. That one gives more evidence than none must be no chance, and most pieces must have a
-    change of one sign.
+    pieces of 20 revolutions, or of 8 for quicker changes, the change is taken to be even, and the strongest
+    comb of any order is sought for each of 31 changes. That one gives more evidence than none must be no
+    chance, and most pieces must have a change of one sign.
     """
-    steps = _REVOLUTIONS * settings.samples_per_revolution
-    begins = range(0, len(tracked) - steps + 1, steps)
-    pieces = [_piece(tracked[first : first + steps], settings) for first in begins]
-    chance = -log(settings.false_alarm_rate) + log(len(_CHANGES))
+    for revolutions, step in _SCALES:
+        steps = revolutions * settings.samples_per_revolution
+        changes = np.asarray(step * _TRIED, np.float64)
+        begins = range(0, len(tracked) - steps + 1, steps)
+        pieces = [_piece(tracked[first : first + steps], changes, settings) for first in begins]
+        change = _agreed(pieces, settings)
+        if isfinite(change):
+            return Drift(change, revolutions)
+    return Drift(nan, nan)
+
+
+def _agreed(pieces: Sequence[_Piece], settings: MonitorSettings) -> float:
+    """Find the change that most pieces have, NaN without, [-]."""
+    chance = -log(settings.false_alarm_rate) + log(len(_TRIED))
     sure = [each.change for each in pieces if each.change and each.sure > chance and each.gained > chance]
     alike = [each for each in sure if copysign(1.0, each) == copysign(1.0, float(np.median(sure)))]
     if len(alike) < _FEWEST or 2 * len(alike) <= len(pieces) or len(alike) < len(sure):
-        return Drift(nan, _REVOLUTIONS)
-    return Drift(float(np.median(alike)), _REVOLUTIONS)
+        return nan
+    return float(np.median(alike))
 
 
-def _piece(loudness: Float, settings: MonitorSettings) -> _Piece:
+def _piece(loudness: Float, changes: Float, settings: MonitorSettings) -> _Piece:
     """Search the changes of one piece."""
     share = np.arange(len(loudness)) / len(loudness)
     found = []
-    for change in _CHANGES:
+    for change in changes:
         turned = share + 0.5 * change * (share * share - share)  # over the stated angle
         even = np.interp(share, turned, loudness)
         spectrum = without_shaft_lines(
@@ -72,6 +84,5 @@ def _piece(loudness: Float, settings: MonitorSettings) -> _Piece:
         nothing = np.zeros(len(spectrum.order), dtype=bool)
         found.append(strongest_rival(spectrum, over_noise(spectrum), nothing, settings.harmonics).evidence)
     best = int(np.argmax(found))
-    still = found[int(np.argmin(np.abs(_CHANGES)))]
-    change = float(_CHANGES[best]) if abs(_CHANGES[best]) > 0.5 * (_CHANGES[1] - _CHANGES[0]) else 0.0
-    return _Piece(change, found[best], found[best] - max(still, 0.0))
+    still = found[int(np.flatnonzero(changes == 0.0)[0])]
+    return _Piece(float(changes[best]), found[best], found[best] - max(still, 0.0))
