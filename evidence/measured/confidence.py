@@ -44,6 +44,7 @@ INPUTS = ("right", "speed", "bearing")
 SHARES = {"right": 0.5, "speed": 0.25, "bearing": 0.25}  # of the inputs, assumed
 PENALTY = 0.1  # on the squares of the weights but the first, in bearings
 SURE = 0.9
+FOLDS = 5
 EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0)
 # effect of each term of `Grounds` on the confidence: more than none, less than none, not used
 _SIGNS = {
@@ -200,13 +201,21 @@ def fitted(several: Sequence[Answer]) -> dict[str, tuple[float, ...]]:
     return {kind: fit(kind, several) for kind in KINDS if kind in there}
 
 
-def judged(several: Sequence[Answer]) -> Float:
-    """Give every answer the confidence by weights that are set on the other machines, shape [answer]."""
-    found = np.full(len(several), np.nan)
-    for machine in sorted({each.machine for each in several}):
-        weights = fitted([each for each in several if each.machine != machine])
+def fold_of(several: Sequence[Answer], *, by_machine: bool) -> list[str]:
+    """Name for each answer the part that it is judged in: its machine, or one of `FOLDS` sets of bearings."""
+    if by_machine:
+        return [each.machine for each in several]
+    place = {name: index % FOLDS for index, name in enumerate(sorted({each.bearing for each in several}))}
+    return [str(place[each.bearing]) for each in several]
+
+
+def judged(several: Sequence[Answer], *, by_machine: bool = False) -> Float:
+    """Give every answer the confidence by weights that are set on the other parts, shape [answer]."""
+    found, folds = np.full(len(several), np.nan), fold_of(several, by_machine=by_machine)
+    for fold in sorted(set(folds)):
+        weights = fitted([each for each, other in zip(several, folds, strict=True) if other != fold])
         for index, each in enumerate(several):
-            if each.machine == machine:
+            if folds[index] == fold:
                 found[index] = confidence_of(each.verdict, each.grounds, weights)
     return found
 
@@ -224,7 +233,7 @@ def draw(several: Sequence[Answer], confidence: Float, path: Path = PICTURE) -> 
         axes.errorbar(mean, right, yerr=[low, high], marker=marker, capsize=3, label=KIND_WORDS[kind])
     axes.set_xlabel("confidence that the monitor states")
     axes.set_ylabel("share of verdicts that are right")
-    axes.set_title("Confidence, judged on machines that it was not set on", fontsize=10)
+    axes.set_title("Confidence, judged on bearings that it was not set on", fontsize=10)
     axes.set_xlim(0.0, 1.02)
     axes.set_ylim(0.0, 1.05)
     axes.grid(True, alpha=0.3)
@@ -280,6 +289,7 @@ def calibration(several: Sequence[Answer], confidence: Float, kind: str) -> list
 
 def text(several: Sequence[Answer], confidence: Float, counts: str) -> str:
     """Write the page."""
+    harsh = judged(several, by_machine=True)
     bins = [each for kind in KINDS for each in calibration(several, confidence, kind) if each.bearings]
     found = fitted(several)
     shipped = [[KIND_WORDS[kind], *(f"{each:g}" for each in found[kind])] for kind in KINDS if kind in found]
@@ -301,10 +311,14 @@ def text(several: Sequence[Answer], confidence: Float, counts: str) -> str:
             )
             for each in bins
         ],
-        "sure": _sure(several, confidence),
+        "sure": [
+            (*row, *harsh_row[1:])
+            for row, harsh_row in zip(_sure(several, confidence), _sure(several, harsh), strict=True)
+        ],
         "healthy": len({each.bearing for each in several if not each.faulty}),
         "weights": shipped,
-        "machines": [_machine_row(name, several, confidence) for name in machines],
+        "machines": [_machine_row(name, several, harsh) for name in machines],
+        "folds": FOLDS,
     }
     return render(__file__, values)
 

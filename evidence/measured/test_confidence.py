@@ -16,6 +16,7 @@ from evidence.measured.confidence import (
     draw,
     fit,
     fitted,
+    fold_of,
     judged,
     kept,
     text,
@@ -80,11 +81,21 @@ def test_more_evidence_never_makes_a_fault_less_probable_nor_a_healthy_bearing_m
 
 def test_a_machine_is_judged_with_the_weights_of_the_others() -> None:
     several = synthetic()
-    confidence = judged(several)
+    confidence = judged(several, by_machine=True)
     others = fitted([each for each in several if each.machine != "machine 2"])
     index = next(i for i, each in enumerate(several) if each.machine == "machine 2")
     assert confidence[index] == confidence_of(several[index].verdict, several[index].grounds, others)
     assert confidence[index] != confidence_of(several[index].verdict, several[index].grounds, fitted(several))
+
+
+def test_no_bearing_is_judged_with_weights_that_it_has_set() -> None:
+    several = synthetic()
+    folds = fold_of(several, by_machine=False)
+    assert len(set(folds)) == page.FOLDS
+    for name in {each.bearing for each in several}:
+        assert len({fold for each, fold in zip(several, folds, strict=True) if each.bearing == name}) == 1
+    others = fitted([each for each, fold in zip(several, folds, strict=True) if fold != folds[0]])
+    assert judged(several)[0] == confidence_of(several[0].verdict, several[0].grounds, others)
 
 
 def test_unexplained_is_right_where_an_input_is_wrong_or_a_neighbour_strikes() -> None:
@@ -98,7 +109,7 @@ def test_healthy_and_faulty_bearings_weigh_alike_and_so_do_bearings() -> None:
     several = [answer("a", "cup", "cup"), *[answer("b", "cup", "cup")] * 3, answer("c", "", "healthy", 0.2)]
     weight = weights_of(several)
     assert weight[0] == pytest.approx(weight[1:4].sum())
-    assert weight[:4].sum() == pytest.approx(page.SHARES["right"] * weight[4])
+    assert weight[:4].sum() == pytest.approx(weight[4])
 
 
 def test_the_page_and_its_picture_show_every_kind(tmp_path: Path) -> None:
@@ -123,9 +134,12 @@ def test_answers_are_kept_and_read_again() -> None:
 
 def test_the_page_shows_the_weights_that_are_shipped() -> None:
     rows = {}
-    for line in page.PAGE.read_text(encoding="utf-8").splitlines():
+    written = (
+        page.PAGE.read_text(encoding="utf-8").partition("## How it is set")[2].partition("## Conditions")[0]
+    )
+    for line in written.splitlines():
         cells = [each.strip() for each in line.strip("|").split("|")]
-        if len(cells) == 7 and cells[0] in page.KIND_WORDS.values() and "to" not in cells[1]:
+        if cells[0] in page.KIND_WORDS.values():
             rows[cells[0]] = tuple(float(each) for each in cells[1:])
     assert rows == {page.KIND_WORDS[kind]: weights for kind, weights in WEIGHTS.items()}
 

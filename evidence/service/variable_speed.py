@@ -81,9 +81,15 @@ def verdict_of(run: bd.Run, way: str, profile: str, uncertainty: float | None = 
         try:
             measured = bd.read_measured(path, bearing=BEARING, **reading)
         except InputError as error:
-            return ["refused", 0, 0, None, "; ".join(error.problems)]
+            return ["refused", 0, 0, None, _reason("; ".join(error.problems), path)]
     settings = None if uncertainty is None else MonitorSettings(speed_uncertainty=uncertainty)
     return _told(bd.monitor(measured, settings=settings))
+
+
+def _reason(sentence: str, path: Path) -> str:
+    """Keep why a speed is not known, without the file and what to give in its place."""
+    begun = sentence.replace(f"{path}: ", "").partition(" from 0 s on ")[2] or sentence
+    return begun.partition("; give one of")[0]
 
 
 def _told(conclusion: Conclusion) -> list[Any]:

@@ -67,7 +67,7 @@ def test_the_page_leads_from_a_csv_file_to_a_verdict_in_three_commands(
     assert "no samples missing" in report
     assert main(three[2]) == EXIT_CODES["cup"]
     verdict, size = capsys.readouterr().out.splitlines()[-2:]
-    assert verdict == "cup: 7 of 7 analyses, confidence 0.98"
+    assert verdict == "cup: 7 of 7 analyses, confidence 0.99"
     assert size.startswith("size: not measurable: ")
     assert verdict in PAGE
 
