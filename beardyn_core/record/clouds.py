@@ -58,11 +58,34 @@ class CloudTemplate:
         _LENGTH.pack_into(head, len(head) - 4, len(data))
         return b"".join((head, data, self._tail))
 
+    def encode_rows(self, points: NDArray[Any], stamps_ns: NDArray[np.int64]) -> NDArray[np.uint8]:
+        """Encode clouds of as many points each at once, with the bytes that `encode` makes of each.
+
+        Parameters
+        ----------
+        points : structured array of the template's dtype, shape [cloud, point], C-contiguous
+        stamps_ns : int64 array, shape [cloud]
+            Times that ``t`` counts from, [ns].
+
+        Returns
+        -------
+        uint8 array, shape [cloud, byte]
+        """
+        count, data = points.shape[0], points.view(np.uint8).reshape(points.shape[0], -1)
+        first = np.frombuffer(self.encode(points[0], int(stamps_ns[0])), np.uint8)
+        begin = len(self._head)
+        rows = np.empty((count, len(first)), np.uint8)
+        rows[:, :begin], rows[:, -1] = first[:begin], first[-1]
+        rows[:, begin : begin + data.shape[1]] = data
+        for row, stamp in zip(rows, stamps_ns.tolist(), strict=True):
+            _STAMP.pack_into(row.data, 4, *divmod(stamp, 1_000_000_000))
+        return rows
+
 
 def points_of(
-    dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int
+    dtype: np.dtype[Any], first_sample: int, time_ns: NDArray[np.int64], stamp_ns: int | NDArray[np.int64]
 ) -> NDArray[Any]:
-    """Make points with ``sample`` and ``t`` filled, for times [ns] from a stamp at or before the first on.
+    """Make points with ``sample`` and ``t`` filled, for times [ns] from a stamp on, at or before each.
 
     The samples run from ``first_sample`` on; the caller fills the other columns.
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,14 +28,36 @@ def encode_load(history: LoadHistory, first_sample: int, frame: str = FRAME) -> 
     first_sample : int
         Running index of the first sample since the start of the stream.
     """
-    if len(history) and history.time_ns[-1] - history.time_ns[0] > LONGEST_NS:
+    if not len(history):
+        return _template(frame).encode(_points(history, first_sample, 0), 0)
+    return encode_loads(history, first_sample, len(history), frame).tobytes()
+
+
+def encode_loads(history: LoadHistory, first_sample: int, each: int, frame: str) -> NDArray[np.uint8]:
+    """Encode messages of so many samples each at once, shape [message, byte]; as `encode_load` of each.
+
+    Parameters
+    ----------
+    history : LoadHistory
+        As many samples as messages hold, whole.
+    first_sample : int
+        Running index of the first sample since the start of the stream.
+    each : int
+        Samples of a message.
+    """
+    stamps = history.time_ns[::each]
+    if np.any(history.time_ns[each - 1 :: each] - stamps > LONGEST_NS):
         raise ValueError("one message of load/blocks holds at most 4.29 s: send the history in parts")
-    stamp = int(history.time_ns[0]) if len(history) else 0
+    points = _points(history, first_sample, np.repeat(stamps, each))
+    return _template(frame).encode_rows(points.reshape(-1, each), stamps)
+
+
+def _points(history: LoadHistory, first_sample: int, stamp: int | NDArray[np.int64]) -> NDArray[Any]:
     points = clouds.points_of(LOAD, first_sample, history.time_ns, stamp)
     clouds.fill(points, WRENCH_AXES, history.wrench)
     points["shaft_speed"] = history.shaft_speed
     clouds.fill(points, BOGIE_AXES, history.bogie)
-    return _template(frame).encode(points, stamp)
+    return points
 
 
 @cache

@@ -19,7 +19,7 @@ from beardyn_core.record.encoding import (
     block_diagnostic,
     single,
 )
-from beardyn_core.record.load_stream import encode_load
+from beardyn_core.record.load_stream import encode_loads
 from beardyn_core.record.mcap_writing import COMPLETE, McapWriter
 from beardyn_core.record.messages import encode_diagnostics, encode_string
 from beardyn_core.record.run import Run
@@ -193,8 +193,10 @@ class RunMessages:
             return
         # The sample at or after the end of the block belongs to it: the twin interpolates towards it.
         last = min(int(np.searchsorted(load.time_ns, until_ns)) + 1, len(load))
-        while self._load_written < last:
-            part = load.part(self._load_written, min(self._load_written + LOAD_MESSAGE_SAMPLES, last))
-            cdr = encode_load(part, self._load_written, self._frame)
-            yield single("load/blocks", int(part.time_ns[0]), cdr)
-            self._load_written += len(part)
+        whole = (last - self._load_written) // LOAD_MESSAGE_SAMPLES * LOAD_MESSAGE_SAMPLES
+        for count, each in ((whole, LOAD_MESSAGE_SAMPLES), (last - self._load_written - whole,) * 2):
+            if count:
+                part = load.part(self._load_written, self._load_written + count)
+                rows = encode_loads(part, self._load_written, each, self._frame)
+                yield Batch("load/blocks", part.time_ns[::each], rows)
+                self._load_written += count

@@ -19,7 +19,7 @@ from beardyn_core.record.encoding import (
     joint_template,
     orbit_joints,
 )
-from beardyn_core.record.load_stream import LOAD, decode_load, encode_load
+from beardyn_core.record.load_stream import LOAD, decode_load, encode_load, encode_loads
 from beardyn_core.record.messages import (
     CLOCK,
     TIME,
@@ -130,6 +130,21 @@ def test_load_comes_back_bit_identical() -> None:
     np.testing.assert_array_equal(sample, 1200 + np.arange(400))
     for name in ("time_ns", "wrench", "shaft_speed", "bogie"):
         np.testing.assert_array_equal(getattr(back, name), getattr(history, name))
+
+
+def test_loads_encoded_at_once_are_the_messages_one_by_one() -> None:
+    random = np.random.default_rng(6)
+    times = np.arange(1200, dtype=np.int64) * 100_000 + 3_999_990_000
+    numbers = random.normal(0, 8e4, (1200, 6)), random.normal(100, 1, 1200), random.normal(0, 1e-3, (1200, 3))
+    history = LoadHistory(times, *numbers)
+    rows = encode_loads(history, 2**32 - 500, 400, "axle_1_left")
+    for k, row in enumerate(rows):
+        part, first = history.part(400 * k, 400 * (k + 1)), 2**32 - 500 + 400 * k
+        points = points_of(LOAD, first, part.time_ns, int(part.time_ns[0]))
+        for name, column in zip(LOAD.names[2:], np.column_stack(numbers).T, strict=True):
+            points[name] = column[400 * k : 400 * (k + 1)]
+        assert row.tobytes() == encode_points(points, int(part.time_ns[0]), "axle_1_left")
+        assert row.tobytes() == encode_load(part, first, "axle_1_left")
 
 
 def test_an_empty_load_block_ends_the_stream() -> None:
