@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from evidence.service.variable_speed import PROFILES, STEADY, WAYS, WIDTHS, WORN, _reason, text
 
 
-def rows() -> list[list[object]]:
-    found: list[list[object]] = []
+def rows() -> list[list[Any]]:
+    found: list[list[Any]] = []
+    parts = ("", *WIDTHS)
     for profile in PROFILES:
-        for part in ("", *WIDTHS):
+        for part in parts:
+            verdicts = {"tachometer": part or "healthy", "vibration": "refused", "stated": "healthy"}
             for way in WAYS:
-                verdict = (
-                    (part or "healthy")
-                    if way == "tachometer"
-                    else "refused"
-                    if way == "vibration"
-                    else "healthy"
-                )
-                found.append(
-                    [profile, part, way, verdict, 4, 5, 0.75 if verdict != "refused" else None, "why"]
-                )
-    found += [
-        [WORN, part, "stated", "unexplained" if part else "cup", 3, 3, None, ""] for part in ("", *WIDTHS)
-    ]
-    return found
+                sure = None if verdicts[way] == "refused" else 0.75
+                found.append([profile, part, way, verdicts[way], 4, 5, sure, "why"])
+    worn = [[WORN, part, "stated", "unexplained" if part else "cup", 3, 3, None, ""] for part in parts]
+    return [*found, *worn]
 
 
 def test_the_page_counts_what_is_named_right_and_what_alarms() -> None:

@@ -141,6 +141,7 @@ def test_loads_encoded_at_once_are_the_messages_one_by_one() -> None:
     for k, row in enumerate(rows):
         part, first = history.part(400 * k, 400 * (k + 1)), 2**32 - 500 + 400 * k
         points = points_of(LOAD, first, part.time_ns, int(part.time_ns[0]))
+        assert LOAD.names is not None
         for name, column in zip(LOAD.names[2:], np.column_stack(numbers).T, strict=True):
             points[name] = column[400 * k : 400 * (k + 1)]
         assert row.tobytes() == encode_points(points, int(part.time_ns[0]), "axle_1_left")
