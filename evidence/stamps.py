@@ -26,8 +26,8 @@ PICTURES = ROOT / "docs" / "pictures"
 SIMULATOR, CONFIGURATION = "beardyn_core", "config/"
 WORDS = "cli"  # the room that reads words and prints sentences
 SOME_GO_THROUGH = {  # rooms, and how the commands begin whose pictures they may change
-    "config/estimators": "python -m evidence.follow",
-    "measured": "python -m evidence.population",  # reads files of other tools
+    "config/estimators": ("python -m evidence.follow",),
+    "measured": ("python -m evidence.population", "python -m evidence.measured"),  # read files of other tools
 }
 BY, OF = "Made by", "Made of"
 LISTED = 8  # rooms; more are counted

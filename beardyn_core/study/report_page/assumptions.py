@@ -55,8 +55,7 @@ def assumed_rows(inspection: Inspection, scene: Scene | None = None) -> tuple[tu
         + ("" if len(run.temperature) else "; no temperature is in the record"),
         "False alarms": f"noise alone alarms in 1 of {1.0 / settings.false_alarm_rate:.0f} analyses",
         "Not judged": _not_judged(inspection),
-        "Confidence": "judged on public records of test rigs, none of a train, as if healthy and faulty "
-        "bearings were equally frequent",
+        "Confidence": "judged on test rigs, none of a train",
     }
     severity = inspection.severity
     if severity is not None and severity.grade != NOT_MEASURABLE:
