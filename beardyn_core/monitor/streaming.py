@@ -23,8 +23,8 @@ _REMEMBERED = 1000  # results whose levels are kept for the trend
 _HEATING_NS = 60_000_000_000  # over which the rise of the temperature is taken
 _LEAST_HEATING_NS = 10_000_000_000
 _BELIEVED_AFTER = 5  # blocks of a stream in a row behind its last one, after which its time has jumped back
-# a spall is measured again on a stretch so many times as long, and where such a part of it is new
-_LONGER, _NEW = 1.25, 0.5
+# a spall is measured again on a stretch so many times as long, and after so long: spalls grow in days
+_LONGER, _SIZED_FOR_NS = 1.25, 30_000_000_000
 _SIZE_REVOLUTIONS = 200.0  # of which the size of a spall is measured, as far as they are there
 _SAMPLES_OF_A_PASSAGE = 16  # at least, for two events in it
 _WINDOWS_KEPT = 2  # of the longest, of a stream that the others do not follow
@@ -401,8 +401,7 @@ class Monitor:
         sized = self._sized
         if fault != sized.fault or whole.revolutions > _LONGER * sized.revolutions:
             return True
-        new_ns = end_ns - sized.end_ns
-        return new_ns < 0 or new_ns > _NEW * (end_ns - self._vibration.first_ns)
+        return not 0 <= end_ns - sized.end_ns <= _SIZED_FOR_NS
 
     def _refusals(self) -> str:
         """Say how many blocks were refused, empty when none was."""
