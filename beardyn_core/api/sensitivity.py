@@ -66,33 +66,35 @@ def smallest_spalls(
     from beardyn_core.study.monitored_recording import HEALTHY, results_of
     from beardyn_core.study.smallest_spall import WIDTHS, LastStretch, SmallestSpalls, smallest_spalls_in
 
-    heard, data, sensor = heard_of(run, bearing, sensor)
+    record, data, sensor = heard_of(run, bearing, sensor)
     if twin is None:
-        if not heard.scene_text:
+        if not record.scene_text:
             raise InputError(
-                f"{heard.label}: has no scene of a twin; give twin, a scene of this axlebox or of one like it"
+                f"{record.label}: holds no scene; give twin, a scene of this axlebox or of one like it"
             )
-        twin = scene_from_text(heard.scene_text, heard.label)
-    base = replace(make_scene(twin), background=None, axleboxes=None)  # what both runs hear alike
+        twin = scene_from_text(record.scene_text, record.label)
+    base = replace(
+        make_scene(twin), background=None, axleboxes=None
+    )  # both runs of the twin receive these alike
     own, orders = base.bearing.frequencies, data.frequencies
     for symbol in ("bpfo", "bpfi", "bsf"):
         twins, stated = getattr(own, symbol), getattr(orders, symbol)
         if not abs(twins / stated - 1.0) <= _ALIKE:
             raise InputError(
                 f"twin {base.name}: its {base.bearing.name} has {symbol.upper()} {twins:.4f}, that of "
-                f"{heard.label} has {stated:.4f}: a twin must have the bearing of the record"
+                f"{record.label} has {stated:.4f}: a twin must have the bearing of the record"
             )
-    settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(heard.measured))
+    settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(record.measured))
     kept = LastStretch()
-    for _ in results_of(heard, data, kept, settings, sensor):
+    for _ in results_of(record, data, kept, settings, sensor):
         pass
     stretch = kept.stretch
     if stretch is None:
-        raise InputError(f"{heard.label}: is shorter than an analysis of the monitor needs")
+        raise InputError(f"{record.label}: is shorter than an analysis of the monitor needs")
     judged = (algorithm or REFERENCE)(stretch, orders, data.roller_count, settings)
     if judged.verdict != HEALTHY:
         raise InputError(
-            f"{heard.label}: the last {stretch.revolutions:.0f} revolutions are not healthy but "
+            f"{record.label}: the last {stretch.revolutions:.0f} revolutions are not healthy but "
             f"{judged.verdict}; spalls are added to a healthy record"
         )
     force = circumstances(base).typical.force
@@ -104,7 +106,7 @@ def smallest_spalls(
         load_kN=[1e-3 * each for each in force],
         speed_rpm=60.0 * stretch.shaft_frequency,
     )
-    signal = heard.sensors[sensor] if sensor else heard.vibration
+    signal = record.sensors[sensor] if sensor else record.vibration
     measured = np.flatnonzero(~np.isnan(signal.values).all(axis=0))
     live = np.ptp(stretch.acceleration, axis=0) > 0.0  # a dead axis receives no spall either
     stretch = replace(stretch, acceleration=stretch.acceleration[:, live])

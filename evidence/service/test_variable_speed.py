@@ -32,7 +32,7 @@ def test_the_page_counts_what_is_named_right_and_what_alarms() -> None:
 
 
 def test_a_reason_has_neither_file_nor_options() -> None:
-    path = Path("/tmp/a/b.wav")
+    path = Path("folder") / "b.wav"
     sentence = f"{path}: the speed is not known, and from 0 s on it fits two; give one of --speed-rpm"
     assert _reason(sentence, path) == "it fits two"
     assert _reason("no file", path) == "no file"

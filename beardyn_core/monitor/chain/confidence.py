@@ -1,4 +1,4 @@
-"""How sure a verdict is: independent grounds of it, and how often verdicts on such grounds were right."""
+"""How sure a verdict is: what it rests on, and how often verdicts on such grounds were right."""
 
 from __future__ import annotations
 
