@@ -33,7 +33,7 @@ PICTURE_STYLE: dict[Any, Any] = {
 }
 _MM = 25.4  # in an inch
 _STYLE = """
-@page { size: A4; margin: 10mm 12mm; }
+@page { size: A4; margin: 7mm 12mm; }
 * { box-sizing: border-box; }
 body { font: 9pt/1.28 "DejaVu Sans", "Segoe UI", Helvetica, Arial, "Noto Sans", "Noto Sans CJK SC",
   "Microsoft YaHei", "PingFang SC", "WenQuanYi Micro Hei", sans-serif; color: #111; background: #fff;
@@ -41,7 +41,7 @@ body { font: 9pt/1.28 "DejaVu Sans", "Segoe UI", Helvetica, Arial, "Noto Sans", 
   print-color-adjust: exact; overflow-wrap: anywhere; }
 section + section { break-before: page; margin-top: 12mm; }
 h1 { font-size: 12.5pt; margin: 0 0 1.5mm; }
-h2 { font-size: 9.5pt; margin: 2mm 0 0.8mm; border-bottom: 0.3mm solid #999; break-after: avoid; }
+h2 { font-size: 9.5pt; margin: 1.4mm 0 0.6mm; border-bottom: 0.3mm solid #999; break-after: avoid; }
 .verdict { border: 0.8mm solid; border-left-width: 5mm; padding: 1.6mm 3mm; break-inside: avoid; }
 .verdict b { display: inline-block; border: 0.5mm solid; padding: 0 1.6mm; font-size: 11pt;
   margin-right: 1mm; }
