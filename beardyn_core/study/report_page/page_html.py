@@ -33,7 +33,7 @@ PICTURE_STYLE: dict[Any, Any] = {
 }
 _MM = 25.4  # in an inch
 _STYLE = """
-@page { size: A4; margin: 7mm 12mm; }
+@page { size: A4; margin: 6mm 11mm; }
 * { box-sizing: border-box; }
 body { font: 9pt/1.28 "DejaVu Sans", "Segoe UI", Helvetica, Arial, "Noto Sans", "Noto Sans CJK SC",
   "Microsoft YaHei", "PingFang SC", "WenQuanYi Micro Hei", sans-serif; color: #111; background: #fff;
@@ -47,7 +47,7 @@ h2 { font-size: 9.5pt; margin: 1.4mm 0 0.6mm; border-bottom: 0.3mm solid #999; b
   margin-right: 1mm; }
 .verdict strong { font-size: 11pt; }
 .verdict p { margin: 0.8mm 0 0; color: #111; font-size: 8pt; }
-dl { margin: 0; columns: 2; column-gap: 6mm; font-size: 7.8pt; }
+dl { margin: 0; columns: 2; column-gap: 6mm; font-size: 7.1pt; }
 dl.one { columns: 1; }
 dl div { break-inside: avoid; padding: 0.15mm 0; }
 dt { display: inline; font-weight: bold; }
@@ -58,7 +58,7 @@ table { border-collapse: collapse; width: 100%; table-layout: fixed; font-size: 
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
 th, td { text-align: left; vertical-align: top; border-bottom: 0.2mm solid #bbb; padding: 0.3mm 1mm; }
-ol { margin: 0.5mm 0 0; padding-left: 5mm; font-size: 8.4pt; }
+ol { margin: 0.5mm 0 0; padding-left: 5mm; font-size: 7.8pt; }
 li { break-inside: avoid; }
 footer { margin-top: 2mm; font-size: 7pt; color: #444; }
 @media print { body { margin: 0; padding: 0; max-width: none; } section + section { margin-top: 0; } }
