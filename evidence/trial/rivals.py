@@ -10,9 +10,11 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Annotated as A
+
+import numpy as np
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import load_trial, trial_scene, with_choices
@@ -26,6 +28,9 @@ from beardyn_core.study.trial_result import Rate
 from evidence.measured.run import METHODS
 from evidence.runner import write_json
 
+OURS, PLAIN = "ours", "CPW"
+HEALTHY_BEARING = "healthy"  # a verdict; `HEALTHY` is the fault of such a bearing
+_MOST_RAISED, _RAISED_BY = 40.0, 0.5  # [dB]
 EVERY = 11  # no divisor of the 27 runs of a size: it walks through speeds, wheels and surfaces
 
 
@@ -39,6 +44,7 @@ class Judged:
     verdict: A[str, "of most analyses"]
     alarms: A[int, "analyses that call a part"]
     analyses: int
+    called: A[list[tuple[str, float]], "verdict of each, and its score over the threshold, [dB]"]
 
 
 def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
@@ -49,11 +55,32 @@ def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
     for method, algorithm in METHODS.items():
         monitor = Monitor(orders, count, settings=MonitorSettings(interval=interval), algorithm=algorithm)
         found = [*run_monitor(monitor, signals), monitor.result()]
-        said = [result.verdict for result in found if result.verdict != WAITING]
-        verdict = conclude([Finding.of(result) for result in found]).verdict
-        alarms = sum(each in FAULTS for each in said)
-        judged.append(Judged(method, cell.key, cell.fault, verdict, alarms, len(said)))
+        called = [(each.verdict, each.score - each.threshold) for each in found if each.verdict != WAITING]
+        judged.append(judge(Judged(method, cell.key, cell.fault, "", 0, len(called), called), 0.0))
     return judged
+
+
+def judge(each: Judged, raised: float, method: str = "") -> Judged:
+    """Judge a run by its analyses, with the threshold raised by so many decibels."""
+    said = [HEALTHY_BEARING if name in FAULTS and over < raised else name for name, over in each.called]
+    verdict = conclude([Finding(name, "", float(at)) for at, name in enumerate(said)]).verdict
+    alarms = sum(name in FAULTS for name in said)
+    return replace(each, method=method or each.method, verdict=verdict, alarms=alarms)
+
+
+def as_seldom(judged: Sequence[Judged], method: str, other: str) -> tuple[float, list[Judged]]:
+    """Raise the threshold of a method until it alarms in no more healthy runs than another one, [dB]."""
+    own = [each for each in judged if each.method == method]
+    allowed = _alarmed([each for each in judged if each.method == other])
+    for raised in np.arange(0.0, _MOST_RAISED, _RAISED_BY).tolist():
+        found = [judge(each, raised, f"{method}, threshold {raised:.1f} dB higher") for each in own]
+        if _alarmed(found) <= allowed:
+            break
+    return raised, found
+
+
+def _alarmed(judged: Sequence[Judged]) -> int:
+    return sum(each.alarms > 0 for each in judged if each.fault == HEALTHY)
 
 
 def table(judged: Sequence[Judged]) -> str:
@@ -62,8 +89,9 @@ def table(judged: Sequence[Judged]) -> str:
         "| monitor | right | another part | missed | healthy runs with a false alarm | analyses of them |",
         "|---|---|--:|--:|---|---|",
     ]
-    for method in METHODS:
-        own = [each for each in judged if each.method == method]
+    _, quiet = as_seldom(judged, PLAIN, OURS)
+    for method in dict.fromkeys(each.method for each in (*judged, *quiet)):
+        own = [each for each in (*judged, *quiet) if each.method == method]
         faulty = [each for each in own if each.fault != HEALTHY]
         sound = [each for each in own if each.fault == HEALTHY]
         right = sum(each.verdict == each.fault for each in faulty)

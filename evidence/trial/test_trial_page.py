@@ -15,7 +15,7 @@ from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
 from evidence.trial import growth_picture
 from evidence.trial.page import beside_standard, other_trial, page, with_old_sections, with_section_of
-from evidence.trial.rivals import Judged, orders, table
+from evidence.trial.rivals import Judged, as_seldom, judge, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
 
@@ -91,23 +91,43 @@ def test_tiers_are_compared_on_the_same_run_in_a_box_that_rings() -> None:
     assert (full.seed, full.defects) == (fast.seed, fast.defects)
 
 
+def _judged(method: str, run: str, fault: str, called: list[tuple[str, float]]) -> Judged:
+    return judge(Judged(method, run, fault, "", 0, len(called), called), 0.0)
+
+
 def test_the_rivals_are_counted_over_the_same_runs() -> None:
+    quiet = [("healthy", -1.0)] * 4
     judged = [
-        Judged(method, run, fault, verdict, alarms, 4)
-        for method, verdicts in {
-            "ours": ("cup", "healthy"),
-            "envelope": ("cone", "cup"),
-            "CPW": ("cup", "cup"),
-        }.items()
-        for run, fault, verdict, alarms in (
-            ("a", "cup", verdicts[0], 4),
-            ("b", "none", verdicts[1], 0 if verdicts[1] == "healthy" else 1),
-        )
+        _judged("ours", "a", "cup", [("cup", 9.0)] * 4),
+        _judged("ours", "b", "none", quiet),
+        _judged("envelope", "a", "cup", [("cone", 9.0)] * 4),
+        _judged("envelope", "b", "none", [("cup", 5.0), *quiet[:3]]),
+        _judged("CPW", "a", "cup", [("cup", 9.0)] * 4),
+        _judged("CPW", "b", "none", [("cup", 2.2), *quiet[:3]]),
     ]
     assert orders(judged) == (
         "Fewest false alarms first: ours, envelope, CPW. Fewest spalls missed first: ours, envelope, CPW."
     )
     rows = [row.split(" | ") for row in table(judged).splitlines()[2:]]
-    assert [row[1].split(",")[0] for row in rows] == ["1/1", "0/1", "1/1"]
-    assert [row[2:4] for row in rows] == [["0", "0"], ["1", "0"], ["0", "0"]]
-    assert [row[5].split(",")[0] for row in rows] == ["0/4", "1/4", "1/4"]
+    assert [row[0].strip("| ") for row in rows] == [
+        "ours",
+        "envelope",
+        "CPW",
+        "CPW, threshold 2.5 dB higher",
+    ]
+    assert [row[1].split(",")[0] for row in rows] == ["1/1", "0/1", "1/1", "1/1"]
+    assert [row[2:4] for row in rows] == [["0", "0"], ["1", "0"], ["0", "0"], ["0", "0"]]
+    assert [row[5].split(",")[0] for row in rows] == ["0/4", "1/4", "1/4", "0/4"]
+
+
+def test_a_threshold_is_raised_until_it_alarms_as_seldom_and_misses_what_is_below() -> None:
+    loud = [("cup", 12.0)] * 3
+    judged = [
+        _judged("ours", "a", "none", [("healthy", -1.0)] * 3),
+        _judged("CPW", "a", "none", [("cup", 6.4), ("healthy", -1.0), ("cup", 1.0)]),
+        _judged("CPW", "b", "cup", [("cup", 3.0), ("cup", 5.0), ("cup", 12.0)]),
+        _judged("CPW", "c", "cup", loud),
+    ]
+    raised, found = as_seldom(judged, "CPW", "ours")
+    assert raised == 6.5
+    assert [each.verdict for each in found] == ["healthy", "healthy", "cup"]

@@ -304,11 +304,9 @@ def test_a_pattern_that_is_sure_but_shallow_is_no_fault_however_loud_it_is() -> 
     loud = fault_stretch("cup", 42)
     far = replace(loud, acceleration=1e-3 * loud.acceleration)
     found = REFERENCE(loud, ORDERS, ROLLERS, SETTINGS)
-    hum = (
-        20.0
-        * np.std(loud.acceleration)
-        * np.sin(2 * np.pi * 4000.0 * np.arange(len(loud.acceleration)) / RATE)
-    )
+    time = np.arange(len(loud.acceleration)) / RATE
+    tones = sum(np.sin(2 * np.pi * frequency * time) for frequency in (2400.0, 4000.0, 9000.0))
+    hum = 20.0 * np.std(loud.acceleration) * np.asarray(tones)
     both = replace(loud, acceleration=loud.acceleration + hum[:, None])
     covered = REFERENCE(replace(both, acceleration=1e-3 * both.acceleration), ORDERS, ROLLERS, SETTINGS)
     assert found.verdict == REFERENCE(far, ORDERS, ROLLERS, SETTINGS).verdict == "cup"

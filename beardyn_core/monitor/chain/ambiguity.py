@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from math import log
+
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.chain.fault_lines import FAULTS, SHAFT_REACH, Candidate, fault_patterns
+from beardyn_core.monitor.chain.inputs import MonitorSettings
 
+CAGE = "cage"  # no part that is named, but one that may be meant
 ON_THE_SHAFT = "whose lines are multiples of the shaft's"
 _HIDDEN = (1, 2)  # harmonics without which a comb is not found
 _ALIKE = 0.006  # orders that differ by less are one, [-]
@@ -42,6 +46,11 @@ def not_judged_sentence(unknown: tuple[str, ...], hidden: tuple[str, ...]) -> st
         for parts, why in several
         if parts
     )
+
+
+def comes_with_the_cage(best: Candidate, settings: MonitorSettings) -> bool:
+    """Tell whether a fault of rolling elements shows in the turns of the cage alone, as one of it would."""
+    return best.pattern.turns > 0 and best.alone < -log(settings.false_alarm_rate)
 
 
 def alike_parts(best: Candidate, candidates: tuple[Candidate, ...]) -> tuple[str, ...]:

@@ -11,7 +11,9 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.ambiguity import (
+    CAGE,
     alike_parts,
+    comes_with_the_cage,
     not_judged_sentence,
     parts_on_the_shaft,
     parts_without_order,
@@ -113,7 +115,9 @@ class Chain:
             clockwork = self.score(measured, orders, roller_count, speed, settings)
             clockwork = with_strikes(clockwork, stretch, band, settings)
             never = (np.inf, np.inf, np.inf)
-            deep = replace(settings, least_strikes=settings.clockwork_strikes, least_sharpest=never)
+            deep = replace(
+                settings, least_strikes=settings.clockwork_strikes, least_sharpest=never, faint_margin=np.inf
+            )
             heard = self.decide(clockwork, stretch, deep)
             if heard.name in (*FAULTS, UNEXPLAINED):
                 found, verdict, lined = clockwork, heard, measured
@@ -130,6 +134,10 @@ class Chain:
         if verdict.name in FAULTS and (alike := alike_parts(verdict.best, found.candidates)):
             others = " and ".join(PART_NAMES[part] for part in alike)
             verdict = replace(verdict, reason=f"{verdict.reason}; the {others} would have these lines, too")
+        also = alike
+        if verdict.name in FAULTS and comes_with_the_cage(verdict.best, settings):
+            also = (*alike, CAGE)
+            verdict = replace(verdict, reason=f"{verdict.reason}; a damaged cage would have these lines, too")
         sure = confidence_of(verdict.name, grounds) / (1 + len(alike))  # one is as likely as the other
         if verdict.name == HEALTHY and not_judged:
             sure = np.nan  # it says nothing of parts that were not judged
@@ -157,7 +165,7 @@ class Chain:
             threshold=best.threshold,
             scores=(score.get("cup", np.nan), score.get("cone", np.nan), score.get("roller", np.nan)),
             not_judged=not_judged,
-            also_fits=alike,
+            also_fits=also,
             lines=best.lines,
             strongest_order=found.strongest_order,
             strongest_level=found.strongest_level,

@@ -85,5 +85,7 @@ def _strikes(
     power = spectrum.amplitude[around].max(axis=1) ** 2 - (_NOISE * noise[index]) ** 2
     if surer is not None:
         power[surer.explains(places, spectrum.resolution)] = 0.0
-    harmonics = np.maximum(power, 0.0).reshape(settings.strike_harmonics, -1).sum(axis=1)
+    harmonics = np.maximum(power, 0.0)
+    if not candidate.pattern.turns:
+        harmonics = harmonics.reshape(settings.strike_harmonics, -1).sum(axis=1)
     return float(np.sqrt(harmonics.sum() - harmonics.max()))

@@ -156,6 +156,14 @@ class MonitorSettings:
     least_sharpest: A[
         tuple[float, float, float], "or what they must make in one of `strike_bands`: cup, cone, roller, [-]"
     ] = (1.0, 0.5, 0.5)
+    faint_margin: A[float, "score over the threshold from which a fault may strike less than that, [dB]"] = (
+        0.5
+    )
+    faint_rival: A[float, "then nothing else may have more evidence than this share of its own, [-]"] = 0.3
+    faint_sidebands: A[
+        float, "and sidebands must make its evidence so many times that without them: cone and roller, [-]"
+    ] = 1.3
+    faint_sharpest: A[float, "or strikes must make so much in one of `strike_bands`: cup, [-]"] = 0.4
     foreign_strikes: A[
         float,
         "and what those of a comb that no part explains at any speed must make, for it may come from a "

@@ -37,7 +37,8 @@ class Verdict:
 def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSettings) -> Verdict:
     """Report the fault with most evidence if that passes its threshold, unless something else explains more.
 
-    What is below `least_strikes` is a hum and no fault, however sure it is that it is there.
+    What is below `least_strikes` is a hum and no fault, however sure it is that it is there, unless its lines
+    are such as no healthy bearing has (`is_faint_fault`).
     A comb of another bearing, a gear or a fan, or of this bearing at another speed, always has some lines
     near those of a fault: where it explains more, the fault is not named. A comb that strikes and fits no
     part at this speed is reported as what it is. A hot box is called whatever the lines say; it leaves a
@@ -47,6 +48,10 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     best = max(striking or found.candidates, key=lambda candidate: candidate.evidence)
     passed = bool(striking) and best.score >= best.threshold
     stranger = _stranger(found, settings)
+    if not passed and stranger is None:
+        faint = [each for each in found.candidates if is_faint_fault(each, settings)]
+        if faint:
+            best, passed = max(faint, key=lambda candidate: candidate.evidence), True
     contradiction = _contradiction(found, best, stranger, settings)
     if passed and not contradiction:
         verdict = Verdict(best.pattern.fault, _fault_sentence(best, stretch.shaft_frequency, settings), best)
@@ -122,7 +127,10 @@ def is_same_comb(other: Candidate, best: Candidate) -> bool:
         return other.pattern.fault == best.pattern.fault and is_related(other.order, best.order)
     if other.order > _MULTIPLE * best.order and best.odd <= 0.0 and other.evidence > best.evidence:
         return False
-    return is_related(other.order, best.order) or is_related(other.order, best.order / best.pattern.divided)
+    own = best.pattern
+    if own.turns and is_related(other.order, own.sideband):
+        return True
+    return is_related(other.order, best.order) or is_related(other.order, best.order / own.divided)
 
 
 def _verdict_on(
@@ -175,6 +183,22 @@ def strikes(candidate: Candidate, settings: MonitorSettings) -> bool:
     return not hums or candidate.sharpest >= least
 
 
+def is_faint_fault(candidate: Candidate, settings: MonitorSettings) -> bool:
+    """Tell whether lines that hardly strike are still those of a fault: nothing else explains them as well.
+
+    Rollers that pass give a healthy bearing lines of the cup, and rollers that differ make them come and go
+    with the cage: there an octave must strike more than theirs do. Those of cone and roller are a fault's
+    where load zone or cage modulates them; combs without such sidebands were measured in healthy bearings.
+    """
+    if candidate.score < candidate.threshold + settings.faint_margin:
+        return False
+    if candidate.rival.own >= settings.faint_rival * candidate.evidence:
+        return False
+    if not candidate.pattern.sidebands:
+        return candidate.sharpest >= settings.faint_sharpest
+    return candidate.evidence >= settings.faint_sidebands * candidate.alone
+
+
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
     """Judge the temperature of the axlebox [K] by its rise [K/s]: ``unknown``, ``normal``, ``warm``, ``hot``.
 
@@ -195,13 +219,18 @@ def temperature_state(temperature: float, heating: float, settings: MonitorSetti
 
 
 def _fault_sentence(best: Candidate, shaft_frequency: float, settings: MonitorSettings) -> str:
-    expected = best.pattern.order
-    deviation = best.order / expected - 1.0
+    own = best.pattern
+    deviation = best.order / own.order - 1.0
+    with_cage = (
+        f" strikes come and go with the cage, {own.sideband * shaft_frequency:.2f} Hz;" if own.turns else ""
+    )
     sentence = (
-        f"{best.pattern.fault} fault: {best.pattern.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
-        f"{expected * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
+        f"{own.fault} fault:{with_cage} {own.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
+        f"{own.order * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )
+    if not strikes(best, settings):
+        sentence += f", faint: its harmonics but the loudest make {best.strikes:.1%} of the power in its band"
     if settings.speed_uncertainty > 0.0:
         fitting = _RPM * shaft_frequency * (1.0 + deviation)
         sentence += f"; without slip it fits {fitting:.5g} rpm, stated are {_RPM * shaft_frequency:.5g} rpm"
