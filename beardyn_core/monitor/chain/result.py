@@ -56,8 +56,8 @@ class MonitorResult:
     ] = ()
     also_fits: A[
         tuple[str, ...],
-        "other parts that explain the lines of the one that is named as well; ``cage``, which is never named, "
-        "where strikes come and go with it",
+        "other parts that explain the lines of the one that is named as well; ``cage``, which is never "
+        "named, where strikes come and go with it",
     ] = ()
     lines: A[tuple[Line, ...], "lines of the strongest candidate that stand out one by one"] = ()
     strongest_order: A[float, "of the strongest line above the cage's own, [-]"] = np.nan
