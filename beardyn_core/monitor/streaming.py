@@ -14,7 +14,6 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor import chain
-from beardyn_core.monitor.chain.ambiguity import CAGE
 from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.rotation_segments import Legs, turning_legs
 from beardyn_core.monitor.severity import Severity, severity_near, unmeasured
@@ -91,8 +90,6 @@ def _severity_of(
     """Measure the spall of the fault that an algorithm has named."""
     if not np.isfinite(result.fault_order):
         return unmeasured("the monitor states no order of the fault")
-    if CAGE in result.also_fits:
-        return unmeasured("its strikes come and go with the cage, and no passage stands out")
     turns_a_sample = float(angle[-1] - angle[0]) / (2.0 * np.pi * len(angle))
     if not 0.0 < result.fault_order * turns_a_sample * _SAMPLES_OF_A_PASSAGE < 1.0:
         return unmeasured(f"a passage at order {result.fault_order:g} has too few samples")

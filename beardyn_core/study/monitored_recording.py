@@ -80,7 +80,11 @@ class Finding:
         tuple[str, ...],
         "parts whose order is not known, or whose lines are multiples of the shaft's",
     ] = ()
-    also_fits: A[tuple[str, ...], "other parts that explain the lines of the one that is named as well"] = ()
+    also_fits: A[
+        tuple[str, ...],
+        "other parts that explain the lines of the one that is named as well; ``cage`` where strikes come "
+        "and go with it",
+    ] = ()
 
     @classmethod
     def of(cls, result: MonitorResult) -> Finding:

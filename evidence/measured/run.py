@@ -18,6 +18,7 @@ from beardyn_core.monitor.chain import (
     Stretch,
     Verdict,
 )
+from beardyn_core.monitor.chain.fault_lines import comb_score
 from beardyn_core.monitor.chain.tracking import by_angle
 from beardyn_core.monitor.chain.whitening import not_whitened
 from beardyn_core.monitor.streaming import Monitor
@@ -37,8 +38,8 @@ def surest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSetting
 
 METHODS: dict[str, Algorithm] = {
     "ours": REFERENCE,
-    "envelope": Chain(whiten=not_whitened, track=by_angle, decide=surest_pattern),
-    "CPW": Chain(track=by_angle, decide=surest_pattern),
+    "envelope": Chain(whiten=not_whitened, track=by_angle, score=comb_score, decide=surest_pattern),
+    "CPW": Chain(track=by_angle, score=comb_score, decide=surest_pattern),
 }
 
 

@@ -13,6 +13,7 @@ false_alarm_rate  how often noise has such lines: evidence, and the threshold of
 competing_orders  evenly spaced lines that no pattern explains
 explanations      what would explain such lines: another speed, another bearing
 fault_lines       score: power on the lines of each fault against noise
+cage_turns        score, too: rolling elements that come and go with the cage
 impulsiveness     how much of the power as measured comes in short strikes
 levels            RMS, kurtosis, crest factor and their trend
 verdict           decide: which fault is called, and why; the temperature rule

@@ -50,7 +50,7 @@ def not_judged_sentence(unknown: tuple[str, ...], hidden: tuple[str, ...]) -> st
 
 def comes_with_the_cage(best: Candidate, settings: MonitorSettings) -> bool:
     """Tell whether a fault of rolling elements shows in the turns of the cage alone, as one of it would."""
-    return best.pattern.turns > 0 and best.alone < -log(settings.false_alarm_rate)
+    return best.pattern.cage > 0.0 and best.stated(-log(settings.false_alarm_rate))[1] == best.pattern.cage
 
 
 def alike_parts(best: Candidate, candidates: tuple[Candidate, ...]) -> tuple[str, ...]:

@@ -18,10 +18,11 @@ from beardyn_core.monitor.chain.ambiguity import (
     parts_on_the_shaft,
     parts_without_order,
 )
+from beardyn_core.monitor.chain.cage_turns import score_with_turns
 from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, comb_score
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -74,7 +75,7 @@ class Chain:
     score: A[
         Callable[[Float, FaultFrequencies, int, float, MonitorSettings], FaultLines],
         "how much of it is on the lines of each fault",
-    ] = comb_score
+    ] = score_with_turns
     decide: A[Callable[[FaultLines, Stretch, MonitorSettings], Verdict], "what to call"] = strongest_pattern
 
     def __call__(
@@ -144,18 +145,19 @@ class Chain:
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
         own = [each.speed for each in verdict.fits if not each.bearing]
+        order, expected = best.stated(-np.log(settings.false_alarm_rate))
         if called:
-            own = [speed * best.order / best.pattern.order]
+            own = [speed * order / expected]
         return MonitorResult(
             verdict=verdict.name,
             reason=f"{verdict.reason}{f'; dead: axis {dead}' if dead else ''}",
             end_ns=stretch.end_ns,
             confidence=sure,
             grounds=grounds,
-            fault_order=best.order if called else np.nan,
-            fault_frequency=best.order * speed if called else np.nan,
-            expected_order=best.pattern.order if called else np.nan,
-            expected_frequency=best.pattern.order * speed if called else np.nan,
+            fault_order=order if called else np.nan,
+            fault_frequency=order * speed if called else np.nan,
+            expected_order=expected if called else np.nan,
+            expected_frequency=expected * speed if called else np.nan,
             fitting_shaft_frequency=own[0] if own else np.nan,
             comb_order=comb.order if comb else np.nan,
             comb_frequency=comb.order * speed if comb else np.nan,

@@ -63,11 +63,12 @@ def grounds_of(
     """
     if verdict.name in FAULTS:
         best = verdict.best
+        order, expected = best.stated(-log(settings.false_alarm_rate))
         return Grounds(
             comb=best.score - best.threshold,
             strikes=_strikes_over_bound(best, settings),
             steady=_least_of_halves(best, tracked, settings),
-            deviation=abs(best.order / best.pattern.order - 1.0),
+            deviation=abs(order / expected - 1.0),
             otherwise=best.otherwise / best.evidence if isfinite(best.otherwise) else 0.0,
         )
     if verdict.name == UNEXPLAINED and verdict.comb is not None:

@@ -40,14 +40,13 @@ _LOWEST_ORDER = 0.3
 _LOWEST_OF_PARTS = 0.7  # of the lowest order of a part, where the roller count is not known
 _SLIP = 0.01  # of rollers at a speed that is not the stated one, [-]
 _FOREIGN = 0.3  # combs are sought up to this share beyond the last line of the bearing's own parts
-_ODD = (1.0, 3.0, 5.0, 7.0)  # harmonics that are those of no comb of twice the order
+ODD = (1.0, 3.0, 5.0, 7.0)  # harmonics that are those of no comb of twice the order
 _OF_SHAFT = 0.05  # parts of a comb that near twice the shaft are lines of the shaft, [-]
 _MOST_SHAFTS = 3  # combs near whole orders that are taken out
 _PARTS_OF_A_COMB = (1, 2, 3)  # every second or third line of a comb may be stronger than those between
 SHAFT_REACH = 2.0  # resolutions next to a multiple of the shaft within which lines are left out
 _NOTHING = -300.0  # [dB]
-_PATTERNS_OF_ROLLERS = 2  # which share their part of the false alarms
-_TURNS = 6  # multiples of the cage's order by which strikes of a rolling element come and go
+TURNS = 6  # multiples of the cage's order by which strikes of a rolling element come and go
 _MEDIAN_OVER_MEAN = np.log(2.0)  # of an exponential distribution
 
 
@@ -75,12 +74,15 @@ class Pattern:
     explained: A[int, "how many on each side may belong to the fault"]
     divided: A[int, "lines at this part of the order belong to the fault as well"] = 1
     other_sideband: A[float, "of a fault of another part, which this one has not, [-]"] = 0.0
-    turns: A[int, "multiples of the order of the sidebands alone that are added up in place of these"] = 0
+    cage: A[
+        float,
+        "order of the cage from bearing data, where its multiples count in place of sidebands, else 0, [-]",
+    ] = 0.0
 
     def lines(self, harmonics: int) -> list[tuple[int, int]]:
         """List harmonic and sideband number of each line."""
-        if self.turns:
-            return [(h, 0) for h in range(1, harmonics + 1)] + [(0, k) for k in range(1, self.turns + 1)]
+        if self.cage:
+            return [(h, 0) for h in range(1, harmonics + 1)] + [(0, k) for k in range(1, TURNS + 1)]
         beside = range(-self.sidebands, self.sidebands + 1)
         return [(h, k) for h in range(1, harmonics + 1) for k in beside]
 
@@ -118,7 +120,24 @@ class Candidate:
         """Tell which orders are its harmonics, or sidebands of these that its fault may have."""
         own = self.pattern
         found = mark_explained(orders, self.order / own.divided, own.sideband, own.explained, resolution)
-        return found | _on_turns(orders, own, resolution)
+        if own.cage:
+            multiple = np.clip(np.round(orders / own.sideband), 1, TURNS)
+            found |= np.abs(orders - multiple * own.sideband) <= reach(orders, resolution)
+        return found
+
+    def stated(self, chance: float) -> tuple[float, float]:
+        """Give the order that shows the fault, and the same from bearing data, [-].
+
+        It is that of the cage where the harmonics of its own prove nothing.
+
+        Parameters
+        ----------
+        chance : float
+            Evidence from which lines are no chance, [nat].
+        """
+        if self.pattern.cage and self.alone < chance:
+            return self.pattern.sideband, self.pattern.cage
+        return self.order, self.pattern.order
 
 
 @dataclass(frozen=True)
@@ -167,22 +186,6 @@ def fault_patterns(orders: FaultFrequencies) -> tuple[Pattern, ...]:
     return tuple(each for each in several if not isnan(each.order + each.sideband))
 
 
-def with_turns(pattern: Pattern) -> Pattern | None:
-    """Give the other pattern of a spall on a rolling element: the cage carries it in and out of the load.
-
-    Balls spin about axes that wander, so that few strikes follow another at 2 BSF and its sidebands are weak,
-    while all of them come and go with the cage.
-    """
-    return replace(pattern, sidebands=0, turns=_TURNS) if pattern.fault == ROLLER else None
-
-
-def _on_turns(orders: Float, pattern: Pattern, resolution: float) -> Bool:
-    """Tell which orders are multiples of that of the sidebands, where these belong to a pattern."""
-    multiple = np.clip(np.round(orders / pattern.sideband), 1, pattern.turns or 1)
-    near = np.abs(orders - multiple * pattern.sideband) <= reach(orders, resolution)
-    return np.asarray(near & (pattern.turns > 0), np.bool_)
-
-
 def comb_score(
     tracked: Float,
     orders: FaultFrequencies,
@@ -218,15 +221,10 @@ def comb_score(
     inside = ((-known, known),)
     outside = tuple(each for each in ((slowest, -known), (known, fastest)) if each[0] < each[1])
     lay = partial(_lay, spectrum=beside, shaft_frequency=shaft_frequency, rate=rate, settings=settings)
-
-    def here(each: Pattern) -> Candidate:
-        shared = rate / _PATTERNS_OF_ROLLERS if each.fault == ROLLER else rate
-        return lay(each, inside, settings.speed_uncertainty, rate=shared, with_rival=True)
-
     neighbours = tuple(lay(each, inside, settings.speed_uncertainty) for each in others)
     return FaultLines(
         spectrum=_up_to(wide, high),
-        candidates=_with_turns(tuple(map(here, patterns)), here),
+        candidates=tuple(lay(each, inside, settings.speed_uncertainty, with_rival=True) for each in patterns),
         strongest_order=strongest[0],
         strongest_level=strongest[1],
         elsewhere=tuple(lay(each, outside, settings.speed_doubt) for each in patterns) if outside else (),
@@ -313,26 +311,6 @@ def over_noise(spectrum: OrderSpectrum) -> Float:
     return np.asarray(_MEDIAN_OVER_MEAN * 10.0 ** (0.1 * spectrum.level), np.float64)
 
 
-def _with_turns(
-    candidates: tuple[Candidate, ...], lay: Callable[[Pattern], Candidate]
-) -> tuple[Candidate, ...]:
-    """Lay the other pattern of a rolling element, too, and keep the surer one.
-
-    The cage brings other strikes into the load as well, those of slots in the rings among them: its turns are
-    those of a rolling element only where no other part has its lines.
-    """
-    if any(each.score >= each.threshold for each in candidates if each.pattern.fault != ROLLER):
-        return candidates
-
-    def surer(each: Candidate) -> Candidate:
-        other = with_turns(each.pattern)
-        if other is None:
-            return each
-        return max(each, lay(other), key=lambda candidate: candidate.evidence)
-
-    return tuple(map(surer, candidates))
-
-
 def _lay(
     pattern: Pattern,
     ranges: tuple[tuple[float, float], ...],
@@ -356,13 +334,8 @@ def _lay(
     deviation = np.concatenate([np.arange(low, high, step / pattern.order) for low, high in ranges])
     trial = pattern.order * (1.0 + deviation)
     power = over_noise(spectrum)
-    scales, apart = [np.zeros(len(trial))], 1.0
-    if pattern.turns:
-        width = max(high for _, high in ranges)
-        shift = 0.5 * resolution / (pattern.turns * pattern.sideband)
-        scales = [np.full(len(trial), each) for each in np.arange(-width, width + shift, shift)]
-        apart = max(1.0, PLACES_PER_RESOLUTION * width / shift)
-    elif speed_error > 0.0 and pattern.sidebands:
+    scales = [np.zeros(len(trial))]
+    if speed_error > 0.0 and pattern.sidebands:
         scales.append(np.clip(deviation, -speed_error, speed_error))
     sums = []
     for scale in scales:
@@ -376,8 +349,7 @@ def _lay(
     order, total = float(trial[best]), float(summed[which, best])
     fitted = replace(pattern, sideband=float(pattern.sideband * (1.0 + scales[which][best])))
     count = len(places)
-    several = apart if pattern.turns else len(scales)
-    width = pattern.order * several * sum(high - low for low, high in ranges)
+    width = pattern.order * len(scales) * sum(high - low for low, high in ranges)
     independent = max(1.0, PLACES_PER_RESOLUTION * width * harmonics / resolution)
     sure = evidence(total, count, independent * len(FAULTS))
     score = float(10.0 * np.log10(max(1.0, total / (count - 1))))
@@ -386,20 +358,14 @@ def _lay(
         return Candidate(fitted, order, score, threshold, sure, Rival(), ())
     weigh = partial(evidence_at, power, spectrum, independent)
     alone, otherwise = sure, -np.inf
-    if pattern.sidebands or pattern.turns:
+    if pattern.sidebands:
         alone = weigh(order * np.arange(1.0, harmonics + 1.0))
         rivals = [(order, pattern.other_sideband)] if pattern.other_sideband else []
         rivals += [(order + side * fitted.sideband, fitted.sideband) for side in (-1.0, 1.0)]
         otherwise = max(weigh(each * places[:, 0] + side * places[:, 1]) for each, side in rivals)
     known = mark_explained(
         spectrum.order, order / pattern.divided, fitted.sideband, pattern.explained, resolution
-    ) | _on_turns(spectrum.order, fitted, resolution)
-    lines = []
-    for h, k in places.tolist():
-        where = h * order + k * fitted.sideband
-        found, level = line_at(spectrum, where, float(reach(where, resolution)))
-        expected = h * pattern.order + k * pattern.sideband
-        lines.append(Line(_name(pattern, h, k), found, expected, found * shaft_frequency, level))
+    )
     return Candidate(
         pattern=fitted,
         order=order,
@@ -407,11 +373,29 @@ def _lay(
         threshold=threshold,
         evidence=sure,
         alone=alone,
-        odd=weigh(order * np.array(_ODD)),
+        odd=weigh(order * np.array(ODD)),
         otherwise=otherwise,
         rival=strongest_rival(spectrum, power, known, harmonics) if sure > 0.0 and with_rival else Rival(),
-        lines=tuple(line for line in lines if line.level >= LINE_LEVEL),
+        lines=lines_of(fitted, order, pattern, spectrum, shaft_frequency, harmonics),
     )
+
+
+def lines_of(
+    fitted: Pattern,
+    order: float,
+    nominal: Pattern,
+    spectrum: OrderSpectrum,
+    shaft_frequency: float,
+    harmonics: int,
+) -> tuple[Line, ...]:
+    """List the lines of a pattern, at the place where it fits, that stand out one by one."""
+    lines = []
+    for h, k in fitted.lines(harmonics):
+        where = h * order + k * fitted.sideband
+        found, level = line_at(spectrum, where, float(reach(np.asarray(where), spectrum.resolution)))
+        expected = h * nominal.order + k * nominal.sideband
+        lines.append(Line(_name(fitted, h, k), found, expected, found * shaft_frequency, level))
+    return tuple(line for line in lines if line.level >= LINE_LEVEL)
 
 
 def _beside_shaft(spectrum: OrderSpectrum, settings: MonitorSettings) -> OrderSpectrum:

@@ -86,6 +86,6 @@ def _strikes(
     if surer is not None:
         power[surer.explains(places, spectrum.resolution)] = 0.0
     harmonics = np.maximum(power, 0.0)
-    if not candidate.pattern.turns:
+    if not candidate.pattern.cage:
         harmonics = harmonics.reshape(settings.strike_harmonics, -1).sum(axis=1)
     return float(np.sqrt(harmonics.sum() - harmonics.max()))

@@ -49,7 +49,11 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
     passed = bool(striking) and best.score >= best.threshold
     stranger = _stranger(found, settings)
     if not passed and stranger is None:
-        faint = [each for each in found.candidates if is_faint_fault(each, settings)]
+        faint = [
+            each
+            for each in found.candidates
+            if is_faint_fault(each, settings) and not _contradiction(found, each, None, settings)
+        ]
         if faint:
             best, passed = max(faint, key=lambda candidate: candidate.evidence), True
     contradiction = _contradiction(found, best, stranger, settings)
@@ -128,7 +132,7 @@ def is_same_comb(other: Candidate, best: Candidate) -> bool:
     if other.order > _MULTIPLE * best.order and best.odd <= 0.0 and other.evidence > best.evidence:
         return False
     own = best.pattern
-    if own.turns and is_related(other.order, own.sideband):
+    if own.cage and is_related(other.order, own.sideband):
         return True
     return is_related(other.order, best.order) or is_related(other.order, best.order / own.divided)
 
@@ -219,16 +223,16 @@ def temperature_state(temperature: float, heating: float, settings: MonitorSetti
 
 
 def _fault_sentence(best: Candidate, shaft_frequency: float, settings: MonitorSettings) -> str:
-    own = best.pattern
-    deviation = best.order / own.order - 1.0
-    with_cage = (
-        f" strikes come and go with the cage, {own.sideband * shaft_frequency:.2f} Hz;" if own.turns else ""
-    )
+    own, (order, expected) = best.pattern, best.stated(-log(settings.false_alarm_rate))
+    deviation = order / expected - 1.0
+    symbol = own.sideband_symbol if expected == own.cage else own.symbol
     sentence = (
-        f"{own.fault} fault:{with_cage} {own.symbol} found at {best.order * shaft_frequency:.2f} Hz, "
-        f"{own.order * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
+        f"{own.fault} fault: {symbol} found at {order * shaft_frequency:.2f} Hz, "
+        f"{expected * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )
+    if own.cage:
+        sentence += "; its strikes come and go with the cage"
     if not strikes(best, settings):
         sentence += f", faint: its harmonics but the loudest make {best.strikes:.1%} of the power in its band"
     if settings.speed_uncertainty > 0.0:

@@ -206,6 +206,7 @@ def in_words(verdict: str) -> str:
         "cup": "outer ring (cup)",
         "cone": "inner ring (cone)",
         "roller": "roller",
+        "cage": "the cage",
         "hot_box": "hot axlebox",
         "not_diagnosable": "cannot tell",
         "waiting": "too short",
