@@ -126,8 +126,8 @@ def _least_of_halves(each: Candidate, tracked: Float, settings: MonitorSettings)
 
 # of the terms of `Grounds`; `python -m evidence.measured.confidence` prints them and judges them
 WEIGHTS: dict[str, tuple[float, ...]] = {
-    PART: (0.42, 0.11, 1.32, 0.41, -0.2, -0.52),
-    HEALTHY: (0.44, 0.0, -0.12, 0.0, 0.0, 0.0),
+    PART: (0.39, 0.07, 1.31, 0.45, -0.2, -0.54),
+    HEALTHY: (0.45, 0.0, -0.11, 0.0, 0.0, 0.0),
     UNEXPLAINED: (1.92, 0.22, 0.0, 0.54, 0.0, 0.0),
 }
 
