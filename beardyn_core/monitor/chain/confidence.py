@@ -20,7 +20,7 @@ from beardyn_core.monitor.chain.fault_lines import (
     without_shaft_lines,
 )
 from beardyn_core.monitor.chain.inputs import MonitorSettings
-from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict
+from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strikes
 from beardyn_core.monitor.features import order_spectrum
 
 PART = "part"  # any part that is named
@@ -54,7 +54,7 @@ class Grounds(NamedTuple):
 def grounds_of(
     found: FaultLines, verdict: Verdict, tracked: Float, settings: MonitorSettings
 ) -> Grounds | None:
-    """Measure what a verdict rests on; ``None`` of one that has no confidence.
+    """Measure what a verdict rests on; ``None`` of one that has no confidence, a faint fault among them.
 
     Parameters
     ----------
@@ -63,6 +63,8 @@ def grounds_of(
     """
     if verdict.name in FAULTS:
         best = verdict.best
+        if not strikes(best, settings):
+            return None  # hardly any of the records has one
         order, expected = best.stated(-log(settings.false_alarm_rate))
         return Grounds(
             comb=best.score - best.threshold,
