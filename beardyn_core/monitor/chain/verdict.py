@@ -125,11 +125,13 @@ def _contradiction(
 def is_same_comb(other: Candidate, best: Candidate) -> bool:
     """Tell whether a comb is that of a candidate under another name.
 
-    A comb of a multiple of its order is, where lines between show that the order itself is there.
+    A comb of a multiple of its order is, where lines between show that the order itself is there: these are
+    sure, or with them it strikes harder.
     """
     if other.pattern.fault != COMB:
         return other.pattern.fault == best.pattern.fault and is_related(other.order, best.order)
-    if other.order > _MULTIPLE * best.order and best.odd <= 0.0 and other.evidence > best.evidence:
+    alone = other.order > _MULTIPLE * best.order and other.evidence > best.evidence
+    if alone and best.odd <= 0.0 and not best.strikes > other.strikes:
         return False
     own = best.pattern
     if own.cage and is_related(other.order, own.sideband):
