@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain import MonitorResult
+from beardyn_core.monitor.chain.ambiguity import CAGE
 
 WIDTH_PX, HEIGHT_PX, DPI = 1200, 420, 100
 _PARTS = (("cup", "BPFO", "#4C72B0"), ("cone", "BPFI", "#DD8452"), ("roller", "2 BSF", "#55A868"))
@@ -41,7 +42,8 @@ def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencie
     order, level = result.spectrum.order, np.maximum(result.spectrum.level, _FLOOR)
     fundamentals = {"cup": orders.bpfo, "cone": orders.bpfi, "roller": 2.0 * orders.bsf}
     for part, symbol, colour in _PARTS:
-        step = result.fault_order if part == result.verdict else fundamentals[part]
+        called = part == result.verdict and CAGE not in result.also_fits
+        step = result.fault_order if called else fundamentals[part]
         if not np.isfinite(step):
             continue  # an order that the bearing data do not give
         for harmonic in range(1, int(order[-1] / step) + 1):

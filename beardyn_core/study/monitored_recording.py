@@ -15,6 +15,7 @@ from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
+from beardyn_core.monitor.chain.ambiguity import CAGE
 from beardyn_core.monitor.severity import Severity
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.record.description import RunDescription
@@ -114,8 +115,8 @@ class Finding:
 
     @property
     def symbol(self) -> str:
-        """``BPFO``, ``BPFI`` or ``2 BSF``; '' without a fault."""
-        return FAULT_SYMBOLS.get(self.verdict, "")
+        """``BPFO``, ``BPFI``, ``2 BSF``, or ``FTF`` where the cage alone shows it; '' without a fault."""
+        return "FTF" if CAGE in self.also_fits else FAULT_SYMBOLS.get(self.verdict, "")
 
     @property
     def deviation(self) -> float:
@@ -183,7 +184,8 @@ class Tally:
         self.latest: Finding | None = None
         self.analyses = 0
         self._counts: Counter[str] = Counter()
-        self._confidences: dict[str, float] = defaultdict(float)  # sums
+        self._confidences: dict[str, float] = defaultdict(float)  # sums of those that are known
+        self._confident: Counter[str] = Counter()
         self._faults: dict[str, deque[Finding]] = defaultdict(lambda: deque(maxlen=_LATEST))
         self._last: dict[str, Finding] = {}  # the one that came last at the end
 
@@ -195,7 +197,9 @@ class Tally:
             self._counts[finding.verdict] += 1
             self._last.pop(finding.verdict, None)
             self._last[finding.verdict] = finding
-            self._confidences[finding.verdict] += finding.confidence
+            if isfinite(finding.confidence):
+                self._confidences[finding.verdict] += finding.confidence
+                self._confident[finding.verdict] += 1
             if finding.is_fault:
                 self._faults[finding.verdict].append(finding)
 
@@ -213,7 +217,7 @@ class Tally:
         agreeing = max(counts.values())
         verdict = [name for name in self._last if counts.get(name) == agreeing][-1]
         # an analysis that says something else, or that it cannot tell, does not support the verdict
-        confidence = self._confidences[verdict] / total
+        confidence = self._confidences[verdict] / total if self._confident[verdict] else nan
         return Conclusion(
             self._with_spall(replace(self._last[verdict], confidence=confidence)), agreeing, total
         )

@@ -58,15 +58,26 @@ def test_with_harmonics_of_its_own_it_is_no_cage(seed: int) -> None:
 
 @SEEDS
 def test_harmonics_on_multiples_of_the_cage_are_none_of_their_own(seed: int) -> None:
-    """2 BSF lies near 16 FTF in many bearings, within the tolerance: pulses of the cage reach so far."""
+    """2 BSF lies near 16 FTF in many bearings, within the tolerance, and BPFO at that of all rollers."""
     assert 2.0 * ORDERS.bsf == pytest.approx(16.0 * ORDERS.ftf, rel=0.02)
     found = _heard(_pulses(ORDERS.ftf, 6.0, 1.0 / 12.0), seed)
-    assert found.verdict != "roller" or found.also_fits == ("cage",), found.reason
+    said = (found.verdict, found.also_fits)
+    assert said in (("roller", ("cage",)), ("unexplained", ())), found.reason
 
 
 @SEEDS
-@pytest.mark.parametrize("width", [0.03, 0.2])
-@pytest.mark.parametrize("order", [ORDERS.ftf / 3.0, 0.1445, ORDERS.ftf / 2.0, ORDERS.ftf / 5.0])
+@pytest.mark.parametrize("width", [0.02, 0.05, 0.2])
+@pytest.mark.parametrize(
+    "order",
+    [
+        ORDERS.ftf / 3.0,
+        0.1445,
+        ORDERS.ftf / 2.0,
+        ORDERS.ftf / 5.0,
+        ORDERS.ftf / 7.0,
+        1.012 * ORDERS.ftf / 7.0,
+    ],
+)
 def test_rail_joints_whose_multiples_are_those_of_the_cage_are_no_fault(
     order: float, width: float, seed: int
 ) -> None:
@@ -85,15 +96,16 @@ def test_a_comb_of_a_multiple_of_the_cage_is_no_rolling_element(multiple: int, s
 @SEEDS
 def test_a_cup_whose_strikes_come_and_go_with_the_cage_is_a_cup(seed: int) -> None:
     found = _heard(_ball(4.0) * _pulses(ORDERS.bpfo, 0.6, 1.0 / 12.0), seed)
-    assert found.verdict not in ("cone", "roller"), found.reason
+    assert found.verdict == "cup", found.reason
 
 
 @SEEDS
 def test_at_a_speed_that_is_not_well_known_or_beside_a_cage_as_fast_it_proves_nothing(seed: int) -> None:
     assert _heard(_ball(2.0), seed, replace(SETTINGS, speed_uncertainty=0.01)).verdict == "roller"
     assert _heard(_ball(2.0), seed, replace(SETTINGS, speed_uncertainty=0.03)).verdict not in PARTS
-    beside = replace(ORDERS, ftf=1.003 * ORDERS.ftf, bpfo=6.1, bpfi=8.2, bsf=2.9)
-    assert _heard(_ball(2.0), seed, replace(SETTINGS, neighbours=(beside,))).verdict not in PARTS
+    for ftf in (1.003 * ORDERS.ftf, np.nan):
+        beside = replace(ORDERS, ftf=ftf, bpfo=6.1, bpfi=8.2, bsf=2.9)
+        assert _heard(_ball(2.0), seed, replace(SETTINGS, neighbours=(beside,))).verdict not in PARTS
 
 
 def test_bearings_whose_cage_is_not_known_are_scored_as_without_it() -> None:

@@ -110,3 +110,14 @@ def test_the_confidence_of_a_run_is_the_mean_over_all_analyses_and_others_count_
     assert run_of(*several) == pytest.approx((0.9 + 0.7) / 3)
     assert isnan(run_of(of("not_diagnosable", nan)))
     assert isnan(run_of(of("cup", nan)))  # of an algorithm that states none
+
+
+def test_analyses_without_a_confidence_count_as_none_and_take_it_from_no_run() -> None:
+    sure = [Finding("cone", "", float(at), confidence=0.9) for at in range(9)]
+    faint = [Finding("cone", "", 9.0)]
+    found = conclude([*sure, *faint]).finding
+    assert found is not None
+    assert found.confidence == pytest.approx(0.81)
+    alone = conclude(faint).finding
+    assert alone is not None
+    assert np.isnan(alone.confidence)

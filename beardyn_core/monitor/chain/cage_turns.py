@@ -35,7 +35,7 @@ from beardyn_core.monitor.features import OrderSpectrum
 
 _WELL_KNOWN = 0.01  # uncertainty of a speed at which cages of two bearings are told apart, [-]
 _SHARE = 0.5  # of the false alarms of a part, for its second pattern
-_PARTS = (2, 3, 4, 5)  # what comes back at such a part of the order, as rail joints may, is no cage
+_PARTS = (2, 3, 4, 5, 7)  # what comes back at such a part of the order, as rail joints may, is no cage
 _MULTIPLES = (2, 3)  # nor is a comb of a multiple: lines between its own must be there
 _AS_SURE = 0.6  # of the evidence of its multiples, from which lines between them are there as well
 _FEWEST = 3  # harmonics of 2 BSF that lie on no multiple of FTF
@@ -66,7 +66,7 @@ def score_with_turns(
     if any(each.score >= each.threshold for each in found.candidates if each.pattern.fault != ROLLER):
         return found
     apart = 2.0 * (settings.tolerance + settings.speed_uncertainty)
-    if any(abs(each.ftf / pattern.sideband - 1.0) <= apart for each in settings.neighbours):
+    if any(not abs(each.ftf / pattern.sideband - 1.0) > apart for each in settings.neighbours):
         return found
     turned = _laid(pattern, without_shaft_lines(found.spectrum), shaft_frequency, settings)
     if turned is None:

@@ -121,8 +121,9 @@ class Candidate:
         own = self.pattern
         found = mark_explained(orders, self.order / own.divided, own.sideband, own.explained, resolution)
         if own.cage:
-            multiple = np.clip(np.round(orders / own.sideband), 1, TURNS)
-            found |= np.abs(orders - multiple * own.sideband) <= reach(orders, resolution)
+            multiple = np.maximum(1.0, np.round(orders / own.sideband))
+            near = reach(orders, resolution)
+            found |= (np.abs(orders - multiple * own.sideband) <= near) & (near < 0.25 * own.sideband)
         return found
 
     def stated(self, chance: float) -> tuple[float, float]:

@@ -18,6 +18,7 @@ UNKNOWN, NORMAL, WARM, HOT = "unknown", "normal", "warm", "hot"
 _RPM = 60.0  # of a hertz
 NEIGHBOUR = "another bearing on this shaft explains more"
 _SURER = 1.6  # evidence of other sidebands over its own, from which a fault is doubtful: sidebands scatter
+_HARDER = 1.2  # strikes of a comb with the lines between those of another over its own, [-]
 _MULTIPLE = 1.5  # over which an order is a multiple of another, [-]
 _NO_DOUBT = 0.01  # of an order against bearing data, [-]
 
@@ -131,10 +132,11 @@ def is_same_comb(other: Candidate, best: Candidate) -> bool:
     if other.pattern.fault != COMB:
         return other.pattern.fault == best.pattern.fault and is_related(other.order, best.order)
     alone = other.order > _MULTIPLE * best.order and other.evidence > best.evidence
-    if alone and best.odd <= 0.0 and not best.strikes > other.strikes:
+    harder = not best.pattern.sidebands and best.strikes > _HARDER * other.strikes
+    if alone and best.odd <= 0.0 and not harder:
         return False
     own = best.pattern
-    if own.cage and is_related(other.order, own.sideband):
+    if own.cage and is_related(other.order, own.sideband, most=round(other.order / own.sideband)):
         return True
     return is_related(other.order, best.order) or is_related(other.order, best.order / own.divided)
 
@@ -152,7 +154,7 @@ def _verdict_on(
     What is weak and has the order of another bearing at this very speed, or of nothing known, may come from
     a bearing or a gear next to this one: then it cannot be told whether this bearing is healthy.
     """
-    order, speed = stranger.order, stretch.shaft_frequency
+    (order, expected), speed = stranger.stated(-log(settings.false_alarm_rate)), stretch.shaft_frequency
     patterns = [each.pattern for each in found.candidates]
     fits = explanations(order, patterns, speed, settings.speed_doubt, stranger.pattern.fault)
     own = any(not each.bearing for each in fits)
@@ -165,7 +167,10 @@ def _verdict_on(
         f"a comb of order {order:.3f} ({order * speed:.2f} Hz) strikes with {share:.2g} times the mean power"
     )
     if contradiction:
-        reason = f"{strike} near {stranger.pattern.symbol}, but {contradiction}; "
+        near = (
+            stranger.pattern.sideband_symbol if expected == stranger.pattern.cage else stranger.pattern.symbol
+        )
+        reason = f"{strike} near {near}, but {contradiction}; "
     else:
         reason = (
             f"{strike} and fits no part of this bearing at the stated {_RPM * speed:.5g} rpm; "

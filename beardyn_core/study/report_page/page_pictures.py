@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.chain import MonitorResult
+from beardyn_core.monitor.chain.ambiguity import CAGE
 from beardyn_core.study.inspection import Inspection
 from beardyn_core.study.report_page.file_levels import FileLevel
 from beardyn_core.study.report_page.identity import loudest_axis, shaft_frequency, signal_of
@@ -78,7 +79,10 @@ def _labelled_lines(inspection: Inspection, result: MonitorResult) -> list[_Mark
     for part in sorted(_PARTS, key=lambda part: part != result.verdict):
         symbol, colour, style = _PARTS[part]
         is_called = part == result.verdict
-        step, count = (result.fault_order, _HARMONICS) if is_called else (fundamentals[part], 2)
+        shown = (
+            is_called and CAGE not in result.also_fits
+        )  # else the cage alone shows it, which is marked below
+        step, count = (result.fault_order, _HARMONICS) if shown else (fundamentals[part], 2)
         if isfinite(step):
             found += _multiples(step, count, symbol, colour, style)
     if isfinite(result.comb_order):
