@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain import MonitorResult
 from beardyn_core.monitor.chain.ambiguity import CAGE
+from beardyn_core.monitor.chain.fault_lines import TURNS
 
 WIDTH_PX, HEIGHT_PX, DPI = 1200, 420, 100
 _PARTS = (("cup", "BPFO", "#4C72B0"), ("cone", "BPFI", "#DD8452"), ("roller", "2 BSF", "#55A868"))
@@ -49,6 +50,10 @@ def _draw(axes: Axes, label: str, result: MonitorResult, orders: FaultFrequencie
         for harmonic in range(1, int(order[-1] / step) + 1):
             name = f"{part}, {symbol}" if harmonic == 1 else None
             axes.axvline(harmonic * step, color=colour, linewidth=0.9, alpha=0.6, label=name)
+    if CAGE in result.also_fits:
+        for multiple in range(1, TURNS + 1):
+            name = "roller or cage, FTF" if multiple == 1 else None
+            axes.axvline(multiple * result.fault_order, color=_COMB, linewidth=0.9, label=name)
     if np.isfinite(result.comb_order):
         for harmonic in range(1, int(order[-1] / result.comb_order) + 1):
             name = f"fits no part: order {result.comb_order:.3f}" if harmonic == 1 else None
