@@ -219,6 +219,7 @@ class Monitor:
         self._next_ns: int | None = None
         self._analysed_ns = -1
         self._sized = _Sized("", 0.0, 0, unmeasured(""))
+        self._changed_ns: int | None = None  # when a speed that is stated as constant was found to change
 
     def take(self, part: MonitorInput) -> chain.MonitorResult | None:
         """Add the samples of all streams, and give a new result when one is due."""
@@ -302,7 +303,7 @@ class Monitor:
                 stream.clear()
                 self._behind[name] = 0
         self._temperatures = [each for each in self._temperatures if each[0] < from_ns]
-        self._next_ns, self._analysed_ns = None, -1
+        self._next_ns, self._analysed_ns, self._changed_ns = None, -1, None
 
     def push_load(self, time_ns: Int, vertical: Float) -> None:
         """Add samples of the vertical load, [N]."""
@@ -382,6 +383,7 @@ class Monitor:
             earlier=tuple(self._levels),
         )
         result = chain.answer_of(self.algorithm, stretch, self.orders, self.roller_count, self.settings)
+        result = self._at_a_speed_that_changed(result)
         if self.bearing is not None and result.verdict in chain.FAULTS:
             if self._is_size_due(result.verdict, whole, last):
                 severity = _severity_of(
@@ -392,6 +394,23 @@ class Monitor:
         self._levels.append(Levels(result.rms, result.kurtosis, result.crest, stretch.shaft_frequency))
         del self._levels[:-_REMEMBERED]
         return result
+
+    def _at_a_speed_that_changed(self, result: chain.MonitorResult) -> chain.MonitorResult:
+        """Leave open what is healthy at a constant speed that was found to change earlier in the stream.
+
+        It is found only while strikes are loud and their rate changes evenly; where it changes otherwise,
+        or the train stands, lines are smeared and nothing says so.
+        """
+        if np.isfinite(result.speed_change):
+            self._changed_ns = result.end_ns
+        if self._changed_ns is None or result.verdict != chain.HEALTHY:
+            return result
+        ago = 1e-9 * (result.end_ns - self._changed_ns)
+        reason = (
+            f"the speed, stated as constant, was found to change {ago:.3g} s before; give a tachometer or a "
+            f"speed channel; {result.reason}"
+        )
+        return replace(result, verdict=chain.NOT_DIAGNOSABLE, reason=reason, confidence=np.nan, grounds=None)
 
     def _is_size_due(self, fault: str, whole: Legs, end_ns: int) -> bool:
         """Tell whether a spall is to be measured: another one, on a longer stretch, or on a new one.

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.monitor.chain import REFERENCE, Stretch
+from beardyn_core.monitor.chain import REFERENCE, MonitorResult, Stretch
+from beardyn_core.monitor.streaming import Monitor
 from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal
 
 STATED = replace(SETTINGS, speed_uncertainty=0.03)
@@ -43,3 +44,25 @@ def test_noise_and_a_steady_speed_are_not_doubted(seed):
 def test_a_speed_that_is_counted_is_not_doubted():
     # what a tachometer counts is the speed, whatever else strikes at a rate that changes
     assert "not constant" not in _analysed("cup", (17.0, 22.0), settings=SETTINGS).reason
+
+
+def test_a_constant_speed_once_disproved_is_no_longer_believed():
+    """Where the speed changes otherwise, or the train stands, lines are smeared and nothing says so."""
+    changes = [np.nan, 0.1, np.nan, np.nan]
+    said = ["healthy", "not_diagnosable", "healthy", "cup"]
+
+    def algorithm(stretch, orders, roller_count, settings):
+        return MonitorResult(said.pop(0), "as told", stretch.end_ns, 0.6, speed_change=changes.pop(0))
+
+    def push_second(monitor, second):
+        time_ns = np.arange(second * 1_000_000_000, (second + 1) * 1_000_000_000, 100_000)
+        monitor.push_vibration(time_ns, np.random.default_rng(second).normal(size=(len(time_ns), 1)))
+        monitor.push_shaft(time_ns, np.asarray(2.0 * np.pi * 20.0 * 1e-9 * time_ns, np.float64))
+        return monitor.result()
+
+    monitor = Monitor(ORDERS, ROLLERS, settings=STATED, algorithm=algorithm)
+    found = [push_second(monitor, second) for second in range(4)]
+    assert [each.verdict for each in found] == ["healthy", "not_diagnosable", "not_diagnosable", "cup"]
+    assert found[2].reason.startswith("the speed, stated as constant, was found to change 1 s before")
+    assert np.isnan(found[2].confidence)
+    assert found[3].confidence == 0.6

@@ -29,14 +29,25 @@ algorithm_by_name finds an algorithm by its name ``module:function``, and checks
 
 from beardyn_core.monitor.chain.algorithm_by_name import algorithm_named, answer_of
 from beardyn_core.monitor.chain.chain import REFERENCE, Algorithm, Chain
+from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
 from beardyn_core.monitor.chain.explanations import Explanation
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, Line
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
 from beardyn_core.monitor.chain.result import VERDICTS, MonitorResult
-from beardyn_core.monitor.chain.verdict import Verdict
+from beardyn_core.monitor.chain.verdict import HEALTHY, Verdict
 
-__all__ = ["FAULTS", "REFERENCE", "VERDICTS", "Algorithm", "Band", "Chain", "Explanation"]
+__all__ = [
+    "FAULTS",
+    "HEALTHY",
+    "NOT_DIAGNOSABLE",
+    "REFERENCE",
+    "VERDICTS",
+    "Algorithm",
+    "Band",
+    "Chain",
+    "Explanation",
+]
 __all__ += [
     "FaultLines",
     "Line",

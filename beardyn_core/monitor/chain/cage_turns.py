@@ -33,7 +33,7 @@ from beardyn_core.monitor.chain.fault_lines import (
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.features import OrderSpectrum
 
-_WELL_KNOWN = 0.01  # uncertainty of a speed at which cages of two bearings are told apart, [-]
+WELL_KNOWN = 0.01  # uncertainty of a speed at which cages of two bearings are told apart, [-]
 _SHARE = 0.5  # of the false alarms of a part, for its second pattern
 _PARTS = (2, 3, 4, 5, 7)  # what comes back at such a part of the order, as rail joints may, is no cage
 _MULTIPLES = (2, 3)  # nor is a comb of a multiple: lines between its own must be there
@@ -51,8 +51,8 @@ def score_with_turns(
     """Score every fault as `comb_score` does, rolling elements by the turns of the cage as well.
 
     The cage carries other strikes, too, those of slots in the rings among them: its turns count where neither
-    cup nor cone passes its threshold. Cages of all bearings turn about as fast, so that the speed must be
-    well known, and no neighbour's cage as fast.
+    cup nor cone passes its threshold. Cages of all bearings turn about as fast: where the speed is not well
+    known, or a neighbour's cage as fast, it may be the cage of another bearing, and is given as `turned`.
 
     References
     ----------
@@ -61,16 +61,17 @@ def score_with_turns(
     """
     found = comb_score(tracked, orders, roller_count, shaft_frequency, settings)
     pattern = next((each for each in fault_patterns(orders) if each.fault == ROLLER), None)
-    if pattern is None or not pattern.sideband > 0.0 or settings.speed_uncertainty > _WELL_KNOWN:
+    if pattern is None or not pattern.sideband > 0.0:
         return found
     if any(each.score >= each.threshold for each in found.candidates if each.pattern.fault != ROLLER):
-        return found
-    apart = 2.0 * (settings.tolerance + settings.speed_uncertainty)
-    if any(not abs(each.ftf / pattern.sideband - 1.0) > apart for each in settings.neighbours):
         return found
     turned = _laid(pattern, without_shaft_lines(found.spectrum), shaft_frequency, settings)
     if turned is None:
         return found
+    apart = 2.0 * (settings.tolerance + settings.speed_uncertainty)
+    beside = any(not abs(each.ftf / pattern.sideband - 1.0) > apart for each in settings.neighbours)
+    if beside or settings.speed_uncertainty > WELL_KNOWN:
+        return replace(found, turned=(turned,))
 
     def surer(each: Candidate) -> Candidate:
         return turned if each.pattern.fault == ROLLER and turned.evidence > each.evidence else each

@@ -124,8 +124,10 @@ class Chain:
                 found, verdict, lined = clockwork, heard, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        change = np.nan
         if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
-            verdict = _doubt_speed(verdict, speed_drift(tracked, settings))
+            drift = speed_drift(tracked, settings)
+            verdict, change = _doubt_speed(verdict, drift), drift.change
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
@@ -177,6 +179,7 @@ class Chain:
             crest=levels.crest,
             rms_rise=rise(levels, stretch.earlier),
             shaft_frequency=speed,
+            speed_change=change,
             revolutions=stretch.revolutions,
             load=stretch.load,
             temperature=stretch.temperature,

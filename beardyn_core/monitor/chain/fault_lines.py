@@ -153,11 +153,12 @@ class FaultLines:
     elsewhere: A[tuple[Candidate, ...], "one for each of `FAULTS`, at other speeds than the stated one"] = ()
     neighbours: A[tuple[Candidate, ...], "faults of other bearings on the shaft"] = ()
     combs: A[tuple[Candidate, ...], "evenly spaced lines of any order, and parts of that order"] = ()
+    turned: A[tuple[Candidate, ...], "a rolling element by the turns of a cage that may be another's"] = ()
 
     @property
     def every(self) -> tuple[Candidate, ...]:
         """All of them."""
-        return (*self.candidates, *self.elsewhere, *self.neighbours, *self.combs)
+        return (*self.candidates, *self.elsewhere, *self.neighbours, *self.combs, *self.turned)
 
     def with_each(self, change: Callable[[Candidate], Candidate]) -> FaultLines:
         """Change every candidate in the same way."""
@@ -167,6 +168,7 @@ class FaultLines:
             elsewhere=tuple(map(change, self.elsewhere)),
             neighbours=tuple(map(change, self.neighbours)),
             combs=tuple(map(change, self.combs)),
+            turned=tuple(map(change, self.turned)),
         )
 
 

@@ -32,7 +32,7 @@ def with_strikes(found: FaultLines, stretch: Stretch, band: Band, settings: Moni
     belong to a part with more evidence do not count for the others.
     """
     found = _measured_in(found, stretch, (band.low, band.high), settings)
-    sure = any(each.score >= each.threshold for each in (*found.candidates, *found.elsewhere))
+    sure = any(each.score >= each.threshold for each in (*found.candidates, *found.elsewhere, *found.turned))
     octaves = settings.strike_bands if sure or found.combs else ()
     for low, high in octaves:
         high = min(high, settings.usable_share * stretch.rate)

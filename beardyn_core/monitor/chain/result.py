@@ -68,6 +68,9 @@ class MonitorResult:
     crest: A[float, "levels in the usual band, [-]"] = np.nan
     rms_rise: A[float, "over earlier stretches at a like speed, NaN without, [dB]"] = np.nan
     shaft_frequency: A[float, "mean, [Hz]"] = np.nan
+    speed_change: A[
+        float, "of a speed that is stated as constant, by the rate of strikes; NaN where none was found, [-]"
+    ] = np.nan
     revolutions: A[float, "shaft revolutions analysed, [-]"] = 0.0
     load: A[float, "mean vertical load, [N]"] = np.nan
     temperature: A[float, "of the axlebox, NaN when unknown, [K]"] = np.nan

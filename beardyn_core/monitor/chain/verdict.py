@@ -7,6 +7,7 @@ from math import isnan, log
 from typing import Annotated as A
 
 from beardyn_core.base.units import ZERO_CELSIUS
+from beardyn_core.monitor.chain.cage_turns import WELL_KNOWN
 from beardyn_core.monitor.chain.competing_orders import is_related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
 from beardyn_core.monitor.chain.explanations import Explanation, explanations
@@ -66,6 +67,11 @@ def strongest_pattern(found: FaultLines, stretch: Stretch, settings: MonitorSett
         verdict = _verdict_on(stranger, found, best, stretch, settings)
     else:
         verdict = Verdict(HEALTHY, _healthy_sentence(best, contradiction), best)
+        for each in found.turned:
+            is_fault = strikes(each, settings) or is_faint_fault(each, settings)
+            if is_fault and not _contradiction(found, each, None, settings):
+                reason = _turned_sentence(each, stretch.shaft_frequency, settings)
+                verdict = Verdict(NOT_DIAGNOSABLE, reason, best)
     state = temperature_state(stretch.temperature, stretch.heating, settings)
     if state == HOT:
         name = verdict.name if verdict.name in FAULTS else HOT_BOX
@@ -258,6 +264,20 @@ def _healthy_sentence(best: Candidate, contradiction: str) -> str:
             f"{best.strikes:.1%} of the power in its band"
         )
     return f"no fault: {scores}"
+
+
+def _turned_sentence(turned: Candidate, shaft_frequency: float, settings: MonitorSettings) -> str:
+    """Say what comes and goes with a cage, and what would tell whose it is."""
+    sentence = (
+        f"strikes come and go at {turned.pattern.sideband * shaft_frequency:.2f} Hz, with a cage: those of a "
+        "rolling element or of a damaged cage"
+    )
+    if settings.speed_uncertainty > WELL_KNOWN:
+        return (
+            f"{sentence}, of this bearing or of another on the shaft, for the speed is uncertain by "
+            f"{settings.speed_uncertainty:.0%}; give a tachometer, or the speed within {WELL_KNOWN:.0%}"
+        )
+    return f"{sentence}, of this bearing or of its neighbour, whose cages turn as fast"
 
 
 def _hot_sentence(stretch: Stretch) -> str:
