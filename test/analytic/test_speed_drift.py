@@ -46,6 +46,18 @@ def test_a_speed_that_is_counted_is_not_doubted():
     assert "not constant" not in _analysed("cup", (17.0, 22.0), settings=SETTINGS).reason
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_train_that_stops_is_not_healthy_at_a_constant_speed(seed):
+    """The noise of a train that stops falls by 30 dB; strikes are too few to show the change of speed."""
+    time, angle, acceleration = fault_signal(None, seed, speed=(19.2, 19.2))
+    stopping = acceleration * np.maximum(0.03, 1.0 - time / time[-1])[:, None] ** 1.5
+    constant = REFERENCE(Stretch(RATE, stopping, angle, 8e4, 0), ORDERS, ROLLERS, STATED)
+    assert constant.verdict == "not_diagnosable"
+    assert "dB within the stretch, as where a train stops or starts" in constant.reason
+    counted = REFERENCE(Stretch(RATE, stopping, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
+    assert counted.verdict == "healthy"
+
+
 def test_a_constant_speed_once_disproved_is_no_longer_believed():
     """Where the speed changes otherwise, or the train stands, lines are smeared and nothing says so."""
     changes = [np.nan, 0.1, np.nan, np.nan]

@@ -28,7 +28,12 @@ from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
 from beardyn_core.monitor.chain.levels import levels_of, rise
 from beardyn_core.monitor.chain.result import MonitorResult
-from beardyn_core.monitor.chain.speed_drift import Drift, speed_drift
+from beardyn_core.monitor.chain.speed_drift import (
+    LARGEST_LEVEL_CHANGE,
+    Drift,
+    level_change,
+    speed_drift,
+)
 from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
@@ -127,7 +132,10 @@ class Chain:
         change = np.nan
         if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
             drift = speed_drift(tracked, settings)
-            verdict, change = _doubt_speed(verdict, drift), drift.change
+            verdict, change = (
+                _doubt_speed(verdict, drift, level_change(stretch, (band.low, band.high))),
+                drift.change,
+            )
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
@@ -188,14 +196,20 @@ class Chain:
         )
 
 
-def _doubt_speed(verdict: Verdict, drift: Drift) -> Verdict:
-    """Leave open what is healthy at a speed that is stated and not constant."""
-    if np.isnan(drift.change):
+def _doubt_speed(verdict: Verdict, drift: Drift, level: float) -> Verdict:
+    """Leave open what is healthy at a speed that is stated and not constant, by strikes or by level [dB]."""
+    if not np.isnan(drift.change):
+        reason = (
+            f"the speed is not constant: it changes by {100.0 * drift.change:+.0f} % within "
+            f"{drift.revolutions:g} revolutions by the rate of strikes; give a tachometer or a speed channel"
+        )
+    elif level > LARGEST_LEVEL_CHANGE:
+        reason = (
+            f"the level changes by {level:.0f} dB within the stretch, as where a train stops or starts, or a "
+            "signal fails: a constant speed is not believed; give a tachometer or a speed channel"
+        )
+    else:
         return verdict
-    reason = (
-        f"the speed is not constant: it changes by {100.0 * drift.change:+.0f} % within "
-        f"{drift.revolutions:g} revolutions by the rate of strikes; give a tachometer or a speed channel"
-    )
     return replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{reason}; {verdict.reason}")
 
 
