@@ -17,6 +17,7 @@ frames                names of frames, place and orientation in each other, tran
 robot_description     the bearing in its box as URDF with meshes: robot_description, /tf_static, /tf
 scenario              what the load node replays, for one box or several: load, events, what is told of it
 replay                a scenario as an endless stream: loop, seek, cross-fade, its clock, its credit
+source_time           the clock of live load, and stamps that follow it
 live_load             load of the live mode: its messages, low-pass filter, checks, the last value held
 load_node             replays an operation or a CSV as stamped load blocks, within the credit
 load_gate             what comes in as load: checked, counted, queued

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,6 +66,11 @@ class LowPass:
         # the filter works on what differs from the first value: a constant comes through to the bit
         self._rest = self._last = np.zeros(0)
 
+    @property
+    def delay(self) -> float:
+        """Delay of frequencies far below the bandwidth, [s]."""
+        return float(-2.0 * (1.0 / self._poles).real.sum())
+
     def push(self, steps: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Take samples and return the filtered value at the last of them, shape [column].
 
@@ -113,12 +119,14 @@ class _SourceClock:
 
     def __init__(self) -> None:
         self.stamp_ns: int | None = None
+        self.was_set = False  # before the latest message
         self.arrival = 0.0
         self._doubted: tuple[int, float] | None = None
         self._doubts = 0
 
     def step(self, stamp_ns: int, now: float) -> tuple[float, str]:
         """Compute the time since the sample before, [s], and the problem with the stamp, '' when none."""
+        self.was_set = self.stamp_ns is None
         if self.stamp_ns is None:
             return max(now - self.arrival, 1e-3), ""
         if _follows((self.stamp_ns, self.arrival), stamp_ns, now):
@@ -128,7 +136,7 @@ class _SourceClock:
         self._doubts = self._doubts + 1 if goes_on else 1
         self._doubted = (stamp_ns, now)
         if self._doubts >= CLOCK_BELIEVED_AFTER:
-            self._doubts = 0
+            self._doubts, self.was_set = 0, True
             return max(now - self.arrival, 1e-3), ""
         return 0.0, (
             f"its stamp {stamp_ns / 1e9:.6f} s is not after {self.stamp_ns / 1e9:.6f} s"
@@ -179,6 +187,8 @@ class LiveLoad:
     condition : threading.Condition
     bandwidth : float
         Of the filter, [Hz].
+    on_stamp : callable, optional
+        ``on_stamp(topic, stamp_ns, arrival, was_set)`` is called for every message that is taken.
 
     Notes
     -----
@@ -186,9 +196,17 @@ class LiveLoad:
     follow each other the source has set its clock, and the load goes on.
     """
 
-    def __init__(self, refusals: Refusals, condition: threading.Condition, bandwidth: float) -> None:
+    def __init__(
+        self,
+        refusals: Refusals,
+        condition: threading.Condition,
+        bandwidth: float,
+        on_stamp: Callable[[str, int, float, bool], None] = lambda *_stamp: None,
+    ) -> None:
         self.refusals = refusals
         self.condition = condition
+        self._on_stamp = on_stamp
+        self.delay = LowPass(bandwidth).delay
         self._signals = {WRENCH_TOPIC: _Signal(bandwidth), SHAFT_TOPIC: _Signal(bandwidth)}
 
     def offer_wrench(self, wrench: NDArray[np.float64], stamp_ns: int) -> str | None:
@@ -222,6 +240,7 @@ class LiveLoad:
                 problem = ("absurd", jump) if jump and signal.clock.stamp_ns is not None else None
             if problem is None:
                 signal.take(step, values, stamp_ns, now)
+                self._on_stamp(topic, stamp_ns, now, signal.clock.was_set)
                 self.condition.notify_all()
                 return None
         return self.refuse(topic, *problem)

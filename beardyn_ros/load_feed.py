@@ -70,6 +70,11 @@ class LiveLine:
         self._block_ns = block_ns
         self._end_ns = 0
 
+    @property
+    def reaches_ns(self) -> int:
+        """Time at which the line shows the value that was taken last, [ns]."""
+        return self._end_ns + (REACH - 1) * self._block_ns
+
     def begin(self) -> LoadHistory:
         """Return the sample at time 0."""
         return _history(np.zeros(1, np.int64), self._values[:1])
@@ -104,6 +109,8 @@ class LoadFeed:
         ``wait(ready, timeout)`` blocks the twin's thread; False after `timeout` seconds, 0: for ever.
     say : callable
         ``say(state, sentence)`` tells the world.
+    on_stamp : callable, optional
+        See `LiveLoad`.
 
     Notes
     -----
@@ -118,6 +125,7 @@ class LoadFeed:
         condition: threading.Condition,
         wait: Callable[[Callable[[], bool], float], bool],
         say: Callable[[str, str], None],
+        on_stamp: Callable[[str, int, float, bool], None] = lambda *_stamp: None,
     ) -> None:
         self._options = options
         self._condition = condition
@@ -125,7 +133,7 @@ class LoadFeed:
         self._say = say
         self.refusals = Refusals()
         self.gate = LoadGate(options.queue_ns, options.queue_bytes, self.refusals, condition, options.join)
-        self.live = LiveLoad(self.refusals, condition, options.live_bandwidth)
+        self.live = LiveLoad(self.refusals, condition, options.live_bandwidth, on_stamp)
         self.begin_ns = 0
         self._line: LiveLine  # of the live mode, since the first load
         self.paused = False
@@ -145,6 +153,10 @@ class LoadFeed:
                 self.live.restart_age()
             self.paused = paused
             self._condition.notify_all()
+
+    def live_delay_ns(self, begin_ns: int) -> int:
+        """Compute by how much a block that begins now lags the live load that comes now, [ns]."""
+        return self._line.reaches_ns - begin_ns + round(1e9 * self.live.delay)
 
     def first(self, block_ns: int) -> LoadHistory:
         """Wait for the load of the first block and return it; its first sample is at time 0."""

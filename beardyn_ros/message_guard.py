@@ -34,7 +34,7 @@ _OF_NODES = {
 }
 _OF_TWIN = (
     *("truth", "force", "force_waveform", "vibration", "imu", "shaft", "joint_states", "bodies", "contacts"),
-    *("temperature", "load/consumed"),
+    *("temperature", "load/consumed", "source_time"),
 )
 ANYBODY = ("/diagnostics", "/clock")
 

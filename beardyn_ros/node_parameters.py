@@ -13,6 +13,7 @@ from beardyn_core.record.load_stream import LONGEST_NS
 from beardyn_core.scene.tier import TIER_NAMES
 from beardyn_ros.parameters import NodeParameter
 from beardyn_ros.rig import CAR, SCENE_OWN
+from beardyn_ros.source_time import STAMPS
 
 FRAME_ID = NodeParameter(
     "frame_id",
@@ -89,7 +90,7 @@ TWIN = (
         10.0,
         "live load passes a low-pass filter before it is sampled every 20 ms: its half-power point; the "
         "delay is 0.336 / live_bandwidth, 34 ms at 10 Hz; 40 Hz is damped by 34 dB then; interpolation "
-        "without images of the 50 Hz (85 dB down up to 10 Hz) adds 80 ms",
+        "without images of the 50 Hz (85 dB down up to 10 Hz) adds 100 ms",
         "Hz",
         minimum=0.1,
         maximum=15.0,
@@ -115,7 +116,20 @@ TWIN = (
         minimum=0.1,
         maximum=16_384.0,
     ),
-    NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
+    NodeParameter(
+        "stamps",
+        "auto",
+        "clock of all stamps: source, that of the load (in live mode of load/wrench, less the delay of "
+        "filter and interpolation), with the offset on source_time; simulated, from 0 on; auto: source in "
+        "live mode, simulated in lockstep",
+        choices=STAMPS,
+    ),
+    NodeParameter(
+        "publish_clock",
+        True,
+        "publish /clock; one twin of several. With stamps of the source only where it is given: the train "
+        "has a clock",
+    ),
     FRAME_ID,
     PARENT,
     POSE,

@@ -91,7 +91,8 @@ class RecorderNode(Node):
         self._guard = MessageGuard(self)
         self._names: set[str] = set()
         self._other_truths: dict[bytes, bytes] = {}  # of twins that are not followed, by publisher
-        for entry in TOPICS:
+        # of a sweep the truth comes first: the messages behind it may be of the run that it begins
+        for entry in sorted(TOPICS, key=lambda each: each.name != "truth"):
             self._record(entry)
         self._watch = TwinWatch(
             diagnostic_name(self.get_namespace(), TWIN),

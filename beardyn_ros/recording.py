@@ -96,7 +96,8 @@ class Recording:
         name = message.entry.name
         strands = self._strands.get(name)
         if strands is None:
-            strands = self._strands[name] = TopicStrands(name)
+            origin_ns = 0 if self.current is None else self.current.origin_ns
+            strands = self._strands[name] = TopicStrands(name, origin_ns)
         strand = strands.take(message, self.current is not None, self._refuse)
         if strand is strands.main and self.current is not None:
             self.current.add(message.entry, message.cdr)
@@ -162,7 +163,7 @@ class Recording:
         self._last_words.clear()
         early, self._early = self._early, []
         for strands in self._strands.values():
-            early += strands.begin_run(self._refuse, was_open)
+            early += strands.begin_run(self._refuse, was_open, self.current.origin_ns)
         early.sort(key=lambda each: each.serial)
         others = [each for each in early if not self._belongs(each.entry.name, each.source)]
         self._write([each for each in early if self._belongs(each.entry.name, each.source)])

@@ -17,7 +17,13 @@ from beardyn_core.record.cloud_layout import cloud_points
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import McapWriter
-from beardyn_core.record.messages import Diagnostic, decode_diagnostics, header_frame, header_stamp
+from beardyn_core.record.messages import (
+    Diagnostic,
+    decode_diagnostics,
+    header_frame,
+    header_stamp,
+    time_reference,
+)
 from beardyn_core.record.published import (
     BLOCKS,
     MissingMessages,
@@ -34,6 +40,7 @@ UNSTAMPED = (STRING,)
 LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
 SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
 DRAWN = ("bodies", "contacts")
+_LATEST_NS = 2**63
 OF_ONE_RUN = (*SIMULATED, *DRAWN, TEMPERATURE)  # their stamps begin anew with each run
 
 
@@ -213,11 +220,14 @@ class RunFile:
         self._first_ns: dict[str, int] = {}
         self._parts: set[str] = set()  # that have a temperature
         self._simulated_ns = 0
+        self.origin_ns = 0  # earliest stamp of the run
+        self._ahead_ns: int | None = None  # of stamps over simulated time where the recording begins
         self._writer = writer
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
             return
         self.run_id = run_id_of(truth)
+        self.origin_ns = self._simulated_ns = origin_of(truth)
         try:
             self.description = RunDescription.from_json(truth)
         except InputError as error:
@@ -226,12 +236,17 @@ class RunFile:
             self._writer.describe(self.description)
 
     def add(self, entry: Topic, cdr: bytes) -> None:
-        """Append one message; live load stands at the last simulated time seen, its header as it came."""
-        stamp = 0 if entry.type in UNSTAMPED else header_stamp(cdr)
+        """Append one message; live load stands at the last stamp of the twin, its header as it came.
+
+        What was said before the run stands at its beginning.
+        """
+        stamp = max(0 if entry.type in UNSTAMPED else header_stamp(cdr), self.origin_ns)
         if entry.name in LIVE_LOAD or entry.name == "load/truth":
             stamp = self._simulated_ns
         elif entry.name in SIMULATED:
             self._simulated_ns = max(self._simulated_ns, stamp)
+        if entry.name == "source_time" and self._ahead_ns is None:
+            self._ahead_ns = stamp - time_reference(cdr)
         if entry.name == TEMPERATURE:
             self._parts.add(header_frame(cdr))
         last = self.last_ns.get(entry.name, 0)
@@ -268,11 +283,13 @@ class RunFile:
 
     def before(self) -> dict[str, int]:
         """Count the messages of the run that were published before the recorder was there, by topic."""
-        return published_before(self._first_ns, len(self._parts))
+        ahead_ns = self.origin_ns if self._ahead_ns is None else self._ahead_ns
+        simulated_ns = {name: stamp - ahead_ns for name, stamp in self._first_ns.items()}
+        return published_before(simulated_ns, len(self._parts))
 
     @property
     def begin_s(self) -> float:
-        """Simulated time from which on every topic is recorded, 0 when the whole run is, [s]."""
+        """Stamp from which on every topic is recorded, 0 when the whole run is, [s]."""
         if not self.before():
             return 0.0
         blocks = [stamp for name, stamp in self._first_ns.items() if name in BLOCKS]
@@ -282,6 +299,12 @@ class RunFile:
 def run_id_of(truth: str) -> str:
     """Run id in the content of ``truth``; '' when it has none."""
     return str(parsed_truth(truth).get("run_id", ""))
+
+
+def origin_of(truth: str) -> int:
+    """Read the earliest stamp of a run from the content of its ``truth``; 0 of simulated time, [ns]."""
+    found = parsed_truth(truth).get("begin_ns", 0)
+    return found if isinstance(found, int) and 0 <= found < _LATEST_NS else 0
 
 
 def parsed_truth(truth: str) -> dict[str, object]:

@@ -49,6 +49,8 @@ class SessionOptions:
         Frame of every header.
     instance : str
         Marks this twin among others of the same name; run ids begin with it.
+    of_source : bool
+        Whether stamps are those of the source of the load, in place of simulated time.
     """
 
     mode: str
@@ -61,6 +63,7 @@ class SessionOptions:
     live_bandwidth: float
     frame: str
     instance: str
+    of_source: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,8 @@ class Outgoing:
         Single samples, with their time since the first of them, [s]: to be spread over the block.
     clock_ns : int or None
         Simulated time after it; ``None``: not part of the run.
+    stamp_ns : int
+        The same on the clock of the stamps, [ns].
     consumed_ns : int
         The same in the time of the load, whose first sample may stand anywhere.
     ordered : bool
@@ -85,6 +90,7 @@ class Outgoing:
     messages: tuple[tuple[str, bytes], ...]
     trends: tuple[tuple[float, str, bytes], ...] = ()
     clock_ns: int | None = None
+    stamp_ns: int = 0
     consumed_ns: int = 0
     ordered: bool = False
     due_at: float | None = None
@@ -132,6 +138,10 @@ class SessionReport:
         What the load of this run has not, though the scene speaks of it; a sentence, or empty.
     tier_note : str
         Why the tier is not the best one, and what is given up, see `real_time`; or empty.
+    offset_ns : int or None
+        Of stamps over simulated time; ``None`` where they are the same, [ns].
+    clock_note : str
+        What the clock of the source has done last, in a sentence; or empty.
     """
 
     state: str = IDLE
@@ -157,4 +167,6 @@ class SessionReport:
     waveform_samples: int = 0
     load_lacks: str = ""
     tier_note: str = ""
+    offset_ns: int | None = None
+    clock_note: str = ""
     recent: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=50))

@@ -16,9 +16,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.record.description import RunDescription
 from beardyn_core.record.encoding import BlockEncoder
 from beardyn_core.record.messages import encode_string
 from beardyn_core.sensors.block import Block
+from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
 from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
 from beardyn_ros.rig import Rig
 from beardyn_ros.run_state import (
@@ -37,10 +39,19 @@ from beardyn_ros.run_state import (
     SessionReport,
 )
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
+from beardyn_ros.source_time import (
+    FAR_APART_S,
+    LONGEST_ANNOUNCEMENT_S,
+    LONGEST_HOLD_S,
+    Offset,
+    SourceStamps,
+    encode_time_reference,
+)
 
 BLOCKS_WAITING_TO_BE_PUBLISHED = 32
 LATE_AFTER_S = 0.040
 # one sample a message: spread over the block, while a waveform is one message a block
+REFERENCE_EVERY = 10  # blocks
 TREND_TOPICS = ("force", "imu", "shaft", "joint_states")
 
 
@@ -93,6 +104,11 @@ class Pacer:
                 return 0.0
             return self._due(end_ns) - time.monotonic()
 
+    def simulated_at(self, wall: float) -> float:
+        """Compute the simulated time that is due at a time of `time.monotonic`, [s]."""
+        with self._lock:
+            return self._origin_s + (wall - self._origin_wall) * self._speed_factor
+
     def hand_over(self, end_ns: int) -> float | None:
         """Note the time that the run has reached; when its block was due, [s] of `time.monotonic`.
 
@@ -141,9 +157,14 @@ class TwinSession:
         self.options = options
         self._wake = wake
         self._condition = threading.Condition()  # guards load, commands and what is to be published
-        self.feed = LoadFeed(options, self._condition, self._wait, self._set_state)
         self.pacer = Pacer(speed_factor)
+        self.stamps = SourceStamps(self._condition, self.pacer.simulated_at)
+        self.feed = LoadFeed(
+            options, self._condition, self._wait, self._set_state, on_stamp=self.stamps.receive
+        )
         self.exit_code = EXIT_DONE
+        self._is_announced = False
+        self.new_run_wanted = ""  # why the node is to reset the run, in a sentence
         self._outgoing: deque[Outgoing] = deque()
         self._active = False
         self._paused = False
@@ -276,7 +297,7 @@ class TwinSession:
     def _begin_again(self) -> None:
         with self._condition:
             self._reset = False
-            self.exit_code = EXIT_DONE
+            self.exit_code, self.new_run_wanted = EXIT_DONE, ""
             note = self._report.tier_note
             self._report = SessionReport(state=READY, sentence="reset", tier_note=note)
         self.feed.restart()
@@ -292,7 +313,10 @@ class TwinSession:
         with self._condition:
             self._report.run_id = run_id
         description = replace(description, truth={**description.truth, "run_id": run_id})
-        self._put(Outgoing((("truth", encode_string(description.to_json())),)))
+        self.stamps.begin()
+        self._is_announced = False
+        if not self.options.of_source:
+            self._put(_truth_of(description))
         first = self.feed.first(twin.block_ns)
         lacks = missing_background(rig.background, first, self.options.mode == "live")
         with self._condition:
@@ -311,8 +335,12 @@ class TwinSession:
             if starved is None:
                 break
             self.pacer.shift(starved + self.feed.slept_s)
+            if self.options.of_source and not self._report.blocks:
+                waited += self._announce_source(description, twin.block_ns)
+            offset, held = self._offset_of_block(self._report.blocks * twin.block_ns, twin.block_ns)
+            waited += held
             covered_at = time.monotonic()
-            outgoing, block = self._outgoing_of(twin.advance(), ordered)
+            outgoing, block = self._outgoing_of(twin.advance(), offset, ordered)
             ready_at = time.monotonic()
             while (delay := self.pacer.delay(block.end_ns)) > 0.0:
                 self._wait(lambda: False, delay)
@@ -340,19 +368,91 @@ class TwinSession:
     def _hand_over_last_block(self, error: ValidityError) -> None:
         block = getattr(error, "block", None)
         if block is not None:
-            self._put(*self._outgoing_of(block))
+            self._put(*self._outgoing_of(block, Offset(self.stamps.offset_ns)))
 
-    def _outgoing_of(self, block: Block, ordered: bool = False) -> tuple[Outgoing, Block]:
-        messages, trends = [], []
-        first_ns = int(block.trend_time_ns[0]) if len(block.trend_time_ns) else 0
-        for name, stamp_ns, cdr in self._encoder.encode(block, self._pictures):
+    def _announce_source(self, description: RunDescription, block_ns: int) -> float:
+        """Publish the truth with the earliest stamp of the run, and wait until its readers have it.
+
+        By that they know which run the stamps behind it are of. Returns the seconds that took.
+        """
+        offset, _ = self._offset_of_block(0, block_ns)
+        begin = time.monotonic()
+        self._put(_truth_of(description, begin_ns=offset.ahead_ns))
+        self._wait(lambda: self._is_announced, LONGEST_ANNOUNCEMENT_S)
+        waited = time.monotonic() - begin
+        self.pacer.shift(waited)
+        self.stamps.begin()
+        return waited
+
+    def confirm_truth(self) -> None:
+        """Note that the truth of the present run has been published."""
+        with self._condition:
+            self._is_announced = True
+            self._condition.notify_all()
+
+    def _offset_of_block(self, begin_ns: int, block_ns: int) -> tuple[Offset, float]:
+        """Find the offset of the stamps of the next block, and for how long the run was held for it, [s]."""
+        if not self.options.of_source:
+            return Offset(0), 0.0
+        if self.options.mode != "live":
+            self._report.offset_ns = self.feed.begin_ns
+            return self.stamps.set_constant(self.feed.begin_ns), 0.0
+        delay_ns, waited = self.feed.live_delay_ns(begin_ns), 0.0
+        while True:
+            offset, behind = self.stamps.follow(WRENCH_TOPIC, block_ns, delay_ns)
+            if behind <= 0.0:
+                break
+            waited += self._hold_for_clock(behind)
+        if waited:
+            self._set_state(RUNNING, "running")
+        with self._condition:
+            self._report.offset_ns = offset.ahead_ns
+            self._report.clock_note = self._clock_note()
+        return offset, waited
+
+    def _hold_for_clock(self, behind: float) -> float:
+        """Hold the run until the clock of the source has caught up with its stamps; seconds held."""
+        sentence = f"the clock of the source was set back by {behind:.3f} s"
+        if behind > LONGEST_HOLD_S:
+            self._set_state(PAUSED, f"{sentence}: a new run begins")
+            with self._condition:
+                self.new_run_wanted = sentence
+            self._wake()
+            self._wait(lambda: False)  # until the node resets
+        self._set_state(PAUSED, f"{sentence}: no stamp comes twice, the run waits until it has caught up")
+        begin = time.monotonic()
+        self._wait(lambda: False, behind / self.pacer.speed_factor)
+        held = time.monotonic() - begin
+        self.pacer.shift(held)
+        return held
+
+    def _clock_note(self) -> str:
+        """Report a leap of the stamps, and two clocks where one is expected."""
+        apart = self.stamps.apart_s(SHAFT_TOPIC, WRENCH_TOPIC)
+        notes = [self.stamps.last_step] if self.stamps.last_step else []
+        if abs(apart) > FAR_APART_S:
+            notes.append(
+                f"{SHAFT_TOPIC} is stamped {abs(apart):.3f} s {'ahead of' if apart > 0.0 else 'behind'} "
+                f"{WRENCH_TOPIC}: they have two clocks; stamps are those of {WRENCH_TOPIC}"
+            )
+        return "; ".join(notes)
+
+    def _outgoing_of(self, block: Block, offset: Offset, ordered: bool = False) -> tuple[Outgoing, Block]:
+        messages, trends, stamped = [], [], block.later(offset.ahead_ns)
+        first_ns = int(stamped.trend_time_ns[0]) if len(stamped.trend_time_ns) else 0
+        for name, stamp_ns, cdr in self._encoder.encode(stamped, self._pictures):
             if name in TREND_TOPICS:
                 trends.append(((stamp_ns - first_ns) * 1e-9, name, cdr))
             else:
                 messages.append((name, cdr))
         trends.sort(key=lambda trend: trend[0])
-        consumed_ns = block.end_ns + self.feed.begin_ns
-        return Outgoing(tuple(messages), tuple(trends), block.end_ns, consumed_ns, ordered), block
+        if self.options.of_source and (offset.is_new or block.index % REFERENCE_EVERY == 0):
+            reference = encode_time_reference(stamped.end_ns, block.end_ns, self.options.frame)
+            messages.append(("source_time", reference))
+        live = self.options.mode == "live"
+        consumed_ns = stamped.end_ns if live else block.end_ns + self.feed.begin_ns
+        sent = Outgoing(tuple(messages), tuple(trends), block.end_ns, stamped.end_ns, consumed_ns, ordered)
+        return sent, block
 
     def _wait_while_paused(self) -> tuple[float, bool]:
         """Wait while paused or inactive; seconds held, and whether the next block is ordered by a step."""
@@ -411,6 +511,12 @@ class TwinSession:
 
 class _InterruptedError(Exception):
     """The run is left because of a reset or the end of the process."""
+
+
+def _truth_of(description: RunDescription, **more: int) -> Outgoing:
+    """Make the message that begins a run."""
+    described = replace(description, truth={**description.truth, **more})
+    return Outgoing((("truth", encode_string(described.to_json())),))
 
 
 def _waveform_samples(block: Block) -> int:

@@ -13,6 +13,7 @@ from time import monotonic
 
 from beardyn_core.record.messages import header_frame, header_stamp
 from beardyn_core.record.topics import Topic
+from beardyn_ros.source_time import LONGEST_ANNOUNCEMENT_S
 
 STEP_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}
 BLOCK_NS = 20_000_000
@@ -83,14 +84,25 @@ class Strand:
         self.last_ns, self.extended, self.extended_at = stamp, serial, monotonic()
         self.count += 1
 
-    @property
-    def may_begin_a_run(self) -> bool:
-        """Whether its first stamp is one that a run begins with."""
-        return -BLOCK_NS <= self.first_ns <= BEGINNING_NS
+    def may_begin_a_run(self, origin_ns: int) -> bool:
+        """Check whether its first stamp is one that a run begins with: near 0, or near the origin of one."""
+        return is_beginning(self.first_ns, 0) or is_beginning(self.first_ns, origin_ns)
+
+
+def is_beginning(stamp_ns: int, origin_ns: int) -> bool:
+    """Check whether a stamp is one of the first of a run, [ns]."""
+    latest = BEGINNING_NS + round(1e9 * LONGEST_ANNOUNCEMENT_S if origin_ns else 0.0)
+    return -BLOCK_NS <= stamp_ns - origin_ns <= latest
 
 
 class TopicStrands:
     """Strands of one topic.
+
+    Parameters
+    ----------
+    name : str
+    origin_ns : int
+        Earliest stamp of the present run: 0, or a time of the source of its load, [ns].
 
     Attributes
     ----------
@@ -100,8 +112,9 @@ class TopicStrands:
         Undecided, oldest first.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, origin_ns: int = 0) -> None:
         self.name = name
+        self.origin_ns = origin_ns
         self.main: Strand | None = None
         self.old: Strand | None = None
         self.waiting: list[Strand] = []
@@ -119,7 +132,8 @@ class TopicStrands:
         """
         name, cdr, serial = self.name, message.cdr, message.serial
         stamp = header_stamp(cdr)
-        known = [each for each in (self.old, self.main, *self.waiting) if each is not None]
+        old = None if self._is_after_the_old_run(stamp) else self.old
+        known = [each for each in (old, self.main, *self.waiting) if each is not None]
         leaps = ((each.leap_to(name, stamp, cdr), (-each.count, -each.begun), each) for each in known)
         followed = [(leap, age, each) for leap, age, each in leaps if leap is not None]
         if followed:
@@ -146,11 +160,11 @@ class TopicStrands:
         main = self.main
         if main is None or strand.count < BELIEVED_AFTER or main.extended > strand.begun:
             return False
-        if not strand.may_begin_a_run or strand.first_ns > main.last_ns:
+        if not strand.may_begin_a_run(self.origin_ns) or strand.first_ns > main.last_ns:
             return True
         if main.count >= BELIEVED_AFTER:
             return False  # the next run, whose truth is under way
-        return not main.may_begin_a_run or monotonic() - strand.begun_at > WEAK_FOR_S
+        return not main.may_begin_a_run(self.origin_ns) or monotonic() - strand.begun_at > WEAK_FOR_S
 
     def believe(self, strand: Strand) -> list[Waiting]:
         """Let a waiting strand be the run itself; gives what waits."""
@@ -171,12 +185,20 @@ class TopicStrands:
 
     def _is_late_word_of_the_old_run(self, stamp: int) -> bool:
         """Check whether a message behind a hole is of the run before, as no run begins with its stamp."""
-        return self.main is None and self.old is not None and stamp > max(self.old.last_ns, BEGINNING_NS)
+        if self.main is not None or self.old is None or self._is_after_the_old_run(stamp):
+            return False
+        return stamp > max(self.old.last_ns, BEGINNING_NS)
 
-    def begin_run(self, refuse: Callable[[Waiting], None], was_open: bool) -> list[Waiting]:
+    def _is_after_the_old_run(self, stamp: int) -> bool:
+        """Check whether a stamp is of the present run, which has begun where the one before had ended."""
+        return self.old is not None and self.old.last_ns < self.origin_ns <= stamp + BLOCK_NS
+
+    def begin_run(
+        self, refuse: Callable[[Waiting], None], was_open: bool, origin_ns: int = 0
+    ) -> list[Waiting]:
         """Begin with the next run; gives what has come of it, the rest is refused."""
-        self.old, self.main = self.main, None
-        beginnings = [each for each in self.waiting if each.may_begin_a_run]
+        self.old, self.main, self.origin_ns = self.main, None, origin_ns
+        beginnings = [each for each in self.waiting if each.may_begin_a_run(origin_ns)]
         if beginnings:
             self.main = max(beginnings, key=lambda each: (each.count >= BELIEVED_AFTER, each.begun))
         elif self.waiting and not was_open:
@@ -197,7 +219,8 @@ class TopicStrands:
         for each in self.waiting:
             stopped = main is not None and main.extended < each.begun
             weak = main is not None and main.count < min(each.count, BELIEVED_AFTER)
-            if stopped and each.count > 1 and (weak or not each.may_begin_a_run) and not found:
+            begins = each.may_begin_a_run(self.origin_ns)
+            if stopped and each.count > 1 and (weak or not begins) and not found:
                 found = each.waiting
             else:
                 self._refuse_all(each, refuse)

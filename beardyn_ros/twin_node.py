@@ -29,6 +29,7 @@ from beardyn_ros.run_state import END_STATES, FINISHED, LEFT, PAUSED, Outgoing, 
 from beardyn_ros.runtime import EXIT_BAD_INPUT, run_node, wall_timer
 from beardyn_ros.services import SimulationServices, StepService, interfaces
 from beardyn_ros.session import TwinSession
+from beardyn_ros.source_time import follows_source
 from beardyn_ros.twin_report import TwinReporter, needs_attention, pace_sentence
 from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers
 
@@ -42,6 +43,7 @@ READERS_IGNORED_S = 5.0
 SETTLED_AFTER_S = 1.0  # before a run begins: a twin of the same name would have spoken by then
 NAMESAKE_TIMEOUT_S = 1.5  # the same when the graph knows another publisher, which may have died
 TRENDS_TIMEOUT_S = 0.1
+TRUTH_TIMEOUT_S = 0.5
 BLOCKS_BEFORE_CONFIRMATION = 10  # of more than 100 that the shallowest history holds
 SIGNAL_TOPICS = (
     "force",
@@ -86,7 +88,7 @@ class TwinNode(LifecycleNode):
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
         self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
-        if self._values.publish_clock:
+        if self._publishes_clock:
             self._out.publisher("/clock")
         self._trends = Spreader(self._out.publish)
         self._load = LoadIntake(self, self._frame)
@@ -135,6 +137,7 @@ class TwinNode(LifecycleNode):
             live_bandwidth=values.live_bandwidth,
             frame=self._frame,
             instance=self._namesakes.instance,
+            of_source=self._of_source,
         )
         self._session = TwinSession(make_rig, options, self._speed_factor, self._guard.trigger)
         self._load.serve(self._session.feed, live=values.mode == "live")
@@ -263,6 +266,17 @@ class TwinNode(LifecycleNode):
         self._end_session("the twin was told to quit")
         self.finished = True
 
+    @property
+    def _of_source(self) -> bool:
+        """Whether stamps are those of the source of the load."""
+        return follows_source(self._values.stamps, self._values.mode)
+
+    @property
+    def _publishes_clock(self) -> bool:
+        """Whether this node publishes /clock: of a train's own clock only where it is asked for."""
+        asked = self._values.is_given("publish_clock") or not self._of_source
+        return bool(self._values.publish_clock and asked)
+
     def _rig_of_scene(self, scene: str, tier: str, effects: str) -> Callable[[], Rig]:
         box, pace = self._values.box, self._speed_factor
         if box:
@@ -288,6 +302,9 @@ class TwinNode(LifecycleNode):
         report = self._session.report()
         for outgoing in self._session.collect():
             self._publish(outgoing)
+        if self._session.new_run_wanted:
+            self.get_logger().warning(f"{self._session.new_run_wanted}: a new run begins")
+            self._reset()
         if report.load_lacks != self._load_lacks:
             self._load_lacks = report.load_lacks
             if report.load_lacks:
@@ -320,12 +337,15 @@ class TwinNode(LifecycleNode):
         trends = ((name, cdr) for _, name, cdr in outgoing.trends)
         self._description.follow((*outgoing.messages, *trends))
         if outgoing.clock_ns is None:
+            if self._of_source:  # its readers must know the run before its stamps come
+                self._out.wait_until_received("truth", TRUTH_TIMEOUT_S)
+            self._session.confirm_truth()
             return
         self._session.pacer.check_published(outgoing.clock_ns, outgoing.due_at)
         self._trends.spread(outgoing.trends, self._speed_factor)
-        self._clock_ns, self._consumed_ns = outgoing.clock_ns, outgoing.consumed_ns
-        if self._values.publish_clock:
-            self._out.publish("/clock", encode_clock(outgoing.clock_ns))
+        self._clock_ns, self._consumed_ns = outgoing.stamp_ns, outgoing.consumed_ns
+        if self._publishes_clock:
+            self._out.publish("/clock", encode_clock(outgoing.stamp_ns))
         self._out.publish("load/consumed", encode_time(outgoing.consumed_ns))
         if outgoing.ordered:
             self._trends.drain(TRENDS_TIMEOUT_S)
@@ -356,7 +376,7 @@ class TwinNode(LifecycleNode):
             return
         report = self._session.report()
         stands = report.state == PAUSED or self._over
-        if stands and report.blocks and self._values.publish_clock:
+        if stands and report.blocks and self._publishes_clock:
             self._out.publish("/clock", encode_clock(self._clock_ns))
         if report.state in END_STATES:
             self._steps.fail(f"the run is {report.state}: {report.sentence}")

@@ -26,7 +26,8 @@ from beardyn_ros.run_state import (
 from beardyn_ros.session import TwinSession
 from beardyn_ros.wire import TopicPublishers
 
-UNCOUNTED_TOPICS = ("load/consumed", "/clock", "/diagnostics")  # they go on when the run is over
+# they go on when the run is over, or only the latest message counts
+UNCOUNTED_TOPICS = ("load/consumed", "/clock", "/diagnostics", "source_time")
 LONGEST_LIVE_LAG_S = 0.5
 LARGEST_LAG_S = 0.1
 
@@ -69,7 +70,7 @@ def twin_diagnostic(
     if report.state == STOPPED:
         level = ERROR
     else:
-        told = [*standing.warnings, *filter(None, [report.load_lacks])]
+        told = [*standing.warnings, *filter(None, [report.load_lacks, report.clock_note])]
         lags = standing.mode == "live" and report.lag_s > LONGEST_LIVE_LAG_S
         if lags and not ended:
             told.append(f"the run is {report.lag_s:.2f} s behind the wall clock")
@@ -94,6 +95,8 @@ def twin_diagnostic(
         ("lost_messages", str(standing.lost_messages)),
         ("status", str(report.status)),
     ]
+    if report.offset_ns is not None:
+        values.append(("stamps_ahead_of_simulated_time_ns", str(report.offset_ns)))
     if report.tier_note:
         values.append(("tier_note", report.tier_note))
     if report.blocks:
@@ -243,7 +246,7 @@ class TwinReporter:
         found = []
         if self._namesakes.younger:
             found.append(f"another twin speaks as {self._name}: it needs a namespace of its own")
-        if self._values.publish_clock and self._node.count_publishers("/clock") > 1:
+        if "/clock" in self._out.names and self._node.count_publishers("/clock") > 1:
             found.append("somebody else publishes /clock too: only one twin may (parameter publish_clock)")
         if self._out.lost_recently:
             found.append(f"{self._out.lost_messages} message(s) could not be published")

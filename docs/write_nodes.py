@@ -243,9 +243,31 @@ twin ends with exit code 4.
 In `live` mode force and speed pass a Bessel filter of order 4 before they are sampled every 20 ms: above
 `live_bandwidth` next to nothing is folded into the signal, below it everything is 0.336 / `live_bandwidth`
 late. A smooth line through these values, whose images of 50 Hz are 85 dB down up to 10 Hz and 35 dB at 15
-Hz, takes another 60 ms, and the twin's look-ahead 20 ms: 114 ms in all at 10 Hz. Stamps may be of any clock
+Hz, takes another 80 ms, and the twin's look-ahead 20 ms: 134 ms in all at 10 Hz. Stamps may be of any clock
 that runs forward. A stamp that does not follow the one before it, or lies far in the future, is refused;
 after five in a row that follow each other the source has set its clock, and the load goes on.
+
+### Time of the train
+
+In `live` mode all outputs carry the clock of the load (parameter `stamps`): force, vibration, estimate and
+diagnostics have the stamp of the load that they answer, delay included, so that twin and measured
+accelerometer pair by stamp. The clock is read from `load/wrench`, by the least late message of the last 2 s;
+what remains is the latency of the quickest message and half the spacing of messages. Sample numbers begin at
+0 as ever. `source_time` (`sensor_msgs/TimeReference`, latched, every 0.2 s, recorded) gives the offset:
+`header.stamp` is a stamp, `time_ref` the simulated time at it; `stamps_ahead_of_simulated_time_ns` of the
+twin's status is the same number. `truth` has `begin_ns`, a stamp that no sample of the run is earlier than.
+
+| the clock of the load | what stamps do |
+|---|---|
+| runs faster or slower, up to 1 ms a second | follow it, by 20 us a block at most |
+| is set forward by more than 50 ms, or the twin was paused | leap with it, once; the status says so |
+| is set back by 50 ms to 10 s | the run is held until the clock shows a new time: no stamp comes twice |
+| is set back by more | a new run begins, with a new `run_id` and a recording of its own |
+| differs between `load/wrench` and `load/shaft` by more than 0.1 s | follow `load/wrench`; the status warns |
+
+`/clock` stays silent then, unless `publish_clock` is given: the train has a clock. A twin that is late
+(status `axlebox/lag`) answers load that is younger than its stamps say, by as much as it lags. In `lockstep`
+stamps count from 0 by default; with `stamps:=source` they are those of `load/blocks`, exactly.
 """
 
 

@@ -21,7 +21,7 @@ from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME, decode, decode_string
-from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, TWIST, WRENCH, Topic, topic
+from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, TIME_REFERENCE, TWIST, WRENCH, Topic, topic
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 
@@ -69,7 +69,7 @@ class MessageChecker:
             CLOUD: self._check_cloud,
             JOINTS: self._check_joints,
             STRING: _check_text,
-            DIAGNOSTICS: _check_decoding,
+            **dict.fromkeys((DIAGNOSTICS, TIME_REFERENCE), _check_decoding),
             **dict.fromkeys((TIME, CLOCK), _check_time),
             **dict.fromkeys(_NUMBERS, _check_numbers),
         }

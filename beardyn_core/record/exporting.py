@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 # Formats of one table a file get a file for each signal; the others hold all signals.
 _TABLES = ("parquet", "csv", "wav")
 KINDS = ("parquet", "csv", "npz", "h5", "wav")
+_LONGEST_RUN_S = 1e7  # times beyond count from an epoch: 12 digits would leave 10 ms of them
 _BESIDE = ("csv", "wav")  # they cannot carry the truth: it goes to a JSON file beside them
 
 
@@ -122,7 +123,11 @@ def _write_parquet(run: Run, path: Path, name: str) -> None:
 
 def _write_csv(run: Run, path: Path, name: str) -> None:
     columns, units = _measured_columns(run, name), tables.units_of(run, name)
-    formats = ["%s" if values.dtype.kind in "US" else "%.12g" for values in columns.values()]
+    since_epoch = len(columns["time"]) > 0 and abs(columns["time"][-1]) > _LONGEST_RUN_S
+    digits = {"time": 16} if since_epoch else {}
+    formats = [
+        "%s" if values.dtype.kind in "US" else f"%.{digits.get(key, 12)}g" for key, values in columns.items()
+    ]
     rows = np.empty(len(columns["time"]), [(key, values.dtype) for key, values in columns.items()])
     for key, values in columns.items():
         rows[key] = values

@@ -80,6 +80,12 @@ def encode_time(stamp_ns: int) -> bytes:
     return _ENCAPSULATION + _STAMP.pack(*divmod(int(stamp_ns), _SECOND))
 
 
+def time_reference(cdr: bytes) -> int:
+    """Read the other time of a ``sensor_msgs/TimeReference``, [ns]."""
+    other = decode("sensor_msgs/msg/TimeReference", cdr).time_ref
+    return int(other.sec) * _SECOND + int(other.nanosec)
+
+
 encode_clock = encode_time  # ``rosgraph_msgs/Clock`` is one time: the same bytes
 
 

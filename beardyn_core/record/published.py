@@ -14,7 +14,7 @@ from beardyn_core.record.topics import NAMESPACE, relative_name
 PREFIX = "messages "
 LONGEST_COUNT = 15  # digits
 # Others speak there too: which run a message belongs to is not to be told.
-_NOT_COUNTED = ("/diagnostics", "/clock")
+_NOT_COUNTED = ("/diagnostics", "/clock", "source_time")
 BLOCKS = ("force_waveform", "vibration", "bodies", "contacts")
 _BLOCK_NS, _TEMPERATURE_NS = 20_000_000, 200_000_000
 _TREND_NS = {"force": 2_500_000, "imu": 2_500_000, "shaft": 2_500_000, "joint_states": 5_000_000}

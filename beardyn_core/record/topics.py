@@ -20,6 +20,7 @@ TWIST = "geometry_msgs/msg/TwistStamped"
 IMU = "sensor_msgs/msg/Imu"
 TEMPERATURE = "sensor_msgs/msg/Temperature"
 JOINTS = "sensor_msgs/msg/JointState"
+TIME_REFERENCE = "sensor_msgs/msg/TimeReference"
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,8 @@ TOPICS: tuple[Topic, ...] = (
           "JSON: irregularity, events and seed of the load; which stamp stands where in the scenario; "
           "paused"),
     Topic("load/consumed", TIME, *_RELIABLE, 50, "every 0.2 s", "simulated time up to which load is used"),
+    Topic("source_time", TIME_REFERENCE, *_LATCHED, 1, "every 0.2 s, with stamps of the load's source",
+          "simulated time at a stamp: the offset between simulated time and the clock of the source"),
     Topic("load/wrench", WRENCH, *_RELIABLE, 200, "live", "one load on the journal, N, N m"),
     Topic("load/shaft", TWIST, *_RELIABLE, 200, "live", "one shaft speed, twist.angular.y, rad/s"),
     Topic("monitor/result", DIAGNOSTICS, *_RELIABLE, 50, "as the monitor decides",

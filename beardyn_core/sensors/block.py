@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Annotated as A
 from typing import Protocol
@@ -142,6 +142,18 @@ class Block:
                 vibration.time_ns,
             )
         return found
+
+    def later(self, by_ns: int) -> Block:
+        """Shift all its times, as to those of another clock, [ns]; the indices stay."""
+        return replace(
+            self,
+            start_ns=self.start_ns + by_ns,
+            end_ns=self.end_ns + by_ns,
+            waveform_time_ns=self.waveform_time_ns + by_ns,
+            vibration=tuple(replace(each, time_ns=each.time_ns + by_ns) for each in self.vibration),
+            trend_time_ns=self.trend_time_ns + by_ns,
+            snapshot_time_ns=self.snapshot_time_ns + by_ns,
+        )
 
     @cached_property
     def acceleration(self) -> Float:

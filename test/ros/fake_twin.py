@@ -70,17 +70,7 @@ class FakeTwin:
     def advance(self) -> Block:
         assert self.covered(), "advance() without load that covers the block"
         begin = time.perf_counter()
-        block = self._pattern.block(self._index)
-        shift = self._begin_ns
-        block = replace(
-            block,
-            start_ns=block.start_ns + shift,
-            end_ns=block.end_ns + shift,
-            waveform_time_ns=block.waveform_time_ns + shift,
-            vibration=tuple(replace(each, time_ns=each.time_ns + shift) for each in block.vibration),
-            trend_time_ns=block.trend_time_ns + shift,
-            snapshot_time_ns=block.snapshot_time_ns + shift,
-        )
+        block = self._pattern.block(self._index).later(self._begin_ns)
         block = replace(
             block,
             force_waveform=self._wrench(block.waveform_time_ns),

@@ -37,7 +37,7 @@ from test.ros.graph import Graph
 NO_BODIES = np.zeros(0, dtype=[("sample", "<u4")])
 LIVE_ONLY = ("load/wrench", "load/shaft")
 # no thermal effect in the scene, no follower beside
-ABSENT = (*LIVE_ONLY, "temperature", "follower/estimate", "follower/residual")
+ABSENT = (*LIVE_ONLY, "temperature", "source_time", "follower/estimate", "follower/residual")
 
 
 def is_connected(graph: Graph, part: str) -> None:
@@ -118,13 +118,14 @@ def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(g
     )
 
 
-def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(graph: Graph) -> None:
+@pytest.mark.parametrize("clock", ["source", "simulated"])
+def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(graph: Graph, clock: str) -> None:
     from mcap.reader import make_reader
 
     from beardyn_ros.live_load import encode_shaft, encode_wrench
 
     path = graph.folder / "run.mcap"
-    graph.fake_twin(mode="live")
+    graph.fake_twin(mode="live", stamps=clock)
     graph.node_process("recorder", output=str(path))
     is_connected(graph, "recorder")
     graph.connected("load/wrench", "load/shaft", "load/blocks")
@@ -146,8 +147,9 @@ def test_live_load_stamped_with_wall_time_leaves_the_span_of_the_file_alone(grap
     logged = np.array([message.log_time for _, _, message in messages])
     shaft = [message for _, channel, message in messages if channel.topic == "/axlebox/load/shaft"]
     times = np.array([message.log_time for message in shaft])
-    assert logged.max() < 3_000_000_000
-    assert times.max() > 800_000_000
+    begin = stamps[0] - 1_000_000_000 if clock == "source" else 0
+    assert begin <= logged.min() <= logged.max() < logged.min() + 5_000_000_000
+    assert times.max() > logged.min() + 800_000_000
     assert np.all(np.diff(times) >= 0)
     assert {header_stamp(message.data) for message in shaft} <= set(stamps)
 

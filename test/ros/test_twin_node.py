@@ -204,7 +204,7 @@ def test_services_pause_step_and_reset(graph: Graph) -> None:
 
 def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Graph) -> None:
     elsewhere = {"load/wrench", "load/shaft", "monitor/result", "follower/estimate", "follower/residual"}
-    elsewhere.add("temperature")  # needs `thermal`
+    elsewhere |= {"temperature", "source_time"}  # need `thermal`, stamps of the source
     names = [entry.name for entry in TOPICS if entry.name not in elsewhere]
     graph.listen(*[name for name in names if name != "/diagnostics"])
     graph.fake_twin(speed_factor=1.0)
