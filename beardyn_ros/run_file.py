@@ -31,6 +31,7 @@ from beardyn_core.record.published import (
     published_before,
     published_counts,
 )
+from beardyn_core.record.stamp_offset import StampOffset
 from beardyn_core.record.topics import STRING, Topic
 from beardyn_ros.strands import STEP_NS, TEMPERATURE
 
@@ -158,14 +159,19 @@ RunWriter = McapWriter | BagWriter | BoxWriter
 
 
 class LossWatch:
-    """Finds holes in the running indices (clouds) and in the stamps (trends) of each topic."""
+    """Finds holes in the running indices (clouds) and in the stamps (trends) of each topic.
+
+    Stamps of a source leap where its clock is set; `source_time` says when, and nothing is lost there.
+    """
 
     def __init__(self) -> None:
-        self.lost: dict[str, int] = {}
         self.received: dict[str, int] = {}
         self.missed_at_start = 0
         self._next_sample: dict[str, int] = {}
         self._last_ns: dict[str, int] = {}
+        self._missing: Counter[str] = Counter()  # of clouds
+        self._gaps: list[tuple[str, int, int]] = []  # of trends: topic, stamps on either side
+        self.offset = StampOffset()
 
     def count_message(self, entry: Topic, cdr: bytes) -> None:
         """Note one message."""
@@ -180,13 +186,26 @@ class LossWatch:
                 self._next_sample[name] = last + 1
         elif name in STEP_NS:
             stamp, step = header_stamp(cdr), STEP_NS[name]
-            self._count(name, round((stamp - self._last_ns.get(name, stamp - step)) / step) - 1, 1)
+            last = self._last_ns.get(name, stamp - step)
+            if stamp - last > 1.5 * step:
+                self._gaps.append((name, last, stamp))
+            self._count(name, 0, 1)
             self._last_ns[name] = stamp
+        elif name == "source_time":
+            self.offset.add(header_stamp(cdr), time_reference(cdr))
 
     def _count(self, name: str, missing: int, here: int) -> None:
         self.received[name] = self.received.get(name, 0) + here
         if missing > 0:
-            self.lost[name] = self.lost.get(name, 0) + missing
+            self._missing[name] += missing
+
+    @property
+    def lost(self) -> dict[str, int]:
+        """Samples that were published but never came, by topic."""
+        found = Counter(self._missing)
+        for name, last, stamp in self._gaps:
+            found[name] += self.offset.count_missing(last, stamp, STEP_NS[name])
+        return {name: count for name, count in found.items() if count}
 
     @property
     def total(self) -> int:
@@ -221,7 +240,6 @@ class RunFile:
         self._parts: set[str] = set()  # that have a temperature
         self._simulated_ns = 0
         self.origin_ns = 0  # earliest stamp of the run
-        self._ahead_ns: int | None = None  # of stamps over simulated time where the recording begins
         self._writer = writer
         if truth is None:
             self.problem = "no truth has come: the file does not say which scene it holds"
@@ -245,8 +263,6 @@ class RunFile:
             stamp = self._simulated_ns
         elif entry.name in SIMULATED:
             self._simulated_ns = max(self._simulated_ns, stamp)
-        if entry.name == "source_time" and self._ahead_ns is None:
-            self._ahead_ns = stamp - time_reference(cdr)
         if entry.name == TEMPERATURE:
             self._parts.add(header_frame(cdr))
         last = self.last_ns.get(entry.name, 0)
@@ -283,7 +299,8 @@ class RunFile:
 
     def before(self) -> dict[str, int]:
         """Count the messages of the run that were published before the recorder was there, by topic."""
-        ahead_ns = self.origin_ns if self._ahead_ns is None else self._ahead_ns
+        first_ns = self.loss.offset.first_ns
+        ahead_ns = self.origin_ns if first_ns is None else first_ns
         simulated_ns = {name: stamp - ahead_ns for name, stamp in self._first_ns.items()}
         return published_before(simulated_ns, len(self._parts))
 

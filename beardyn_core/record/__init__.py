@@ -31,6 +31,7 @@ reading           the messages of a recording as a run, one of each of its axleb
 block_source      the blocks of a simulation as a run
 tables            the signals of a run as columns, as xarray and as pandas
 exporting         signals of a run to Parquet, CSV, NPZ, HDF5 and WAV
+stamp_offset      offset of stamps over simulated time, where they are those of a train's clock
 published         what a twin says it has published, beside what is recorded
 run_summary       the summary of a recorded run
 reporting         what a recording holds, in words and as JSON

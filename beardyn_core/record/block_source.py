@@ -134,6 +134,10 @@ class BlockSource:
 
     residuals = followed
 
+    def source_time(self) -> tuple[tuple[int, int], ...]:
+        """Give `Run.source_time`: nothing, for stamps are simulated time."""
+        return ()
+
     def duration(self) -> float:
         return (self._blocks[-1].end_ns - self._blocks[0].start_ns) * 1e-9
 

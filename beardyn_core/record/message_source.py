@@ -28,7 +28,14 @@ from beardyn_core.record.encoding import (
     joint_template,
 )
 from beardyn_core.record.load_stream import decode_load, joined_load
-from beardyn_core.record.messages import Template, decode, decode_diagnostics, decode_told, header_stamp
+from beardyn_core.record.messages import (
+    Template,
+    decode,
+    decode_diagnostics,
+    decode_told,
+    header_stamp,
+    time_reference,
+)
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
@@ -203,6 +210,9 @@ class MessageSource:
 
     def residuals(self) -> arrays.Told:
         return tuple(decode_told(cdr) for cdr in self._of("follower/residual"))
+
+    def source_time(self) -> tuple[tuple[int, int], ...]:
+        return tuple((header_stamp(cdr), time_reference(cdr)) for cdr in self._of("source_time"))
 
     def duration(self) -> float:
         """Give `Run.duration`: a block ends with its last snapshot."""

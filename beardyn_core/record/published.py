@@ -128,7 +128,7 @@ def published_before(first_ns: Mapping[str, int], parts: int = 1) -> dict[str, i
     found = {}
     for name, stamp in first_ns.items():
         if name in _TREND_NS:
-            found[name] = stamp // _TREND_NS[name]
+            found[name] = round(stamp / _TREND_NS[name])
         elif name in BLOCKS or name.startswith("vibration/"):
             found[name] = round(stamp / _BLOCK_NS)
     if not found or min(found.values()) <= 0:

@@ -27,6 +27,7 @@ from beardyn_core.record.published import (
 from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import chosen_for, collect_diagnostic, recorded_budget
+from beardyn_core.record.stamp_offset import StampOffset
 from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
 from beardyn_core.sensors.labels import HEALTHY
@@ -186,7 +187,8 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     recorded = {relative_name(topic, namespace): len(each) for (topic, _), each in times.items()}
     for name, count in run.malformed.items():
         recorded[name] -= count
-    first = {relative_name(topic, namespace): min(each) for (topic, _), each in times.items()}
+    ahead_ns = StampOffset(run.source_time).first_ns or 0
+    first = {relative_name(topic, namespace): min(each) - ahead_ns for (topic, _), each in times.items()}
     before = published_before(first, len(run.temperature.components))
     return tuple(missing_messages(published, recorded, before))
 
@@ -199,6 +201,7 @@ def _rate(times: list[int]) -> float | None:
 def gaps(run: Run) -> tuple[Gap, ...]:
     """Find every place where samples of a stream are missing, by running index or, without one, by time."""
     found: list[Gap] = []
+    offset = StampOffset(run.source_time)
     for name, samples in (("force_waveform", run.force_waveform), *run.sensor_topics.items()):
         found += _index_gaps(name, samples.sample, samples.time_ns)
     found += _index_gaps("bodies", run.bodies.sample, run.bodies.time_ns)
@@ -209,7 +212,7 @@ def gaps(run: Run) -> tuple[Gap, ...]:
         ("shaft", run.shaft.time_ns),
         ("joint_states", run.cages.time_ns),
     ):
-        found += _time_gaps(name, times)
+        found += _time_gaps(name, times, offset)
     return tuple(found)
 
 
@@ -218,13 +221,17 @@ def _index_gaps(name: str, sample: NDArray[np.int64], time_ns: NDArray[np.int64]
     return [Gap(name, float(time_ns[i] * 1e-9), int(step[i] - 1)) for i in np.flatnonzero(step != 1)]
 
 
-def _time_gaps(name: str, time_ns: NDArray[np.int64]) -> list[Gap]:
+def _time_gaps(name: str, time_ns: NDArray[np.int64], offset: StampOffset) -> list[Gap]:
     step = np.diff(time_ns)
     if not len(step):
         return []
-    regular = float(np.median(step))
-    missing = np.round(step / max(regular, 1.0)).astype(int) - 1
-    return [Gap(name, float(time_ns[i] * 1e-9), int(missing[i])) for i in np.flatnonzero(missing > 0)]
+    regular = max(int(np.median(step)), 1)
+    found = []
+    for i in np.flatnonzero(step > 1.5 * regular).tolist():
+        missing = offset.count_missing(int(time_ns[i]), int(time_ns[i + 1]), regular)
+        if missing:
+            found.append(Gap(name, float(time_ns[i] * 1e-9), missing))
+    return found
 
 
 def _lines(r: Report) -> list[str]:

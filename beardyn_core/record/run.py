@@ -232,6 +232,11 @@ class Run:
         return self._take(self._source.residuals)
 
     @cached_property
+    def source_time(self) -> tuple[tuple[int, int], ...]:
+        """Stamps, and simulated time at each, where stamps are those of the load's source, both [ns]."""
+        return self._take(self._source.source_time)
+
+    @cached_property
     def truth(self) -> Mapping[str, Any]:
         """Facts of the run that no train could measure: faults and excitation, with labels of load and speed.
 

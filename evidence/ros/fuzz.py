@@ -66,7 +66,7 @@ def fuzz(folder: Path, messages: int, seed: int, nodes: Sequence[str] = NODES) -
             graph.until(lambda due=due: time.monotonic() >= due, "the next message")  # type: ignore[misc]
         graph.until(lambda: time.monotonic() > begin + messages / RATE + 1.0, "what is under way")
         problems = []
-        _forget(graph, own)
+        forget_statuses(graph, own)
         if float(graph.statuses("twin")[-1].value("simulated_time")) > duration - 0.5:
             problems.append("the run was over before the last message")
         for part in nodes:
@@ -83,7 +83,7 @@ def fuzz(folder: Path, messages: int, seed: int, nodes: Sequence[str] = NODES) -
                 problems.append(f"{part}: a traceback")
         while graph.drain():
             pass  # the last words wait in the queues of this process
-        _forget(graph, own)
+        forget_statuses(graph, own)
         problems += _refusals(graph, sent, nodes)
     return problems + _recording(path, duration)
 
@@ -107,7 +107,7 @@ def _start(graph: Graph, path: Path, nodes: Sequence[str]) -> None:
         graph.until(lambda: graph.statuses("viewer"), "the viewer")
 
 
-def _forget(graph: Graph, own: set[bytes]) -> None:
+def forget_statuses(graph: Graph, own: set[bytes]) -> None:
     """Forget the hostile diagnostics, which the listener has received too."""
     kept = graph.messages["/diagnostics"]  # the subscription appends to this list
     kept[:] = [each for each in kept if each not in own]

@@ -1,7 +1,8 @@
 """Everything that goes wrong in a graph, in turn, for a stated time: ``python -m evidence.ros.soak``.
 
-Nodes are killed with SIGKILL, fed malformed and late messages, given a full disk and clocks that jump. What
-must hold is written beside each fault; one that does not hold is printed and makes the exit code 1.
+Nodes are killed with SIGKILL, fed malformed and late messages and those of a stranger on every topic, given a
+full disk, clocks that jump, and live load of two clocks, one of which is set. What must hold is written
+beside each fault; one that does not hold is printed and makes the exit code 1.
 """
 
 from __future__ import annotations
@@ -19,13 +20,19 @@ import numpy as np
 
 from beardyn_core.record.clouds import column_dtype, encode_points, points_of
 from beardyn_core.record.load_stream import encode_load
-from beardyn_core.record.messages import encode_clock
+from beardyn_core.record.messages import encode_clock, header_stamp
 from beardyn_core.record.reading import read_run
+from beardyn_core.record.topics import TOPICS
 from evidence.ros.costs import usage
+from evidence.ros.fuzz import forget_statuses
+from evidence.ros.hostile import Hostile
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
+from test.ros.live_train import LiveTrain
 
 BEGIN_S = 2.0  # of a run before a fault
+STRAYS = 500  # messages of a stranger
+LATEST_S = 5.0  # stamps behind their clock on a machine that is busy
 CLOUDS = ("load/blocks", "vibration", "force_waveform", "bodies", "contacts")
 CLOCKS_NS = (0, 2_000_000_000_000_000_000, 1, 10**18, 0)
 
@@ -57,7 +64,9 @@ class Soak:
             self.kill_recorder,
             self.send_malformed,
             self.send_late,
+            self.send_as_stranger,
             self.jump_clocks,
+            self.set_clock_of_live_load,
             self.fill_disk,
             self.kill_load,
             self.kill_twin,
@@ -70,7 +79,8 @@ class Soak:
         place.mkdir()
         with Graph(place) as self.graph:
             try:
-                self._start(place)
+                start = self._start_live if fault == self.set_clock_of_live_load else self._start
+                start(place)
                 fault()
             except (AssertionError, OSError) as error:
                 self._check(False, f"{fault.__name__}: {error}")
@@ -88,6 +98,15 @@ class Soak:
         self._connected("monitor")
         graph.fake_load(duration=20.0, loop=True)
         self._passes(BEGIN_S)
+
+    def _start_live(self, place: Path) -> None:
+        graph = self.graph
+        graph.listen("force_waveform")
+        graph.fake_twin(mode="live", max_age=10.0)
+        self._record(place / "run.mcap")
+        graph.node_process("monitor")
+        self._connected("recorder")
+        self._connected("monitor")
 
     def _record(self, path: Path) -> None:
         self._file = path
@@ -172,6 +191,46 @@ class Soak:
         self.graph.until(lambda: self._refused("twin") >= refused + 3, "refusals of late load")
         self._passes(1.0)
         self._alive("twin", "load", "recorder", "monitor")
+
+    def send_as_stranger(self) -> None:
+        """Publish on every topic beside its node: nothing of it is taken, nothing of the run is lost."""
+        self.graph.listen(*(entry.name for entry in TOPICS if entry.name != "/diagnostics"))
+        self._passes(0.5)
+        true = {name: list(messages) for name, messages in self.graph.messages.items()}
+        hostile, sent = Hostile(self._number, lambda name: true.get(name, ())), set()
+        for number in range(STRAYS):
+            entry = TOPICS[number % len(TOPICS)]
+            while not self.graph.out.publish(entry.name, cdr := hostile.message(entry)):
+                pass  # bytes that the middleware itself refuses
+            sent.add(cdr)
+            self.graph.drain()
+        forget_statuses(self.graph, sent)
+        self._passes(0.5)
+        self._alive("twin", "load", "recorder", "monitor")
+        self.graph.processes.signal("twin", signal.SIGINT)
+        self._ends("twin", 0)
+        self._ends("recorder", 0)
+        run = read_run(self._file)
+        self._check(bool((np.diff(run.vibration.sample) == 1).all()), f"{self._file}: gaps")
+        self._check(int(run.vibration.sample[0]) == 0, f"{self._file}: begins late")
+
+    def set_clock_of_live_load(self) -> None:
+        """Give live load of two clocks and set one of them: stamps follow it and never go back."""
+        with LiveTrain(self.graph, shaft_ahead=3.2) as train:
+            for step in (0.0, -0.3, 0.4, -0.1, 2.0):
+                train.ahead += step
+                self._passes(1.0)
+                late = train.now - 1e-9 * header_stamp(self.graph.messages["force_waveform"][-1])
+                self._check(-0.1 < late < LATEST_S, f"stamps are {late:.3f} s behind their clock")
+            told = self.graph.statuses("twin")[-1].message
+            self._check("they have two clocks" in told, f"two clocks go unmentioned: {told}")
+            self._alive("twin", "recorder", "monitor")
+            self.graph.processes.signal("twin", signal.SIGINT)
+            self._ends("twin", 0)
+        self._ends("recorder", 0)
+        run = read_run(self._file)
+        self._check(bool((np.diff(run.vibration.sample) == 1).all()), f"{self._file}: gaps")
+        self._check(bool((np.diff(run.vibration.time_ns) > 0).all()), f"{self._file}: stamps go back")
 
     def jump_clocks(self) -> None:
         """Publish a clock that jumps by years: nodes go on, those that follow it too."""

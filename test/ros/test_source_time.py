@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import threading
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
@@ -17,16 +16,17 @@ from hypothesis import strategies as st
 from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.messages import decode_string, header_stamp, time_reference
 from beardyn_core.record.reading import read_run
+from beardyn_core.record.reporting import report
 from beardyn_core.scene.load import LoadHistory
-from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC, encode_shaft, encode_wrench
+from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
 from beardyn_ros.load_feed import LoadFeed
 from beardyn_ros.source_time import FASTEST_DRIFT, ClockReading, SourceStamps
 from test.ros.graph import Graph
+from test.ros.live_train import EPOCH_S, LiveTrain
 from test.ros.test_load_feed import OPTIONS
 from test.ros.test_recorder import is_connected
 
 BLOCK_NS, DELAY_NS = 20_000_000, 113_000_000
-EPOCH_S = 1.77e9
 Clock = Callable[[float], float]  # what a clock shows at a wall time, both [s]
 
 
@@ -158,44 +158,6 @@ def test_the_delay_of_live_load_is_what_stamps_leave_out(look_ahead_ns: int, ban
     assert np.abs(found).max() < 0.02 * delay_ns
 
 
-class _Train:
-    """Publishes live load from a thread, 200 messages a second, stamped by a clock of its own."""
-
-    def __init__(self, graph: Graph, shaft_ahead: float = 0.0) -> None:
-        for name in (WRENCH_TOPIC, SHAFT_TOPIC):
-            graph.out.publisher(name)
-        self._publish = graph.out.publish
-        self._shaft_ahead = shaft_ahead
-        self.ahead = EPOCH_S - time.monotonic()
-        self._vertical = 40e3
-        self._ended = threading.Event()
-        self._thread = threading.Thread(target=self._run)
-
-    def __enter__(self) -> _Train:
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_exception: object) -> None:
-        self._ended.set()
-        self._thread.join()
-
-    @property
-    def now(self) -> float:
-        """What its clock shows, [s]."""
-        return time.monotonic() + self.ahead
-
-    def _run(self) -> None:
-        while not self._ended.wait(5e-3):
-            wrench, now = np.array([0.0, 0.0, self._vertical, 0.0, 0.0, 0.0]), self.now
-            self._publish(WRENCH_TOPIC, encode_wrench(wrench, round(1e9 * now)))
-            self._publish(SHAFT_TOPIC, encode_shaft(30.0, round(1e9 * (now + self._shaft_ahead))))
-
-    def step(self) -> int:
-        """Let the vertical load leap by 40 kN; the stamp of that, [ns]."""
-        self._vertical += 40e3
-        return round(1e9 * self.now)
-
-
 def _crossing_ns(graph: Graph, level: float) -> int:
     """Find the stamp at which the force on the cup first passes a level."""
     clouds = [cloud_to_arrays(cdr) for cdr in graph.messages["force_waveform"]]
@@ -218,7 +180,7 @@ def test_live_outputs_carry_the_clock_of_the_source_and_its_events(graph: Graph)
     graph.fake_twin(mode="live", max_age=5.0)
     graph.node_process("recorder", output=str(path))
     is_connected(graph, "recorder")
-    with _Train(graph) as train:
+    with LiveTrain(graph) as train:
         graph.until(lambda: len(_blocks(graph)) > 25, "half a second")
         stepped_ns = train.step()
         graph.until(lambda: _blocks(graph)[-1] > stepped_ns + 500_000_000, "the answer to the step")
@@ -243,7 +205,7 @@ def test_live_outputs_carry_the_clock_of_the_source_and_its_events(graph: Graph)
 def test_a_clock_that_is_set_back_holds_the_twin_and_no_stamp_comes_twice(graph: Graph) -> None:
     graph.listen("force_waveform")
     graph.fake_twin(mode="live", max_age=5.0)
-    with _Train(graph) as train:
+    with LiveTrain(graph) as train:
         graph.until(lambda: len(_blocks(graph)) > 25, "half a second")
         train.ahead -= 0.6
         count = len(_blocks(graph))
@@ -262,9 +224,36 @@ def test_a_clock_that_is_set_back_holds_the_twin_and_no_stamp_comes_twice(graph:
 
 
 @pytest.mark.ros
+def test_a_leap_is_no_loss_and_a_recorder_may_join_late(graph: Graph) -> None:
+    early, late = graph.folder / "early.mcap", graph.folder / "late.mcap"
+    graph.listen("force_waveform")
+    graph.fake_twin(mode="live", max_age=5.0)
+    graph.node_process("recorder", output=str(early))
+    is_connected(graph, "recorder")
+    with LiveTrain(graph) as train:
+        graph.until(lambda: len(_blocks(graph)) > 25, "half a second")
+        train.ahead += 2.0
+        graph.until(lambda: "stamps leap ahead" in graph.statuses("twin")[-1].message, "the leap")
+        graph.start("second", "beardyn_ros", "recorder", output=str(late))
+        graph.until(late.exists, "the second file")
+        count = len(_blocks(graph))
+        graph.until(lambda: len(_blocks(graph)) > count + 25, "half a second more")
+        graph.processes.signal("twin", signal.SIGINT)
+        for name in ("twin", "recorder", "second"):
+            assert graph.exit_code(name) == 0, graph.processes.log(name)
+    for path in (early, late):
+        found = report(path)
+        assert found.gaps == ()
+        assert found.missing_messages == ()
+    stamps = read_run(early).source_time
+    assert stamps[-1][0] - stamps[-1][1] - (stamps[0][0] - stamps[0][1]) == pytest.approx(2e9, abs=5e7)
+    assert "messages and" in graph.processes.log("second")  # what was before it
+
+
+@pytest.mark.ros
 def test_two_clocks_of_one_load_are_reported(graph: Graph) -> None:
     graph.fake_twin(mode="live", max_age=5.0)
-    with _Train(graph, shaft_ahead=3.2):
+    with LiveTrain(graph, shaft_ahead=3.2):
         graph.until(
             lambda: graph.statuses("twin") and "have two clocks" in graph.statuses("twin")[-1].message,
             "the word about two clocks",
