@@ -30,6 +30,7 @@ strands               which messages of a topic go on from each other
 run_file              one run in one file, of its own or shared by several boxes, with proof of what was lost
 recording             messages into files, one a run
 recorder_node         every topic into a crash-safe MCAP file
+value_topics          results as plain numbers, for any tool that plots
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
 follower_node         load, end play and spall from vibration and shaft, as they change

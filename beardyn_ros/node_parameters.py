@@ -236,6 +236,14 @@ FACTORS = (
         "roller_count", 0, "rolling elements of one row, with factors; 0: not given", minimum=0, maximum=200
     ),
 )
+VALUES = NodeParameter(
+    "values", True, "publish the numbers of each result on values/<name> for plots, next to the result itself"
+)
+WAVEFORM = NodeParameter(
+    "waveform",
+    False,
+    "publish every sample of vibration on vibration_samples as well, an array that Foxglove plots",
+)
 EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
 MONITOR = (
     MONITORED,
@@ -266,6 +274,8 @@ MONITOR = (
     NodeParameter(
         "hot", 120.0, "and from which it is a hot box; assumed", "degC", minimum=0.0, maximum=300.0
     ),
+    VALUES,
+    WAVEFORM,
     EXIT_WHEN_DONE,
 )
 
@@ -286,6 +296,7 @@ FOLLOWER = (
         minimum=1.0,
         maximum=1e6,
     ),
+    VALUES,
     EXIT_WHEN_DONE,
 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from beardyn_core.record.plot_values import CODES
 from beardyn_core.record.topics import TOPICS
 from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.node_parameters import PARAMETERS
@@ -249,6 +250,39 @@ after five in a row that follow each other the source has set its clock, and the
 """
 
 
+VALUES = """
+### Numbers for plots
+
+Each result of the monitor and of the follower comes on `values/NAME` as well, before the result itself and
+with its stamp: x is the value in SI, y and z are the lower and the upper end of its interval. The table names
+unit and interval. NaN is a number that is not known, and never 0: `spall_width` with NaN, 0.003, NaN is a
+spall of at least 3 mm. The last word of a node repeats an earlier result and brings no numbers. The parameter
+`values` of either node leaves them out. Verdict, health and condition are codes; from 10 on there is a fault:
+
+| code | verdict, health or condition |
+|---|---|
+"""
+
+KEPT = """
+### How long topics are kept
+
+Until version 1.0 topics may change with a minor version, as [quality.md](quality.md) states, and only as this
+table says.
+
+| topic | replaced by | kept |
+|---|---|---|
+| `monitor/result` | nothing: `values/` has its numbers without reasons, parts and stages | without an end |
+| `follower/estimate` (JSON) | `values/` for plots | until 1.0, and a minor version after it is replaced |
+| `follower/residual` (JSON) | nothing | until 1.0 |
+| `truth`, `load/truth` (JSON) | nothing: what they hold differs from scene to scene | without an end |
+| `vibration`, `force_waveform`, `load/blocks` | nothing | without an end |
+| `imu` | nothing: decimated vibration for tools without arrays | without an end |
+| `values/NAME`, `vibration_samples` | new in 0.1 | as `monitor/result` |
+
+A text on any topic has up to 4 MB; a longer one is refused and counted. That of a shipped scene has 60 kB.
+"""
+
+
 LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
 SIGINT is no failure. They stop nothing that another launch file, which includes them, has started.
 """
@@ -282,6 +316,7 @@ def page() -> str:
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")
         lines.append(f"| `{topic.name}` | `{topic.type}` | {quality} | {topic.rate} | {topic.content} |")
+    lines += [VALUES[:-1], *(f"| {code} | `{name}` |" for name, code in CODES.items()), KEPT[:-1]]
     return "\n".join(lines) + "\n"
 
 

@@ -7,6 +7,8 @@ module            responsibility
 ================= =============================================================================
 topics            the one topic table: names, types, QoS
 messages          CDR bytes without ROS; templates for small messages; diagnostics, clock, text
+plot_values       results of monitor and follower as numbers that any tool plots
+plot_samples      every sample of vibration in an array that Foxglove plots
 cloud_layout      columns of a cloud from its bytes, checked and without a copy
 clouds            columns of samples as ``sensor_msgs/PointCloud2`` and back
 encoding          a `Block` as the messages of the topic table
