@@ -45,6 +45,7 @@ from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.train_signals import Hearer, TrainSignals
+from beardyn_ros.typed_topics import TypedTopics
 from beardyn_ros.value_topics import ValueTopics
 from beardyn_ros.wire import TopicPublishers
 
@@ -65,8 +66,11 @@ class FollowerNode(Node):
         self._values = ParameterValues(self, PARAMETERS["follower"])
         self._service = Service(1e3 * self._values.mileage, 1e-3 * self._values.wheel_diameter)
         self._worker = ThreadPoolExecutor(1)
-        self._out = TopicPublishers(self, "follower/estimate", "follower/residual", "/diagnostics")
         frame = frame_of(self.get_namespace())
+        typed = TypedTopics.wanted(self, self._values.typed, frame)
+        self._out = TopicPublishers(
+            self, "follower/estimate", "follower/residual", "/diagnostics", typed=typed
+        )
         self._numbers = ValueTopics(self._out, FOLLOWER, frame, self._values.values)
         self._begin()
         hearer = Hearer(self._begin, self._hear_vibration, self._hear_shaft, self._hear_temperature)

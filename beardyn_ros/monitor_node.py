@@ -39,6 +39,7 @@ from beardyn_ros.node_parameters import FACTORS, PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.train_signals import Hearer, TrainSignals
+from beardyn_ros.typed_topics import TypedTopics
 from beardyn_ros.value_topics import ValueTopics
 from beardyn_ros.wire import TopicPublishers
 
@@ -76,8 +77,9 @@ class MonitorNode(Node):
         if problems:
             raise InputError(problems)
         self._orders = self._bearing.frequencies
-        self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
         frame = frame_of(self.get_namespace())
+        typed = TypedTopics.wanted(self, self._values.typed, frame)
+        self._out = TopicPublishers(self, "monitor/result", "/diagnostics", typed=typed)
         self._numbers = ValueTopics(self._out, MONITOR, frame, self._values.values)
         hearer = Hearer(self._begin, self._push_vibration, self._push_shaft, self._push_temperature)
         self._signals = TrainSignals(

@@ -35,6 +35,9 @@ BOX = NodeParameter(
     "four axles of a car: a right one is mirrored, each has another bearing of the lot and other noise; "
     "'': the one box of the scene, a left one",
 )
+TYPED = NodeParameter(
+    "typed", True, "publish typed/<topic> as well, where beardyn_msgs is built and sourced; else nothing"
+)
 TWIN = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
     BOX,
@@ -116,6 +119,7 @@ TWIN = (
         maximum=16_384.0,
     ),
     NodeParameter("publish_clock", True, "publish /clock; one twin of several"),
+    TYPED,
     FRAME_ID,
     PARENT,
     POSE,
@@ -176,6 +180,7 @@ LOAD = (
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
     NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
+    TYPED,
     FRAME_ID,
 )
 
@@ -276,6 +281,7 @@ MONITOR = (
     ),
     VALUES,
     WAVEFORM,
+    TYPED,
     EXIT_WHEN_DONE,
 )
 
@@ -297,6 +303,7 @@ FOLLOWER = (
         maximum=1e6,
     ),
     VALUES,
+    TYPED,
     EXIT_WHEN_DONE,
 )
 

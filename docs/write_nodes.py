@@ -9,6 +9,7 @@ from beardyn_core.record.topics import TOPICS
 from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.runtime import EXIT_CODES
+from beardyn_ros.typed_messages import PACKAGE, PREFIX, typed_message
 
 PAGE = Path(__file__).with_name("nodes.md")
 NODES = ("twin", "load", "recorder", "monitor", "follower", "viewer", "car_twin", "car_load", "car_recorder")
@@ -263,6 +264,33 @@ spall of at least 3 mm. The last word of a node repeats an earlier result and br
 |---|---|
 """
 
+TYPED_HEAD = """
+### Typed messages
+
+Where the package `beardyn_msgs` is built and sourced, the nodes publish these topics once more, with messages
+that a program reads without a parser of its own:
+
+| topic | type | content of |
+|---|---|---|
+"""
+
+TYPED_TAIL = """
+The package is in [interfaces](../interfaces/beardyn_msgs/package.xml) and is built with colcon next to the
+nodes; the comments in its messages name every unit. A message has the stamp, the frame and the numbers of
+the topic next to it. Without a subscriber nothing is converted; `typed:=false` leaves the topics out. The
+recorder does not subscribe to them: the recording has their content already.
+
+```
+colcon build --base-paths src src/beardyn/interfaces
+```
+
+### Every sample of a waveform
+
+With `waveform:=true` the monitor publishes each block of `vibration` as `vibration_samples` as well, also
+that of a real axlebox: a `geometry_msgs/PolygonStamped` whose points are ax, ay, az of one sample after the
+other. Foxglove plots such an array; [viewers.md](viewers.md#every-sample-of-a-waveform) covers the others.
+"""
+
 KEPT = """
 ### How long topics are kept
 
@@ -271,13 +299,13 @@ table says.
 
 | topic | replaced by | kept |
 |---|---|---|
-| `monitor/result` | nothing: `values/` has its numbers without reasons, parts and stages | without an end |
-| `follower/estimate` (JSON) | `values/` for plots | until 1.0, and a minor version after it is replaced |
+| `monitor/result` | nothing: `values/` has no reasons, parts and stages | without an end |
+| `follower/estimate` (JSON) | `typed/follower/estimate`; `values/` for plots | until 1.0 at least |
 | `follower/residual` (JSON) | nothing | until 1.0 |
-| `truth`, `load/truth` (JSON) | nothing: what they hold differs from scene to scene | without an end |
+| `truth`, `load/truth` (JSON) | nothing: their content differs from scene to scene | without an end |
 | `vibration`, `force_waveform`, `load/blocks` | nothing | without an end |
 | `imu` | nothing: decimated vibration for tools without arrays | without an end |
-| `values/NAME`, `vibration_samples` | new in 0.1 | as `monitor/result` |
+| `values/NAME`, `vibration_samples`, `typed/` | nothing: new in 0.1 | until 1.0 at least |
 
 A text on any topic has up to 4 MB; a longer one is refused and counted. That of a shipped scene has 60 kB.
 """
@@ -316,7 +344,11 @@ def page() -> str:
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")
         lines.append(f"| `{topic.name}` | `{topic.type}` | {quality} | {topic.rate} | {topic.content} |")
-    lines += [VALUES[:-1], *(f"| {code} | `{name}` |" for name, code in CODES.items()), KEPT[:-1]]
+    lines += [VALUES[:-1], *(f"| {code} | `{name}` |" for name, code in CODES.items()), TYPED_HEAD[:-1]]
+    for topic in TOPICS:
+        if found := typed_message(topic.name):
+            lines.append(f"| `{PREFIX}{topic.name}` | `{PACKAGE}/msg/{found.type_name}` | `{topic.name}` |")
+    lines += [TYPED_TAIL[:-1], KEPT[:-1]]
     return "\n".join(lines) + "\n"
 
 
