@@ -20,6 +20,7 @@ from beardyn_core.record.messages import Template, header, make
 
 VECTOR = "geometry_msgs/msg/Vector3Stamped"
 FAMILY = "values/"
+BOUNDS = ("value", "low", "high")
 MONITOR, FOLLOWER = "monitor", "follower"
 CODES = {
     "healthy": 0,

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
 from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import rerun as rr
 from rosbags.highlevel import AnyReader
 
+from beardyn_core.cli.main import main as command
 from beardyn_core.config import load_bearing
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.fault_location import PartEstimate
@@ -21,9 +24,12 @@ from beardyn_core.monitor.chain import VERDICTS
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.encoding import BlockEncoder
-from beardyn_core.record.messages import decode, header_frame, header_stamp
+from beardyn_core.record.mcap_scanning import McapScan
+from beardyn_core.record.mcap_writing import McapWriter
+from beardyn_core.record.messages import decode, encode_string, header_frame, header_stamp
 from beardyn_core.record.plot_samples import decode_samples, encode_samples
 from beardyn_core.record.plot_values import (
+    BOUNDS,
     CODES,
     FOLLOWER,
     MONITOR,
@@ -33,7 +39,10 @@ from beardyn_core.record.plot_values import (
     ValueEncoder,
     value_topics,
 )
-from beardyn_core.record.topics import topic
+from beardyn_core.record.reading import read_run
+from beardyn_core.record.rerun_live import LiveView
+from beardyn_core.record.topics import relative_name, topic
+from beardyn_core.record.viewer import viewer_executable
 from beardyn_core.sensors.labels import HEALTHY
 from beardyn_core.study.monitored_recording import FAULT_SYMBOLS, Finding, MonitoredRecording
 from test.record.synthetic_run import SyntheticRun, description
@@ -137,6 +146,62 @@ def test_a_monitored_recording_has_the_values_of_every_finding(tmp_path: Path) -
         expected = [each.to_values()[name.removeprefix("values/")].value for each in sink.findings]
         np.testing.assert_array_equal([value for _, value in messages], expected)
         assert [stamp for stamp, _ in messages] == [round(each.time * 1e9) for each in sink.findings]
+
+
+@pytest.fixture
+def monitored(tmp_path: Path) -> Path:
+    """A run with a monitor and the numbers of a follower."""
+    path, run = tmp_path / "run.mcap", SyntheticRun()
+    writer = McapWriter(path)
+    writer.add("truth", 0, encode_string(description().to_json()))
+    for name, stamp, cdr in BlockEncoder(17, ("axlebox_top",)).encode(run.block(0)):
+        writer.add(name, stamp, cdr)
+    for source, names in NAMES.items():
+        for k in range(3):
+            values = {name: Bounded(k + 1.0, k, nan) for name in names}
+            for name, cdr in ValueEncoder(source, "axlebox").encode(1_000_000_000 * k, values):
+                writer.add(name, 1_000_000_000 * k, cdr)
+    writer.close()
+    return path
+
+
+def test_the_numbers_of_a_recording_are_arrays_and_columns(monitored: Path, tmp_path: Path) -> None:
+    run = read_run(monitored)
+    assert set(run.plot_values) == NAMES[MONITOR] | NAMES[FOLLOWER]
+    width = run.plot_values["spall_width"]
+    assert (width.components, width.unit) == (BOUNDS, "m")
+    np.testing.assert_array_equal(width.time, [0.0, 1.0, 2.0])
+    np.testing.assert_array_equal(width.values, [[1.0, 0.0, nan], [2.0, 1.0, nan], [3.0, 2.0, nan]])
+    table = tmp_path / "width.csv"
+    assert command(["export", str(monitored), "-o", str(table), "--signals", "value_spall_width"]) == 0
+    head, first, *_ = table.read_text(encoding="utf-8").splitlines()
+    assert head == "time [s],value [m],low [m],high [m]"
+    assert first == "0,1,0,nan"
+    (usual,) = run.to_csv(tmp_path / "usual.csv")[:1]
+    assert usual.read_text(encoding="utf-8").startswith("time [s],ax")
+    assert run.to_xarray()["value_rms"].dims == ("time_value_rms", "bound")
+
+
+@pytest.mark.parametrize("live", [True, False], ids=["live", "from a recording"])
+def test_the_numbers_of_the_monitor_are_drawn(live: bool, monitored: Path, tmp_path: Path) -> None:
+    drawn = tmp_path / "drawn.rrd"
+    if live:
+        stream = rr.RecordingStream("beardyn")
+        stream.save(drawn)
+        view = LiveView(stream)
+        for message in McapScan(monitored).messages():
+            view.feed(relative_name(message.topic), message.cdr)
+        view.flush()
+        stream.flush()
+        stream.disconnect()
+        assert view.dropped == 0
+    else:
+        assert command(["view", str(monitored), "--save", str(drawn)]) == 0
+    words = [viewer_executable(), "rrd", "print", str(drawn)]
+    listing = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    for name in NAMES[MONITOR]:
+        assert f"/monitor/values/{name}" in listing
+    assert "/monitor/values/end_play" not in listing  # those of the follower have a page of their own
 
 
 def test_an_array_for_plots_has_every_sample_of_its_block_of_vibration() -> None:

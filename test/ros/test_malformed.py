@@ -45,7 +45,7 @@ MALFORMED = {
     "vibration_samples": (encode_time(3), wrong_fields()),
 }
 NOT_OF_THE_MONITOR = ("bodies", "values/confidence", "vibration_samples")
-NOT_OF_THE_VIEWER = NOT_OF_THE_MONITOR[1:]
+NOT_OF_THE_VIEWER = NOT_OF_THE_MONITOR[2:]
 
 
 def test_every_node_counts_and_refuses_malformed_messages_and_goes_on(graph: Graph) -> None:
