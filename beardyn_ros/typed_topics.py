@@ -10,7 +10,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from beardyn_core.record.topics import Topic
 from beardyn_ros.typed_messages import PREFIX, TypedMessage, message_types, typed_message
-from beardyn_ros.wire import quality_of_service
+from beardyn_ros.wire import all_received, quality_of_service
 
 TYPED_DEPTH = 50
 
@@ -62,3 +62,8 @@ class TypedTopics:
         message = conversion.convert(self._types, cdr, self._frame)
         with suppress(rclpy_implementation.RCLError):  # full: the message itself is out, its copy is lost
             publisher.publish(message)
+
+    def wait_until_received(self, name: str, timeout: float) -> None:
+        """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
+        if name in self._publishers:
+            all_received(self._publishers[name][0], timeout)

@@ -90,6 +90,13 @@ def quality_of_service(
     )
 
 
+def all_received(publisher: Any, timeout: float) -> bool:
+    """Wait until every reliable reader of a publisher has acknowledged, for at most `timeout` seconds."""
+    if publisher.get_subscription_count() == 0:
+        return True
+    return bool(publisher.wait_for_all_acked(Duration(seconds=timeout)))
+
+
 class TopicPublishers:
     """Publishers of CDR bytes, one per topic, made when first needed.
 
@@ -148,9 +155,9 @@ class TopicPublishers:
     def wait_until_received(self, name: str, timeout: float) -> bool:
         """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
         publisher = self._publishers.get(name)
-        if publisher is None or publisher.get_subscription_count() == 0:
-            return True
-        return bool(publisher.wait_for_all_acked(Duration(seconds=timeout)))
+        if self._typed is not None:
+            self._typed.wait_until_received(name, timeout)
+        return publisher is None or all_received(publisher, timeout)
 
     @property
     def names(self) -> tuple[str, ...]:

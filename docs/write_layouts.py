@@ -75,7 +75,7 @@ def signals() -> list[Plot]:
 
 
 def results() -> list[Plot]:
-    """List the plots of what monitor and follower report."""
+    """List the plots of the results of monitor and follower."""
     ends = ("from", "to")
     return [
         Plot(

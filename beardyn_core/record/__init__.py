@@ -42,7 +42,7 @@ rerun_bearing     the bearing in 3-D: motion, loads, contact forces
 rerun_scale       scale of the colours, key of the arrows, round axes
 rerun_plots       curves beside it, and the envelope spectrum
 rerun_follower    what a follower says over time, heard beside twin
-rerun_values      what the monitor says in numbers over time
+rerun_values      numbers of the monitor over time
 rerun_view        a whole recording with its blueprint; where it goes: a window, a page, a file
 rerun_live        a running twin, fed with messages
 rerun_modes       modes of an axlebox in motion

@@ -129,7 +129,7 @@ class BlockSource:
         return ()
 
     def plot_values(self) -> dict[str, arrays.Signal]:
-        """Give `Run.plot_values`: none, for neither monitor nor follower ran beside."""
+        """Give `Run.plot_values`: none, for neither monitor nor follower ran with it."""
         return {}
 
     def followed(self) -> arrays.Told:

@@ -1,4 +1,4 @@
-"""What the monitor says in numbers, beside the bearing: curves over time, each with its interval."""
+"""Numbers of the monitor next to the bearing: curves over time, each with its interval."""
 
 from __future__ import annotations
 

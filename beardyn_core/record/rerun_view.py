@@ -156,7 +156,7 @@ def blueprint(
     ``run`` is `None` where the bearing is not known. The curves show a window of time [s], by default all
     there is, and the newest data of a running twin with ``follow``; else the time stands at the beginning.
     ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says,
-    ``box`` the name of the axlebox where there are several; ``monitored`` says that a monitor has spoken.
+    ``box`` the name of the axlebox where there are several; ``monitored`` adds the numbers of a monitor.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
     close = _window(rr.TimeRangeBoundary.cursor_relative, *(LIVE_WINDOW if follow else CLOSE_WINDOW))

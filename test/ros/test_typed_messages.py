@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import math
 import re
+import shutil
+import subprocess
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -109,7 +113,12 @@ def test_typed_messages_arrive_and_are_equal_to_those_of_the_table(
         assert graph.exit_code(name) == 0
         assert "Traceback" not in graph.processes.log(name)
     table = graph.messages
-    graph.until(lambda: len(typed["vibration"]) == len(table["vibration"]) == 200, "every waveform")
+    for name in ("vibration", "force_waveform", "monitor/result", "follower/estimate"):
+        graph.until(
+            lambda name=name: len(typed[name]) == len(table[name]) > 0,  # type: ignore[misc]
+            f"every message of typed/{name}",
+        )
+    assert len(typed["vibration"]) == 200
     for name, (_, columns, units) in CLOUDS.items():
         check_clouds(typed[name], table[name], columns, units)
     check_verdicts(typed["monitor/result"], table["monitor/result"])
@@ -226,3 +235,20 @@ def test_without_the_package_there_is_no_typed_topic(graph: Graph) -> None:
     names = {name for name, _ in graph.node.get_topic_names_and_types()}
     assert "/axlebox/vibration" in names
     assert not any("/typed/" in name for name in names)
+
+
+@pytest.mark.skipif(
+    importlib.util.find_spec("colcon_core") is None,
+    reason="colcon is not installed (pip install colcon-common-extensions)",
+)
+def test_colcon_finds_the_package_next_to_the_nodes_as_the_page_says(tmp_path: Path) -> None:
+    page = (PACKAGE.parents[1] / "docs/nodes.md").read_text(encoding="utf-8")
+    (folders,) = re.findall(r"^colcon build --base-paths (.+)$", page, re.MULTILINE)
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src/beardyn").symlink_to(PACKAGE.parents[1])
+    colcon = shutil.which("colcon", path=str(Path(sys.executable).parent)) or "colcon"
+    command = [colcon, "list", "--base-paths", *folders.split()]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=100, check=False)
+    assert done.returncode == 0, done.stderr
+    found = {line.split()[0]: line.split()[-1] for line in done.stdout.splitlines()}
+    assert found == {"beardyn": "(ros.ament_python)", "beardyn_msgs": "(ros.ament_cmake)"}
