@@ -278,7 +278,8 @@ TYPED_TAIL = """
 The package is in [interfaces](../interfaces/beardyn_msgs/package.xml) and is built with colcon next to the
 nodes; the comments in its messages name every unit. A message has the stamp, the frame and the numbers of
 the topic next to it. Without a subscriber nothing is converted; `typed:=false` leaves the topics out. The
-recorder does not subscribe to them: the recording has their content already.
+recorder does not subscribe to them: the recording has their content already. Both waveforms together take the
+twin 0.004 s of processor time a simulated second to convert and encode when they are read.
 
 ```
 colcon build --base-paths src src/beardyn/interfaces
@@ -307,7 +308,8 @@ table says.
 | `imu` | nothing: decimated vibration for tools without arrays | without an end |
 | `values/NAME`, `vibration_samples`, `typed/` | nothing: new in 0.1 | until 1.0 at least |
 
-A text on any topic has up to 4 MB; a longer one is refused and counted. That of a shipped scene has 60 kB.
+A text on any topic has up to 4 MB; a longer one is refused and counted. Texts do not grow with the run:
+`truth` of a shipped scene has 60 kB, `load/truth` names the last 100 passages and how many there were.
 """
 
 
