@@ -9,7 +9,9 @@ parameters            parameters declared once from a table, refused with a sent
 real_time             the best tier that keeps the asked pace on this machine, and what is given up
 rig                   the twin of one axlebox and its run: of a scene, of one box of several, of a car
 node_parameters       the parameters of every node
+typed_messages        messages of the table as those of beardyn_msgs
 wire                  topics of the table as publishers, at once or spread; raw subscriptions in one sweep
+typed_topics          the topics of beardyn_msgs, where it is built and sourced
 diagnostics           what nodes know of each other: names of statuses, the twin's run, twins of one name
 message_guard         the intake of every node: refuses what is not promised, or of a second publisher
 services              services that answer when the work is done, those of simulation_interfaces too
@@ -31,6 +33,7 @@ strands               which messages of a topic go on from each other
 run_file              one run in one file, of its own or shared by several boxes, with proof of what was lost
 recording             messages into files, one a run
 recorder_node         every topic into a crash-safe MCAP file
+value_topics          results as plain numbers, for any tool that plots
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
 follower_node         load, end play and spall from vibration and shaft, as they change

@@ -24,6 +24,7 @@ from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.estimator import Estimates
+from beardyn_core.follow.follower_values import follower_values
 from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.residual import Residual
@@ -44,10 +45,13 @@ from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.train_signals import Hearer, TrainSignals
+from beardyn_ros.typed_topics import TypedTopics
+from beardyn_ros.value_topics import ValueTopics
 from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
+LAST_VALUES_S = 1.0
 LAST_COMPARISON_S = 15.0  # longest wait at the end; the recorder waits 20 s for the last word
 KEPT_ROWS = 4  # stretches that are compared with the twin beside
 
@@ -62,7 +66,12 @@ class FollowerNode(Node):
         self._values = ParameterValues(self, PARAMETERS["follower"])
         self._service = Service(1e3 * self._values.mileage, 1e-3 * self._values.wheel_diameter)
         self._worker = ThreadPoolExecutor(1)
-        self._out = TopicPublishers(self, "follower/estimate", "follower/residual", "/diagnostics")
+        frame = frame_of(self.get_namespace())
+        typed = TypedTopics.wanted(self, self._values.typed, frame)
+        self._out = TopicPublishers(
+            self, "follower/estimate", "follower/residual", "/diagnostics", typed=typed
+        )
+        self._numbers = ValueTopics(self._out, FOLLOWER, frame, self._values.values)
         self._begin()
         hearer = Hearer(self._begin, self._hear_vibration, self._hear_shaft, self._hear_temperature)
         self._signals = TrainSignals(self, hearer)
@@ -142,6 +151,7 @@ class FollowerNode(Node):
             self._report()
         if self._signals.ended and self._twin_is_done() and not self._summed_up:
             self._summed_up = True
+            self._numbers.wait_until_received(LAST_VALUES_S)
             self._publish(self._latest, final=True)
             self._report()
             self._out.wait_until_received("follower/estimate", 1.0)
@@ -157,6 +167,7 @@ class FollowerNode(Node):
         earlier = WAITING if self._latest is None else self._latest.health
         step = self._latest = self._follower.take(row, end, self._way)
         self._rows = [*self._rows, row][-KEPT_ROWS:]
+        self._numbers.publish(end, follower_values(step))
         self._publish(step)
         if step.health != earlier:
             say = self.get_logger().info if step.health in (WAITING, HEALTHY) else self.get_logger().warning

@@ -36,6 +36,7 @@ from beardyn_ros.replay import QUICK_S, Credit, Replay, ReplayClock
 from beardyn_ros.runtime import EXIT_LOAD_LOST, run_node, wall_timer
 from beardyn_ros.scenario import ENDED, PAUSED, PLAYING, Scenario, load_diagnostic, scene_scenario, truth_text
 from beardyn_ros.services import StepService
+from beardyn_ros.typed_topics import TypedTopics
 from beardyn_ros.wire import RawIntake, TopicPublishers
 
 ScenarioLoader = Callable[[str, str, float], Scenario]
@@ -101,6 +102,7 @@ class LoadNode(Node):
             "load/truth",
             "/diagnostics",
             *(("load/wrench", "load/shaft") if self._live else ()),
+            typed=TypedTopics.wanted(self, values.typed, self._frame),
         )
         self._restart()
         self._intake = RawIntake(self, polled=True)

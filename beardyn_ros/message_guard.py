@@ -13,8 +13,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from beardyn_core.record import plot_values as values
 from beardyn_core.record.checking import MessageChecker
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics
+from beardyn_core.record.plot_values import value_topics
 from beardyn_core.record.topics import Topic
 from beardyn_ros.diagnostics import FOLLOWER, LOAD, MONITOR, TWIN, diagnostic_name
 from beardyn_ros.wire import SourcedHandler
@@ -31,6 +33,9 @@ _OF_NODES = {
     "monitor/result": MONITOR,
     "follower/estimate": FOLLOWER,
     "follower/residual": FOLLOWER,
+    "vibration_samples": MONITOR,
+    **dict.fromkeys(value_topics(values.MONITOR), MONITOR),
+    **dict.fromkeys(value_topics(values.FOLLOWER), FOLLOWER),
 }
 _OF_TWIN = (
     *("truth", "force", "force_waveform", "vibration", "imu", "shaft", "joint_states", "bodies", "contacts"),

@@ -30,6 +30,7 @@ from beardyn_core.record.messages import (
     encode_diagnostics,
     header_stamp,
 )
+from beardyn_core.record.plot_samples import encode_samples
 from beardyn_core.record.topics import WRENCH
 from beardyn_core.study.monitored_recording import HOT_BOX, UNEXPLAINED, WAITING, Finding, Tally
 from beardyn_ros.diagnostics import MONITOR, OK, WARN, diagnostic_name
@@ -38,10 +39,13 @@ from beardyn_ros.node_parameters import FACTORS, PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
 from beardyn_ros.train_signals import Hearer, TrainSignals
+from beardyn_ros.typed_topics import TypedTopics
+from beardyn_ros.value_topics import ValueTopics
 from beardyn_ros.wire import TopicPublishers
 
 TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
+LAST_VALUES_S = 1.0
 _UNJUDGED = (
     0.25  # of the interval: when a run ends, more than that since the last analysis has one of its own
 )
@@ -73,10 +77,16 @@ class MonitorNode(Node):
         if problems:
             raise InputError(problems)
         self._orders = self._bearing.frequencies
-        self._out = TopicPublishers(self, "monitor/result", "/diagnostics")
+        frame = frame_of(self.get_namespace())
+        typed = TypedTopics.wanted(self, self._values.typed, frame)
+        self._out = TopicPublishers(self, "monitor/result", "/diagnostics", typed=typed)
+        self._numbers = ValueTopics(self._out, MONITOR, frame, self._values.values)
         hearer = Hearer(self._begin, self._push_vibration, self._push_shaft, self._push_temperature)
         self._signals = TrainSignals(
-            self, hearer, {"load/blocks": self._on_load, "load/wrench": self._on_wrench}
+            self,
+            hearer,
+            {"load/blocks": self._on_load, "load/wrench": self._on_wrench},
+            self._publish_samples if self._values.waveform else None,
         )
         self._begin()
         self._reported_at = 0.0
@@ -140,12 +150,16 @@ class MonitorNode(Node):
     def _report_finding(self, finding: Finding) -> None:
         earlier = self._tally.latest.verdict if self._tally.latest else ""
         self._tally.add(finding)
+        self._numbers.publish(finding.time, finding.to_values())
         self._publish(finding)
         if finding.verdict != earlier:
             if finding.is_fault or finding.verdict in (UNEXPLAINED, HOT_BOX):
                 self.get_logger().warning(finding.reason)
             else:
                 self.get_logger().info(finding.reason)
+
+    def _publish_samples(self, cloud: bytes) -> None:
+        self._out.publish("vibration_samples", encode_samples(cloud))
 
     def _publish(self, finding: Finding, *extra: tuple[str, str]) -> None:
         status = finding.to_diagnostic(diagnostic_name(self.get_namespace(), MONITOR), extra)
@@ -163,6 +177,7 @@ class MonitorNode(Node):
         conclusion = self._tally.conclusion()
         finding = conclusion.finding or Finding(WAITING, "not enough signal for a verdict", 0.0)
         counts = (("agreeing", str(conclusion.agreeing)), ("analyses", str(conclusion.analyses)))
+        self._numbers.wait_until_received(LAST_VALUES_S)
         self._publish(finding, ("final", "true"), *counts)
         self._report()
         self._out.wait_until_received("monitor/result", 1.0)

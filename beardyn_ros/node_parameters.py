@@ -36,6 +36,9 @@ BOX = NodeParameter(
     "four axles of a car: a right one is mirrored, each has another bearing of the lot and other noise; "
     "'': the one box of the scene, a left one",
 )
+TYPED = NodeParameter(
+    "typed", True, "publish typed/<topic> as well, where beardyn_msgs is built and sourced; else nothing"
+)
 TWIN = (
     NodeParameter("scene", "cup_spall", "shipped scene by name, or path of a scene file"),
     BOX,
@@ -130,6 +133,7 @@ TWIN = (
         "publish /clock; one twin of several. With stamps of the source only where it is given: the train "
         "has a clock",
     ),
+    TYPED,
     FRAME_ID,
     PARENT,
     POSE,
@@ -190,6 +194,7 @@ LOAD = (
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
     NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
+    TYPED,
     FRAME_ID,
 )
 
@@ -250,6 +255,14 @@ FACTORS = (
         "roller_count", 0, "rolling elements of one row, with factors; 0: not given", minimum=0, maximum=200
     ),
 )
+VALUES = NodeParameter(
+    "values", True, "publish the numbers of each result on values/<name> for plots, next to the result itself"
+)
+WAVEFORM = NodeParameter(
+    "waveform",
+    False,
+    "publish every sample of vibration on vibration_samples as well, an array that Foxglove plots",
+)
 EXIT_WHEN_DONE = NodeParameter("exit_when_done", True, "sum up and end the process when the twin has ended")
 MONITOR = (
     MONITORED,
@@ -280,6 +293,9 @@ MONITOR = (
     NodeParameter(
         "hot", 120.0, "and from which it is a hot box; assumed", "degC", minimum=0.0, maximum=300.0
     ),
+    VALUES,
+    WAVEFORM,
+    TYPED,
     EXIT_WHEN_DONE,
 )
 
@@ -300,6 +316,8 @@ FOLLOWER = (
         minimum=1.0,
         maximum=1e6,
     ),
+    VALUES,
+    TYPED,
     EXIT_WHEN_DONE,
 )
 

@@ -44,12 +44,18 @@ class TrainSignals:
     hearer : Hearer
     further : mapping
         Handlers of further topics by name, such as ``load/blocks``.
+    pass_on : callable, optional
+        Gets the bytes of every message of vibration that is taken.
     """
 
     def __init__(
-        self, node: Node, hearer: Hearer, further: Mapping[str, Callable[[bytes], None]] | None = None
+        self,
+        node: Node,
+        hearer: Hearer,
+        further: Mapping[str, Callable[[bytes], None]] | None = None,
+        pass_on: Callable[[bytes], None] | None = None,
     ) -> None:
-        self._node, self._hearer = node, hearer
+        self._node, self._hearer, self._pass_on = node, hearer, pass_on
         self._shaft: list[bytes] = []
         self._last_sample = -1
         self._came, self._nothing_waits = False, True
@@ -105,6 +111,8 @@ class TrainSignals:
             self._shaft = []
             self._hearer.restart()
         self._last_sample = int(points["sample"][-1])
+        if self._pass_on is not None:
+            self._pass_on(cdr)
         acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
         self._hearer.vibration(cloud_times(cdr, points), acceleration)
 

@@ -31,6 +31,7 @@ from beardyn_ros.services import SimulationServices, StepService, interfaces
 from beardyn_ros.session import TwinSession
 from beardyn_ros.source_time import follows_source
 from beardyn_ros.twin_report import TwinReporter, needs_attention, pace_sentence
+from beardyn_ros.typed_topics import TypedTopics
 from beardyn_ros.wire import RawIntake, Spreader, TopicPublishers
 
 RigLoader = Callable[[str, str, str], Callable[[], Rig]]
@@ -87,7 +88,10 @@ class TwinNode(LifecycleNode):
         self._announced = self._load_lacks = self._tier_note = ""
         self._readers_ignored_until = 0.0
         self._blocks_unconfirmed = 0
-        self._out = TopicPublishers(self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics")
+        typed = TypedTopics.wanted(self, self._values.typed, self._frame)
+        self._out = TopicPublishers(
+            self, "truth", *SIGNAL_TOPICS, "load/consumed", "/diagnostics", typed=typed
+        )
         if self._publishes_clock:
             self._out.publisher("/clock")
         self._trends = Spreader(self._out.publish)

@@ -12,6 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, encode_diagnostics
+from beardyn_core.record.plot_values import MONITOR, value_topics
 from beardyn_core.record.topics import topic, vibration_topic
 from beardyn_core.record.viewer import has_display
 from beardyn_ros.diagnostics import OK, TWIN, WARN, TwinWatch, diagnostic_name
@@ -39,6 +40,7 @@ DRAWN = (
     "contacts",
     "load/blocks",
     "monitor/result",
+    *value_topics(MONITOR),
     "follower/estimate",
     "follower/residual",
 )

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
@@ -26,6 +26,9 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.messages import DIAGNOSTICS
 from beardyn_core.record.topics import Topic, topic
+
+if TYPE_CHECKING:
+    from beardyn_ros.typed_topics import TypedTopics
 
 # Our publishers keep more than the table promises: a reader that gets no processor for a second or two
 # can still ask for what it missed.
@@ -87,6 +90,13 @@ def quality_of_service(
     )
 
 
+def all_received(publisher: Any, timeout: float) -> bool:
+    """Wait until every reliable reader of a publisher has acknowledged, for at most `timeout` seconds."""
+    if publisher.get_subscription_count() == 0:
+        return True
+    return bool(publisher.wait_for_all_acked(Duration(seconds=timeout)))
+
+
 class TopicPublishers:
     """Publishers of CDR bytes, one per topic, made when first needed.
 
@@ -95,10 +105,13 @@ class TopicPublishers:
     node : rclpy.node.Node
     names : str
         Topics of the table that are announced at once, so that readers find them.
+    typed : TypedTopics, optional
+        Publishes what has a type of beardyn_msgs once more.
     """
 
-    def __init__(self, node: Any, *names: str) -> None:
+    def __init__(self, node: Any, *names: str, typed: TypedTopics | None = None) -> None:
         self._node = node
+        self._typed = typed
         self._publishers: dict[str, Any] = {}
         self.sent: Counter[str] = Counter()
         self.lost_messages = 0
@@ -113,6 +126,8 @@ class TopicPublishers:
             self._publishers[name] = self._node.create_publisher(
                 message_class(entry.type), entry.name, quality_of_service(entry, offered=True)
             )
+            if self._typed is not None:
+                self._typed.announce(entry)
         return self._publishers[name]
 
     def publish(self, name: str, cdr: bytes) -> bool:
@@ -122,6 +137,8 @@ class TopicPublishers:
             try:
                 publisher.publish(cdr)
                 self.sent[name] += 1
+                if self._typed is not None:
+                    self._typed.publish(name, cdr)
                 return True
             except rclpy_implementation.RCLError:  # "cannot publish data": full
                 if attempt + 1 < PUBLISH_TRIES:
@@ -138,9 +155,9 @@ class TopicPublishers:
     def wait_until_received(self, name: str, timeout: float) -> bool:
         """Wait until every reliable reader has acknowledged a topic, for at most `timeout` seconds."""
         publisher = self._publishers.get(name)
-        if publisher is None or publisher.get_subscription_count() == 0:
-            return True
-        return bool(publisher.wait_for_all_acked(Duration(seconds=timeout)))
+        if self._typed is not None:
+            self._typed.wait_until_received(name, timeout)
+        return publisher is None or all_received(publisher, timeout)
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from beardyn_core.record.plot_values import CODES
 from beardyn_core.record.topics import TOPICS
 from beardyn_ros.__main__ import PROGRAMS
 from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.runtime import EXIT_CODES
+from beardyn_ros.typed_messages import PACKAGE, PREFIX, typed_message
 
 PAGE = Path(__file__).with_name("nodes.md")
 NODES = ("twin", "load", "recorder", "monitor", "follower", "viewer", "car_twin", "car_load", "car_recorder")
@@ -271,6 +273,68 @@ stamps count from 0 by default; with `stamps:=source` they are those of `load/bl
 """
 
 
+VALUES = """
+### Numbers for plots
+
+Each result of the monitor and of the follower comes on `values/NAME` as well, before the result itself and
+with its stamp: x is the value in SI, y and z are the lower and the upper end of its interval. The table names
+unit and interval. NaN is a number that is not known, and never 0: `spall_width` with NaN, 0.003, NaN is a
+spall of at least 3 mm. The last word of a node repeats an earlier result and brings no numbers. The parameter
+`values` of either node leaves them out. Verdict, health and condition are codes; from 10 on there is a fault:
+
+| code | verdict, health or condition |
+|---|---|
+"""
+
+TYPED_HEAD = """
+### Typed messages
+
+Where the package `beardyn_msgs` is built and sourced, the nodes publish these topics once more, with messages
+that a program reads without a parser of its own:
+
+| topic | type | content of |
+|---|---|---|
+"""
+
+TYPED_TAIL = """
+The package is in [interfaces](../interfaces/beardyn_msgs/package.xml) and is built with colcon next to the
+nodes; the comments in its messages name every unit. A message has the stamp, the frame and the numbers of
+the topic next to it. Without a subscriber nothing is converted; `typed:=false` leaves the topics out. The
+recorder does not subscribe to them: the recording has their content already. Both waveforms together take the
+twin 0.004 s of processor time a simulated second to convert and encode when they are read.
+
+```
+colcon build --base-paths src src/beardyn/interfaces
+```
+
+### Every sample of a waveform
+
+With `waveform:=true` the monitor publishes each block of `vibration` as `vibration_samples` as well, also
+that of a real axlebox: a `geometry_msgs/PolygonStamped` whose points are ax, ay, az of one sample after the
+other. Foxglove plots such an array; [viewers.md](viewers.md#every-sample-of-a-waveform) covers the others.
+"""
+
+KEPT = """
+### How long topics are kept
+
+Until version 1.0 topics may change with a minor version, as [quality.md](quality.md) states, and only as this
+table says.
+
+| topic | replaced by | kept |
+|---|---|---|
+| `monitor/result` | nothing: `values/` has no reasons, parts and stages | without an end |
+| `follower/estimate` (JSON) | `typed/follower/estimate`; `values/` for plots | until 1.0 at least |
+| `follower/residual` (JSON) | nothing | until 1.0 |
+| `truth`, `load/truth` (JSON) | nothing: their content differs from scene to scene | without an end |
+| `vibration`, `force_waveform`, `load/blocks` | nothing | without an end |
+| `imu` | nothing: decimated vibration for tools without arrays | without an end |
+| `values/NAME`, `vibration_samples`, `typed/` | nothing: new in 0.1 | until 1.0 at least |
+
+A text on any topic has up to 4 MB; a longer one is refused and counted. Texts do not grow with the run:
+`truth` of a shipped scene has 60 kB, `load/truth` names the last 100 passages and how many there were.
+"""
+
+
 LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
 SIGINT is no failure. They stop nothing that another launch file, which includes them, has started.
 """
@@ -304,6 +368,11 @@ def page() -> str:
     for topic in TOPICS:
         quality = topic.reliability + (", latched" if topic.durability == "transient_local" else "")
         lines.append(f"| `{topic.name}` | `{topic.type}` | {quality} | {topic.rate} | {topic.content} |")
+    lines += [VALUES[:-1], *(f"| {code} | `{name}` |" for name, code in CODES.items()), TYPED_HEAD[:-1]]
+    for topic in TOPICS:
+        if found := typed_message(topic.name):
+            lines.append(f"| `{PREFIX}{topic.name}` | `{PACKAGE}/msg/{found.type_name}` | `{topic.name}` |")
+    lines += [TYPED_TAIL[:-1], KEPT[:-1]]
     return "\n".join(lines) + "\n"
 
 

@@ -26,6 +26,7 @@ condition           which part is spalled, believed over many stretches
 following           the filter of one bearing: load, end play, spall as they change
 run_stretches       the stretches of a run as the filter of its bearing takes them
 residual            what is heard beside a twin at the state that is known
+follower_values     a step as numbers that any tool plots
 estimate_json       estimates, steps and residuals for JSON
 windowing           stretches out of blocks as they come
 learning            numbers and condition from labelled runs, intervals from runs not learnt from

@@ -7,6 +7,8 @@ module            responsibility
 ================= =============================================================================
 topics            the one topic table: names, types, QoS
 messages          CDR bytes without ROS; templates for small messages; diagnostics, clock, text
+plot_values       results of monitor and follower as numbers that any tool plots
+plot_samples      every sample of vibration in an array that Foxglove plots
 cloud_layout      columns of a cloud from its bytes, checked and without a copy
 clouds            columns of samples as ``sensor_msgs/PointCloud2`` and back
 encoding          a `Block` as the messages of the topic table
@@ -41,6 +43,7 @@ rerun_bearing     the bearing in 3-D: motion, loads, contact forces
 rerun_scale       scale of the colours, key of the arrows, round axes
 rerun_plots       curves beside it, and the envelope spectrum
 rerun_follower    what a follower says over time, heard beside twin
+rerun_values      numbers of the monitor over time
 rerun_view        a whole recording with its blueprint; where it goes: a window, a page, a file
 rerun_live        a running twin, fed with messages
 rerun_modes       modes of an axlebox in motion

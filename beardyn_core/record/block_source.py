@@ -128,6 +128,10 @@ class BlockSource:
         """Give `Run.results`: none, for no monitor ran beside."""
         return ()
 
+    def plot_values(self) -> dict[str, arrays.Signal]:
+        """Give `Run.plot_values`: none, for neither monitor nor follower ran with it."""
+        return {}
+
     def followed(self) -> arrays.Told:
         """Give `Run.followed`: nothing, for no follower ran beside."""
         return ()

@@ -21,11 +21,22 @@ from beardyn_core.record.cloud_layout import MalformedError, cloud_points, text_
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
 from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME, decode, decode_string
-from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, TIME_REFERENCE, TWIST, WRENCH, Topic, topic
+from beardyn_core.record.plot_values import VECTOR
+from beardyn_core.record.topics import (
+    IMU,
+    JOINTS,
+    POLYGON,
+    TEMPERATURE,
+    TIME_REFERENCE,
+    TWIST,
+    WRENCH,
+    Topic,
+    topic,
+)
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
 
-_NUMBERS = {WRENCH: 6, TWIST: 6, IMU: 37, TEMPERATURE: 2}  # float64 behind the header
+_NUMBERS = {WRENCH: 6, TWIST: 6, IMU: 37, TEMPERATURE: 2, VECTOR: 3}  # float64 behind the header
 _COLUMNS = {
     "force_waveform": WRENCH_AXES,
     "vibration": ("ax", "ay", "az"),
@@ -38,6 +49,7 @@ _LITTLE = b"\x00\x01"
 _ROWS = 2
 _SECOND = 1_000_000_000
 _PADDING = 3
+_POINT_BYTES = 12  # three float32
 LONGEST_NAME = 200
 
 
@@ -70,6 +82,7 @@ class MessageChecker:
             JOINTS: self._check_joints,
             STRING: _check_text,
             **dict.fromkeys((DIAGNOSTICS, TIME_REFERENCE), _check_decoding),
+            POLYGON: _check_samples,
             **dict.fromkeys((TIME, CLOCK), _check_time),
             **dict.fromkeys(_NUMBERS, _check_numbers),
         }
@@ -195,6 +208,16 @@ def _check_numbers(entry: Topic, cdr: bytes) -> None:
     size = _align_float(end) + 8 * _NUMBERS[entry.type]
     if not size <= len(cdr) <= size + _PADDING:
         raise MalformedError(f"it has {len(cdr)} bytes, a {entry.type} with its frame has {size}")
+
+
+def _check_samples(entry: Topic, cdr: bytes) -> None:
+    _check_stamp(cdr)
+    end, _ = text_at(cdr, 12)
+    end = (end + 3) & ~3
+    (count,) = struct.unpack_from("<I", cdr, end)
+    size = end + 4 + count * _POINT_BYTES
+    if not size <= len(cdr) <= size + _PADDING:
+        raise MalformedError(f"it has {len(cdr)} bytes, a {entry.type} of {count} points has {size}")
 
 
 def _check_time(_entry: Topic, cdr: bytes) -> None:

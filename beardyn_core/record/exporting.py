@@ -101,7 +101,9 @@ def export(
 
 def _usual(run: Run, kind: str) -> tuple[str, ...]:
     known = tables.signal_names(run)
-    names = known if kind not in _TABLES else tuple(name for name in known if name not in tables.SIGNALS[1:])
+    names = (
+        known if kind not in _TABLES else tuple(name for name in known if name.startswith(tables.VIBRATION))
+    )
     return tuple(name for name in names if len(tables.signal_of(run, name))) or (tables.VIBRATION,)
 
 

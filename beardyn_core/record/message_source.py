@@ -36,6 +36,7 @@ from beardyn_core.record.messages import (
     header_stamp,
     time_reference,
 )
+from beardyn_core.record.plot_values import BOUNDS, VALUES, VECTOR, vector_template
 from beardyn_core.record.topics import IMU, JOINTS, TEMPERATURE, WRENCH, vibration_topic
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, LARGEST
@@ -203,6 +204,15 @@ class MessageSource:
     def results(self) -> arrays.Diagnostics:
         return tuple(decode_diagnostics(cdr) for cdr in self._of("monitor/result"))
 
+    def plot_values(self) -> dict[str, arrays.Signal]:
+        return {
+            each.name: _stamped_signal(
+                self._of(each.topic), VECTOR, vector_template, "vector", _vector_values, BOUNDS, each.unit
+            )
+            for each in VALUES
+            if self._of(each.topic)
+        }
+
     def followed(self) -> arrays.Told:
         """Give `Run.followed`; the last word, which repeats what was said, is left out."""
         told = (decode_told(cdr) for cdr in self._of("follower/estimate"))
@@ -266,6 +276,11 @@ def wrench_values(message: Any) -> list[float]:
 def _imu_values(message: Any) -> list[float]:
     value = message.linear_acceleration
     return [value.x, value.y, value.z]
+
+
+def _vector_values(message: Any) -> list[float]:
+    vector = message.vector
+    return [vector.x, vector.y, vector.z]
 
 
 def _stamped_signal(

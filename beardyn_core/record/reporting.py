@@ -16,6 +16,7 @@ from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
 from beardyn_core.record.mcap_writing import COMPLETE
+from beardyn_core.record.plot_values import BY_TOPIC
 from beardyn_core.record.published import (
     MissingMessages,
     kept_pace,
@@ -37,7 +38,8 @@ SAMPLE_RANGE = 1 << 32
 # Topics written by others, or once: their times are not those of the twin's signals.
 NOT_OF_THE_TWIN = (
     *("/load/blocks", "/load/consumed", "/load/wrench", "/load/shaft"),
-    *("/monitor/result", "/truth", "/diagnostics"),
+    *("/monitor/result", "/truth", "/diagnostics", "/vibration_samples"),
+    *(f"/{name}" for name in BY_TOPIC),
 )
 
 

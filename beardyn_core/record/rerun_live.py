@@ -16,6 +16,7 @@ from beardyn_core.record.rerun_bearing import log_loads, log_motion, log_parts, 
 from beardyn_core.record.rerun_follower import log_estimates, log_residual, quantities_of
 from beardyn_core.record.rerun_plots import log_curves, log_spectrum, log_styles, order_spectrum
 from beardyn_core.record.rerun_scale import log_scale
+from beardyn_core.record.rerun_values import DRAWN, log_value
 from beardyn_core.record.rerun_view import blueprint
 
 BATCH_SECONDS = 0.25
@@ -23,6 +24,7 @@ SPECTRUM_SECONDS = 2.0
 SPECTRUM_WINDOW_NS = 4_000_000_000
 SPECTRUM_TOPICS = ("vibration", "shaft")
 FOLLOWED = ("follower/estimate", "follower/residual")
+MONITORED = tuple(each.topic for each in DRAWN)
 
 
 class LiveView:
@@ -42,6 +44,7 @@ class LiveView:
         self._drawn = self._spectrum_drawn = monotonic()
         self._largest = 0.0
         self._estimates: tuple[str, ...] = ()
+        self._monitored = False
         self.dropped = 0
 
     def feed(self, name: str, cdr: bytes) -> None:
@@ -57,6 +60,9 @@ class LiveView:
             return
         if name in FOLLOWED:
             self._follow(name, decode_told(cdr))
+            return
+        if name in MONITORED:
+            self._log_number(name, cdr)
             return
         if self._run is None:
             self.dropped += 1
@@ -106,7 +112,9 @@ class LiveView:
         log_styles(self._stream, run.sensor_names)
 
     def _lay_out(self) -> None:
-        self._stream.send_blueprint(blueprint(self._run, follow=True, estimates=self._estimates))
+        self._stream.send_blueprint(
+            blueprint(self._run, follow=True, estimates=self._estimates, monitored=self._monitored)
+        )
 
     def _follow(self, name: str, told: Mapping[str, Any]) -> None:
         """Draw what a follower says; the page for it is laid out when the first numbers come."""
@@ -120,6 +128,13 @@ class LiveView:
             self._estimates = quantities
             self._lay_out()
         log_estimates(self._stream, (told,))
+
+    def _log_number(self, name: str, cdr: bytes) -> None:
+        """Draw a number of the monitor; the page for them is laid out when the first one comes."""
+        if not self._monitored:
+            self._monitored = True
+            self._lay_out()
+        log_value(self._stream, name, cdr)
 
     def _draw_spectrum(self, run: RunDescription) -> None:
         window = run_of_messages({name: list(kept) for name, kept in self._window.items()}, run)

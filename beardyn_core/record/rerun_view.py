@@ -21,6 +21,7 @@ from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_mot
 from beardyn_core.record.rerun_follower import follower_view, log_follower, quantities_of
 from beardyn_core.record.rerun_plots import bounds, log_plots, ranges_of
 from beardyn_core.record.rerun_scale import log_scale, scale_view
+from beardyn_core.record.rerun_values import DRAWN, log_values, values_view
 from beardyn_core.record.run import Run
 from beardyn_core.record.viewer import require_display, waiting_window, web_viewer
 
@@ -129,6 +130,7 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
         log_loads(stream, run)
         log_scale(stream, float(roller_loads(run).max(initial=0.0)))
     log_plots(stream, run)
+    log_values(stream, run.plot_values)
     log_follower(stream, run.followed, run.residuals)
     stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
 
@@ -147,17 +149,19 @@ def blueprint(
     ranges: Mapping[str, tuple[float, float]] | None = None,
     estimates: tuple[str, ...] = (),
     box: str = "",
+    monitored: bool = False,
 ) -> rrb.Blueprint:
-    """Lay out the view: a page of the bearing and its curves, and one of what a follower says.
+    """Lay out the view: a page of the bearing and its curves, one of a monitor's numbers, one of a follower.
 
     ``run`` is `None` where the bearing is not known. The curves show a window of time [s], by default all
     there is, and the newest data of a running twin with ``follow``; else the time stands at the beginning.
     ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says,
-    ``box`` the name of the axlebox where there are several.
+    ``box`` the name of the axlebox where there are several; ``monitored`` adds the numbers of a monitor.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
     close = _window(rr.TimeRangeBoundary.cursor_relative, *(LIVE_WINDOW if follow else CLOSE_WINDOW))
     pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {}, box)]
+    pages += [values_view()] if monitored else []
     pages += [follower_view(estimates)] if estimates else []
     play: dict[str, Any] = {"play_state": "following"}
     if not follow:
@@ -235,7 +239,12 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
     times = run.vibration.time if len(run.vibration) else run.force.time
     span = (float(times[0]), float(times[-1])) if len(times) else None
     return blueprint(
-        run.described(), span, ranges=ranges_of(run), estimates=quantities_of(run.followed), box=run.box
+        run.described(),
+        span,
+        ranges=ranges_of(run),
+        estimates=quantities_of(run.followed),
+        box=run.box,
+        monitored=any(each.name in run.plot_values for each in DRAWN),
     )
 
 

@@ -222,6 +222,11 @@ class Run:
         return self._take(self._source.results)
 
     @cached_property
+    def plot_values(self) -> dict[str, arrays.Signal]:
+        """Numbers that monitor and follower published for plots, by name, values [result, value low high]."""
+        return self._take(self._source.plot_values)
+
+    @cached_property
     def followed(self) -> arrays.Told:
         """What a follower that ran beside said: ``steps[]`` of `beardyn follow --json`."""
         return self._take(self._source.followed)

@@ -14,12 +14,14 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
 from beardyn_core.record.arrays import Timed
 from beardyn_core.record.encoding import POSE_AXES, TWIST_AXES
+from beardyn_core.record.plot_values import BOUNDS
 from beardyn_core.scene.load import WRENCH_AXES
 
 if TYPE_CHECKING:
     from beardyn_core.record.run import Run
 
 VIBRATION = "vibration"
+VALUE = "value_"
 SIGNALS = (
     *(VIBRATION, "force", "force_waveform", "specific_force", "shaft", "torque", "cages", "rollers"),
     *("bodies", "contacts", "load", "temperature"),
@@ -59,9 +61,12 @@ class Part:
 
 
 def signal_names(run: Run) -> tuple[str, ...]:
-    """Name the signals of a run; further accelerometers are ``vibration_<sensor>``."""
+    """Name the signals of a run; further accelerometers are ``vibration_<sensor>``.
+
+    What monitor and follower published for plots is ``value_<name>``, where a recording has it.
+    """
     others = tuple(topic.replace("/", "_") for topic in run.sensor_topics if topic != VIBRATION)
-    return (VIBRATION, *others, *SIGNALS[1:])
+    return (VIBRATION, *others, *SIGNALS[1:], *(f"{VALUE}{name}" for name in run.plot_values))
 
 
 def signal_of(run: Run, name: str) -> Timed:
@@ -77,6 +82,8 @@ def signal_of(run: Run, name: str) -> Timed:
         raise InputError(f"signal {name!r} is not one of the run; allowed are {', '.join(known)}")
     if name.startswith(f"{VIBRATION}_"):
         return run.sensor_topics[f"{VIBRATION}/{name.removeprefix(f'{VIBRATION}_')}"]
+    if name.startswith(VALUE):
+        return run.plot_values[name.removeprefix(VALUE)]
     signal: Timed = getattr(run, name)
     return signal
 
@@ -88,6 +95,7 @@ def parts_of(run: Run, name: str) -> dict[str, Part]:
         return {part: Part(getattr(signal, part), *about) for part, about in _PARTS[name].items()}
     dims = {3: ("axis",), 0: (), len(WRENCH_AXES): ("component",)}[len(signal.components)]
     dims = ("part",) if name == "temperature" else dims
+    dims = ("bound",) if name.startswith(VALUE) else dims
     return {"values": Part(signal.values, dims, signal.unit)}
 
 
@@ -104,6 +112,7 @@ def coordinates_of(run: Run) -> dict[str, tuple[Any, ...]]:
         "coordinate": POSE_AXES,
         "motion": TWIST_AXES,
         "part": run.temperature.components,
+        "bound": BOUNDS,
     }
 
 

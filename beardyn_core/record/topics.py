@@ -11,6 +11,7 @@ from typing import Annotated as A
 
 from beardyn_core.record.clouds import CLOUD
 from beardyn_core.record.messages import CLOCK, DIAGNOSTICS, STRING, TIME
+from beardyn_core.record.plot_values import FOLLOWER, MONITOR, VALUES, VECTOR
 
 NAMESPACE = "/axlebox"
 FRAME = "axlebox"
@@ -21,6 +22,7 @@ IMU = "sensor_msgs/msg/Imu"
 TEMPERATURE = "sensor_msgs/msg/Temperature"
 JOINTS = "sensor_msgs/msg/JointState"
 TIME_REFERENCE = "sensor_msgs/msg/TimeReference"
+POLYGON = "geometry_msgs/msg/PolygonStamped"
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class Topic:
 _RELIABLE = ("reliable", "volatile")
 _SENSOR = ("best_effort", "volatile")
 _LATCHED = ("reliable", "transient_local")
+
+_RESULT_RATES = {MONITOR: "as the monitor decides", FOLLOWER: "every stretch of 1.5 s"}
 
 TOPICS: tuple[Topic, ...] = (
     Topic("force", WRENCH, *_RELIABLE, 200, "400 Hz", "force and moment of the rollers on the cup, N, N m"),
@@ -83,6 +87,10 @@ TOPICS: tuple[Topic, ...] = (
           "`beardyn follow --json`"),
     Topic("follower/residual", STRING, *_RELIABLE, 50, "as the follower's twin runs",
           "JSON: third octaves heard and of the twin beside, as residual of `beardyn follow --json`"),
+    *(Topic(value.topic, VECTOR, *_RELIABLE, 50, _RESULT_RATES[value.source], value.content)
+      for value in VALUES),
+    Topic("vibration_samples", POLYGON, *_RELIABLE, 50, "every block of vibration, when asked for",
+          "ax, ay, az of every sample as x, y, z of a point, m/s^2, for plots of arrays"),
     Topic("/diagnostics", DIAGNOSTICS, *_RELIABLE, 50, "every 0.2 s",
           "real-time factor, status bits, energy residual, late and lost blocks"),
     Topic("/clock", CLOCK, *_RELIABLE, 10, "every 20 ms", "simulated time"),

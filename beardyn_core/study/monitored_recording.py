@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from math import isfinite, nan
 from typing import Annotated as A
@@ -20,6 +20,7 @@ from beardyn_core.monitor.severity import Severity
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.messages import Diagnostic, encode_diagnostics
+from beardyn_core.record.plot_values import MONITOR, Bounded, ValueEncoder, code_of
 from beardyn_core.record.run import Run
 from beardyn_core.record.sinks import McapSink
 from beardyn_core.record.topics import FRAME
@@ -29,6 +30,7 @@ WAITING, HEALTHY, NOT_DIAGNOSABLE = "waiting", "healthy", "not_diagnosable"
 UNEXPLAINED, HOT_BOX = "unexplained", "hot_box"
 FAULT_SYMBOLS = {"cup": "BPFO", "cone": "BPFI", "roller": "2 BSF"}
 SPALL_FIELDS = ("stage", "stage_reason", "spall_width", "spall_width_low", "spall_width_high")
+_AS_FOUND = ("confidence", "signal_to_background", "threshold", "shaft_frequency", "rms", "kurtosis", "crest")
 _TEXTS = ("stage", "stage_reason")
 _PARTS = ("not_judged", "also_fits")
 _LATEST = 25  # findings of a verdict of which one stands for the size of the spall
@@ -132,6 +134,17 @@ class Finding:
         values += [(field, " ".join(getattr(self, field))) for field in _PARTS]
         level = 2 if self.verdict == HOT_BOX else int(self.verdict not in (HEALTHY, WAITING))
         return Diagnostic(name, level, self.reason, (*values, *extra))
+
+    def to_values(self) -> Mapping[str, Bounded]:
+        """Give the numbers of ``values/<name>`` by their names; see `record.plot_values`."""
+        return {
+            **{name: Bounded(getattr(self, name)) for name in _AS_FOUND},
+            "verdict": Bounded(code_of(self.verdict)),
+            "fault_frequency": Bounded(self.found_frequency),
+            # nothing is scored while there is not enough signal: the field then has its default, 0
+            "score": Bounded(nan if self.verdict == WAITING else self.score),
+            "spall_width": Bounded(self.spall_width, self.spall_width_low, self.spall_width_high),
+        }
 
     @classmethod
     def from_diagnostic(cls, status: Diagnostic) -> Finding | None:
@@ -293,6 +306,7 @@ class MonitoredRecording(McapSink):
         orders, count = fault_frequencies(self._bearing), self._bearing.roller_count
         plate = NamePlate.of(self._bearing)
         self._monitor = Monitor(orders, count, run.sensor_rates[0], bearing=plate)
+        self._values = ValueEncoder(MONITOR, FRAME)
         self.findings = []
 
     def write(self, block: Block) -> None:
@@ -304,7 +318,10 @@ class MonitoredRecording(McapSink):
         finding = Finding.of(result)
         self.findings.append(finding)
         message = encode_diagnostics(result.end_ns, FRAME, [finding.to_diagnostic(MONITOR_STATUS)])
-        self._open_writer().add("monitor/result", result.end_ns, message)
+        writer = self._open_writer()
+        for name, cdr in self._values.encode(result.end_ns, finding.to_values()):
+            writer.add(name, result.end_ns, cdr)
+        writer.add("monitor/result", result.end_ns, message)
         if self._on_finding is not None:
             self._on_finding(finding)
 

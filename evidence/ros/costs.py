@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated as A
@@ -34,7 +34,12 @@ class Cost:
 
 
 def costs(
-    graph: Graph, scene: str, duration: float, output: Path, tier: str = SCENE_OWN
+    graph: Graph,
+    scene: str,
+    duration: float,
+    output: Path,
+    tier: str = SCENE_OWN,
+    monitor: Mapping[str, object] | None = None,
 ) -> tuple[float, list[Cost], dict[str, str]]:
     """Run all nodes in real time and measure them.
 
@@ -49,6 +54,8 @@ def costs(
         Of the recorder.
     tier : str
         Of the twin; by default the best that keeps the pace.
+    monitor : mapping, optional
+        Parameters of the monitor.
 
     Returns
     -------
@@ -57,7 +64,7 @@ def costs(
         `late_blocks` are those since the start-up; `pace` and `most_lag` are over the time measured, the lag
         as the diagnostic shows it every 0.2 s.
     """
-    start_all(graph, scene, output, 1.0, tier, duration=duration + 2.0 * START_S, loop=False)
+    start_all(graph, scene, output, 1.0, tier, monitor, duration=duration + 2.0 * START_S, loop=False)
     begin, before = _at(graph, START_S)
     first = dict(graph.statuses("twin")[-1].values)
     lags: list[float] = []
@@ -71,7 +78,13 @@ def costs(
 
 
 def start_all(
-    graph: Graph, scene: str, output: Path, speed: float, tier: str = SCENE_OWN, **replay: object
+    graph: Graph,
+    scene: str,
+    output: Path,
+    speed: float,
+    tier: str = SCENE_OWN,
+    monitor: Mapping[str, object] | None = None,
+    **replay: object,
 ) -> None:
     """Start all nodes, the load when everybody listens.
 
@@ -86,6 +99,8 @@ def start_all(
         Speed factor.
     tier : str
         Of the twin.
+    monitor : mapping, optional
+        Parameters of the monitor.
     **replay
         Parameters of the load node.
     """
@@ -94,7 +109,7 @@ def start_all(
     else:
         graph.node_process("twin", scene=scene, speed_factor=speed, tier=tier)
     graph.node_process("recorder", output=str(output))
-    graph.node_process("monitor")
+    graph.node_process("monitor", **(monitor or {}))
     listeners = ("recorder", "monitor")
     graph.until(
         lambda: all(any(s.value("connected") == "true" for s in graph.statuses(n)) for n in listeners),
@@ -158,10 +173,14 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("--tier", default=SCENE_OWN, help="of the twin; default: as it chooses")
     parser.add_argument("--auto", action="store_true", help="with `numerics: auto` in the scene")
     parser.add_argument("--seconds", type=float, default=60.0, help="simulated time (default 60)")
+    parser.add_argument(
+        "--monitor", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the monitor"
+    )
     args = parser.parse_args(words)
+    monitor = dict(each.split("=", 1) for each in args.monitor)
     with tempfile.TemporaryDirectory(prefix="costs-") as name, Graph(Path(name)) as graph:
         scene = automatic(args.scene, Path(name)) if args.auto else args.scene
-        span, found, values = costs(graph, scene, args.seconds, Path(name) / "run.mcap", args.tier)
+        span, found, values = costs(graph, scene, args.seconds, Path(name) / "run.mcap", args.tier, monitor)
     keys = ("pace", "late_blocks", "last_late_time", "most_lag")
     told = ", ".join(f"{key} {values.get(key)}" for key in keys)
     print(f"{args.scene}{' with numerics: auto' if args.auto else ''}: {span:.1f} s simulated, {told}")

@@ -34,7 +34,9 @@ SPEED_FACTOR = 0.5  # of the run
 BEGIN_S, END_S = 6.0, 6.0  # of the run before and after them; the follower wants stretches of 1.5 s
 ENDING_S = 300.0  # a busy machine is behind
 BLOCKS_PER_S, BLOCK_SAMPLES = 50, 512
-FREE = (*ANYBODY, "load/wrench", "load/shaft", "temperature", "follower/residual")  # without a publisher
+FREE = (  # without a publisher
+    *(*ANYBODY, "load/wrench", "load/shaft", "temperature", "follower/residual", "vibration_samples"),
+)
 
 
 def fuzz(folder: Path, messages: int, seed: int, nodes: Sequence[str] = NODES) -> list[str]:

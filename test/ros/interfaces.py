@@ -1,4 +1,4 @@
-"""Builds ROS interface packages that no registry has, tf2_msgs and simulation_interfaces.
+"""Builds ROS interface packages that no registry has: tf2_msgs, simulation_interfaces and beardyn_msgs.
 
 The wheels hold rosidl's generators and headers; gcc does the rest. Only what a test needs is defined here.
 """
@@ -30,7 +30,16 @@ SIMULATION_INTERFACES = {
     "srv/ResetSimulation.srv": "uint8 SCOPE_DEFAULT=0\nuint8 SCOPE_TIME=1\nuint8 SCOPE_STATE=2\n"
     "uint8 SCOPE_SPAWNED=4\nuint8 SCOPE_ALL=255\nuint8 scope\n---\nResult result\n",
 }
-PACKAGES = {"tf2_msgs": TF2_MSGS, "simulation_interfaces": SIMULATION_INTERFACES}
+OWN = Path(__file__).resolve().parents[2] / "interfaces/beardyn_msgs"
+BEARDYN_MSGS = {
+    path.relative_to(OWN).as_posix(): path.read_text(encoding="utf-8")
+    for path in sorted((OWN / "msg").glob("*.msg"))
+}
+PACKAGES = {
+    "tf2_msgs": TF2_MSGS,
+    "simulation_interfaces": SIMULATION_INTERFACES,
+    "beardyn_msgs": BEARDYN_MSGS,
+}
 TYPE_SUPPORT = "rosidl_typesupport_c"
 FAST = "rosidl_typesupport_fastrtps_c"
 

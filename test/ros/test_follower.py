@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from beardyn_core.cli.json_output import SCHEMA_VERSION
-from beardyn_core.record.messages import decode_told
+from beardyn_core.record.messages import decode, decode_told, header_stamp
+from beardyn_core.record.plot_values import CODES, FOLLOWER, VECTOR, value_topics
 from beardyn_core.record.reporting import report
 from test.cli.json_page import check
 from test.ros.graph import Graph
@@ -20,7 +21,7 @@ COMPILED_IN_S = 240.0  # a set of kernels that no other test has, on a machine t
 
 
 def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Graph, tmp_path: Path) -> None:
-    graph.listen("follower/estimate")
+    graph.listen("follower/estimate", *value_topics(FOLLOWER))
     file = tmp_path / "run.mcap"
     graph.fake_twin(speed_factor=2.0)
     graph.node_process("recorder", output=str(file))
@@ -52,6 +53,16 @@ def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Gra
     assert any(each.value("health") == "unexplained" for each in graph.statuses("follower"))
     counts = {each.name: each.count for each in report(file).topics}
     assert counts["/axlebox/follower/estimate"] == 4
+    for name in value_topics(FOLLOWER):
+        assert counts[f"/axlebox/{name}"] == 3
+        stamps = [1e-9 * header_stamp(cdr) for cdr in graph.messages[name]]
+        assert stamps == pytest.approx([each["time_s"] for each in told], abs=1e-9)
+    numbers = {
+        name: decode(VECTOR, graph.messages[f"values/{name}"][-1]).vector
+        for name in ("health", "strangeness")
+    }
+    assert numbers["health"].x == CODES["unexplained"]
+    assert numbers["strangeness"].x == pytest.approx(last["strangeness"], rel=1e-9)
 
 
 @pytest.mark.usefixtures("compiled_kernels")

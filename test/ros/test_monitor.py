@@ -6,7 +6,9 @@ import pytest
 
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.config import load_bearing
-from beardyn_core.record.messages import decode_diagnostics
+from beardyn_core.record.messages import decode, decode_diagnostics, header_frame, header_stamp
+from beardyn_core.record.plot_samples import encode_samples
+from beardyn_core.record.plot_values import CODES, MONITOR, VECTOR, value_topics
 from beardyn_core.study.monitored_recording import Finding
 from test.ros.graph import Graph
 
@@ -15,7 +17,7 @@ HOUSEKEEPING = {"/diagnostics", "/parameter_events"}
 
 
 def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_not(graph: Graph) -> None:
-    graph.listen("monitor/result")
+    graph.listen("monitor/result", *value_topics(MONITOR))
     graph.fake_twin(speed_factor=2.0)
     graph.node_process("monitor", bearing="HS130x230", interval=0.5)
     graph.until(
@@ -38,6 +40,38 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
     assert abs(last.deviation) < 0.01
     assert last.signal_to_background > 10.0
     assert statuses[0].value("verdict") == "waiting"
+    stamps = [header_stamp(cdr) for cdr in graph.messages["monitor/result"]][:-1]  # without the last word
+    for name in value_topics(MONITOR):
+        messages = graph.messages[name]
+        assert [header_stamp(cdr) for cdr in messages] == stamps
+        assert {header_frame(cdr) for cdr in messages} == {"axlebox"}
+        for cdr, status in zip(messages, statuses, strict=False):
+            finding = Finding.from_diagnostic(status)
+            assert finding is not None
+            told = finding.to_values()[name.removeprefix("values/")]
+            vector = decode(VECTOR, cdr).vector
+            # the status has nine digits
+            assert (vector.x, vector.y, vector.z) == pytest.approx(tuple(told), rel=1e-8, nan_ok=True)
+    assert decode(VECTOR, graph.messages["values/verdict"][-1]).vector.x == CODES["cup"]
+
+
+def test_numbers_are_left_out_and_every_sample_comes_as_the_parameters_say(graph: Graph) -> None:
+    graph.listen("monitor/result", "vibration", "vibration_samples", *value_topics(MONITOR))
+    graph.fake_twin(speed_factor=4.0)
+    graph.node_process("monitor", interval=0.5, values=False, waveform=True)
+    graph.until(
+        lambda: any(status.value("connected") == "true" for status in graph.statuses("monitor")),
+        "the monitor's connection",
+    )
+    graph.fake_load(duration=1.0)
+    assert graph.exit_code("monitor") == 0
+    while graph.drain():
+        pass
+    assert graph.messages["monitor/result"]
+    assert not any(graph.messages[name] for name in value_topics(MONITOR))
+    assert not any(graph.node.count_publishers(f"/axlebox/{name}") for name in value_topics(MONITOR))
+    assert len(graph.messages["vibration_samples"]) == 50
+    assert graph.messages["vibration_samples"] == [encode_samples(cdr) for cdr in graph.messages["vibration"]]
 
 
 def test_a_fault_heard_with_the_data_of_another_bearing_is_unexplained_on_the_topic(graph: Graph) -> None:

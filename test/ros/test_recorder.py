@@ -24,6 +24,7 @@ from beardyn_core.record.messages import (
     encode_string,
     header_stamp,
 )
+from beardyn_core.record.plot_values import FOLLOWER, value_topics
 from beardyn_core.record.published import MissingMessages, last_published
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
@@ -37,7 +38,8 @@ from test.ros.graph import Graph
 NO_BODIES = np.zeros(0, dtype=[("sample", "<u4")])
 LIVE_ONLY = ("load/wrench", "load/shaft")
 # no thermal effect in the scene, no follower beside
-ABSENT = (*LIVE_ONLY, "temperature", "source_time", "follower/estimate", "follower/residual")
+OF_A_FOLLOWER = ("follower/estimate", "follower/residual", *value_topics(FOLLOWER))
+ABSENT = (*LIVE_ONLY, "temperature", "source_time", "vibration_samples", *OF_A_FOLLOWER)
 
 
 def is_connected(graph: Graph, part: str) -> None:

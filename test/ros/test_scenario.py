@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from beardyn_core.base.plain_json import LONGEST_TEXT
 from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_history
 from beardyn_core.scene.excitation import WheelFlat
@@ -45,6 +46,20 @@ def test_truth_says_irregularity_wheel_flat_and_where_the_stream_stands() -> Non
     assert stamps == [(0.0, 0.0), (1000 * replay.spacing_ns / 1e9, 0.25)]
     assert not says_paused(text)
     assert says_paused(truth_text(Scenario(history, {}), replay, PAUSED, ""))
+
+
+def test_the_truth_of_a_load_does_not_grow_with_the_laps_of_its_loop() -> None:
+    scene = load_scene("smooth_run")
+    assert isinstance(scene.operation, QuarterVehicleOperation)
+    history = load_history(scene.operation, scene.mounting, 0.1, scene.seed)
+    replay = Replay(history, fade=0.01, loop=True)
+    scenario = Scenario(history, scenario_events(scene))
+    sizes = []
+    for _ in range(2):
+        replay.take(200 * len(history))
+        sizes.append(len(truth_text(scenario, replay, PLAYING, "run")))
+    assert json.loads(truth_text(scenario, replay, PLAYING, "run"))["replay"]["passage_count"] > 350
+    assert sizes[1] < 1.02 * sizes[0] < 0.01 * LONGEST_TEXT  # stamps have more digits
 
 
 @pytest.mark.parametrize("text", ["", "no json", "[]", "3", '{"replay": 5}', '{"replay": {}}', "{}"])

@@ -12,6 +12,7 @@ import pytest
 from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_string, header_stamp
+from beardyn_core.record.plot_values import BY_TOPIC
 from beardyn_core.record.topics import TOPICS, topic
 from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.diagnostics import WARN
@@ -204,6 +205,7 @@ def test_services_pause_step_and_reset(graph: Graph) -> None:
 
 def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Graph) -> None:
     elsewhere = {"load/wrench", "load/shaft", "monitor/result", "follower/estimate", "follower/residual"}
+    elsewhere |= {"vibration_samples", *BY_TOPIC}
     elsewhere |= {"temperature", "source_time"}  # need `thermal`, stamps of the source
     names = [entry.name for entry in TOPICS if entry.name not in elsewhere]
     graph.listen(*[name for name in names if name != "/diagnostics"])
