@@ -34,6 +34,7 @@ run_file              one run in one file, of its own or shared by several boxes
 recording             messages into files, one a run
 recorder_node         every topic into a crash-safe MCAP file
 value_topics          results as plain numbers, for any tool that plots
+clocks_apart          whether streams that are paired by stamp have one clock
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
 follower_node         load, end play and spall from vibration and shaft, as they change

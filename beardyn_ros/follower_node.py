@@ -208,7 +208,9 @@ class FollowerNode(Node):
         health = WAITING if step is None else step.health
         doubts = () if step is None else step.doubts
         unexplained = () if self._residual is None else self._residual.sentences
-        troubles = filter(None, [self._unheard or self._stretches.doubt, self._trouble])
+        troubles = filter(
+            None, [self._unheard or self._stretches.doubt, self._trouble, self._signals.clock_note]
+        )
         told = "; ".join([*doubts, *unexplained, *troubles])
         status = Diagnostic(
             diagnostic_name(namespace, FOLLOWER),

@@ -186,10 +186,12 @@ class MonitorNode(Node):
         self._reported_at = time.monotonic()
         namespace = self.get_namespace()
         latest = self._tally.latest or Finding(WAITING, "listening", 0.0)
+        note = self._signals.clock_note
+        warned = note or self._monitor.lost or self._monitor.refused or self._signals.guard.total
         status = Diagnostic(
             diagnostic_name(namespace, MONITOR),
-            WARN if self._monitor.lost or self._monitor.refused or self._signals.guard.total else OK,
-            latest.reason,
+            WARN if warned else OK,
+            "; ".join(filter(None, (note, latest.reason))),
             (
                 ("connected", "true" if self._signals.connected else "false"),
                 ("verdict", latest.verdict),

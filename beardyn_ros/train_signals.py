@@ -18,6 +18,7 @@ from beardyn_core.record.clouds import cloud_times
 from beardyn_core.record.messages import decode, decode_diagnostics, header_stamp
 from beardyn_core.record.reading import run_of_messages
 from beardyn_core.record.topics import TEMPERATURE, topic
+from beardyn_ros.clocks_apart import ClocksApart
 from beardyn_ros.diagnostics import TWIN, TwinWatch, diagnostic_name
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.wire import RawIntake
@@ -59,6 +60,7 @@ class TrainSignals:
         self._shaft: list[bytes] = []
         self._last_sample = -1
         self._came, self._nothing_waits = False, True
+        self._clocks = ClocksApart(*_MEASURED)
         self._intake = RawIntake(node, polled=True)
         self.guard = MessageGuard(node)
         for name, handler in {
@@ -90,6 +92,11 @@ class TrainSignals:
         """Whether the twin is gone without a word, and all that it has sent is heard."""
         return self.watch.vanished() and self._nothing_waits
 
+    @property
+    def clock_note(self) -> str:
+        """Report two clocks of vibration and shaft, which are paired by stamp; empty where there is one."""
+        return self._clocks.sentence
+
     def sweep(self) -> None:
         """Tell the hearer what has come since the last sweep."""
         self._came = False
@@ -100,6 +107,7 @@ class TrainSignals:
             turning = run_of_messages({"shaft": self._shaft}, None).shaft
             self._hearer.shaft(turning.time_ns, turning.angle)
             self._shaft = []
+        self._clocks.look()
 
     def _on_vibration(self, cdr: bytes) -> None:
         self._came = True
@@ -109,15 +117,19 @@ class TrainSignals:
         if int(points["sample"][-1]) <= self._last_sample:
             self._node.get_logger().info(f"the vibration starts again, so does the {self._node.get_name()}")
             self._shaft = []
+            self._clocks.begin()
             self._hearer.restart()
         self._last_sample = int(points["sample"][-1])
         if self._pass_on is not None:
             self._pass_on(cdr)
         acceleration = np.stack([points[axis].astype(float) for axis in ("ax", "ay", "az")], axis=1)
-        self._hearer.vibration(cloud_times(cdr, points), acceleration)
+        times = cloud_times(cdr, points)
+        self._clocks.receive("vibration", int(times[-1]))
+        self._hearer.vibration(times, acceleration)
 
     def _shaft_comes(self, cdr: bytes) -> None:
         self._came = True
+        self._clocks.receive("shaft", header_stamp(cdr))
         self._shaft.append(cdr)
 
     def _on_temperature(self, cdr: bytes) -> None:

@@ -267,6 +267,9 @@ twin's status is the same number. `truth` has `begin_ns`, a stamp that no sample
 | is set back by more | a new run begins, with a new `run_id` and a recording of its own |
 | differs between `load/wrench` and `load/shaft` by more than 0.1 s | follow `load/wrench`; the status warns |
 
+Monitor and follower pair vibration and shaft by stamp: where the two have been more than 0.5 s apart for 5 s,
+as with a sensor whose clock drifts, their status warns and states the distance.
+
 `/clock` stays silent then, unless `publish_clock` is given: the train has a clock. A twin that is late
 (status `axlebox/lag`) answers load that is younger than its stamps say, by as much as it lags. In `lockstep`
 stamps count from 0 by default; with `stamps:=source` they are those of `load/blocks`, exactly.
