@@ -128,9 +128,9 @@ def _least_of_halves(each: Candidate, tracked: Float, settings: MonitorSettings)
 
 # of the terms of `Grounds`; `python -m evidence.measured.confidence` prints them and judges them
 WEIGHTS: dict[str, tuple[float, ...]] = {
-    PART: (0.39, 0.07, 1.31, 0.45, -0.2, -0.54),
-    HEALTHY: (0.45, 0.0, -0.11, 0.0, 0.0, 0.0),
-    UNEXPLAINED: (1.92, 0.22, 0.0, 0.54, 0.0, 0.0),
+    PART: (0.39, 0.08, 1.31, 0.44, -0.21, -0.51),
+    HEALTHY: (0.55, 0.0, -0.04, 0.0, 0.0, 0.0),
+    UNEXPLAINED: (2.49, 0.0, 0.0, 0.43, 0.0, 0.0),
 }
 
 
