@@ -55,6 +55,8 @@ TEST = [
     *MEASURED,
     *SWEEP,
     *CALIBRATE,
+    "colcon-ros>=0.5",
+    "colcon-test-result>=0.3.8",
     "hypothesis>=6.100",
     "jinja2>=3.1",  # pages of evidence
     "jsonschema>=4.18",
