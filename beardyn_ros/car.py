@@ -145,11 +145,12 @@ class CarTwinNode(NodeGroup):
         boxes = boxes_named(values.boxes, train)
         given = {each.name: getattr(values, each.name) for each in TWIN_OF_A_BOX}
         given[PARENT.name] = values.parent_frame or self.get_namespace().strip("/")
+        clock = values.publish_clock
         self.members = [
             TwinNode(
                 box_rig(train, box),
                 **self.of_member(
-                    box, {**given, POSE.name: place_of(train, box), PUBLISH_CLOCK: box is boxes[0]}
+                    box, {**given, POSE.name: place_of(train, box), PUBLISH_CLOCK: clock and box is boxes[0]}
                 ),
             )
             for box in boxes

@@ -316,6 +316,7 @@ CAR_TWIN = (
         "axleboxes, or none",
     ),
     replace(PARENT, description="frame that the axleboxes stand in, each in its place; empty: the namespace"),
+    NodeParameter(PUBLISH_CLOCK, True, "publish /clock, by the first box; one car of several"),
     *TWIN_OF_A_BOX,
 )
 

@@ -159,6 +159,11 @@ one process, too, the defects of the scene in those of `faulty`; beside it go `c
 `ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`. The first
 twin publishes `/clock`.
 
+`ros2 launch beardyn train.launch.py cars:=2` starts several such cars, `/train/car_1` and so on, each with a
+load and recordings of its own (`train_car_1.mcap`, or `train_car_1_<box>.mcap`) and at the pace of the clock;
+`faulty_box:=car_2/axle_2_left` names a box of one of them. Each car rides as if it were the first of the
+train; the first publishes `/clock` (`publish_clock` of the others is false).
+
 The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
 distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
 turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
@@ -250,7 +255,8 @@ after five in a row that follow each other the source has set its clock, and the
 
 
 LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
-SIGINT is no failure. They stop nothing that another launch file, which includes them, has started.
+SIGINT is no failure. When the load is replayed all nodes end with 0, but for the viewer, which stays open.
+`use_sim_time:=true` lets the clocks of all nodes follow `/clock`. They stop nothing that another launch file, which includes them, has started.
 """
 
 
