@@ -256,7 +256,8 @@ after five in a row that follow each other the source has set its clock, and the
 
 LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
 SIGINT is no failure. When the load is replayed all nodes end with 0, but for the viewer, which stays open.
-`use_sim_time:=true` lets the clocks of all nodes follow `/clock`. They stop nothing that another launch file, which includes them, has started.
+`use_sim_time:=true` lets the clocks of all nodes follow `/clock`. They stop nothing that another launch file,
+which includes them, has started.
 """
 
 

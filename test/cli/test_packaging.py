@@ -71,6 +71,8 @@ def test_wheel_holds_what_ros2_looks_for(wheel: zipfile.ZipFile, repository: Pat
     assert "share/beardyn/package.xml" in files
     for launch in (repository / "launch").glob("*.py"):
         assert f"share/beardyn/launch/{launch.name}" in files
+    for bridge in (repository / "bridges").glob("*.yaml"):
+        assert f"share/beardyn/bridges/{bridge.name}" in files
     for name in EXECUTABLES:
         assert files[f"lib/beardyn/{name}"].external_attr >> 16 & 0o111 == 0o111
 
