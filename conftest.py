@@ -33,6 +33,8 @@ LONG_FILES = (
     "test/follow/test_estimator.py",
     "test/kernels/test_joint_lamina.py",
     "test/ros/test_wall_time.py",
+    "test/ros/test_launch_files.py",
+    "test/ros/test_workspace.py",
     "test/cli/test_interrupts.py",
     "test/ros/test_car.py",
     "test/ros/test_scene_with_axleboxes.py",
@@ -42,6 +44,7 @@ LONG_FILES = (
     "test/choice/test_choose.py",
     "test/ros/test_several_axleboxes.py",
     "test/ros/test_nothing_lost.py",
+    "test/ros/test_enclaves.py",
     "test/population/test_sweeping.py",
     "test/experiments/test_engine.py",
     "test/analytic/test_dynamics_steady.py",
@@ -53,6 +56,17 @@ LONG_FILES = (
     "test/ros/test_monitor.py",
     "test/ros/test_real_twin.py",
     "test/analytic/test_dynamics_free_flight.py",
+)
+# What `colcon test` runs when it is given no tests: a minute or two, with real nodes, and nothing compiled.
+IN_A_WORKSPACE = (
+    "test/ros/test_requirements.py",
+    "test/ros/test_parameters.py",
+    "test/ros/test_shared_parameters.py",
+    "test/ros/test_launch_files.py",
+    "test/ros/test_malformed.py",
+    "test/cli/test_packaging.py",
+    "test/test_package_tables.py",
+    "test/test_no_circles.py",
 )
 
 
@@ -87,9 +101,11 @@ def use_standard_effects() -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Take the standard effects, and examples of hypothesis: always the same ones in the fast suite."""
+    """Take the standard effects, tests of `colcon test`, in the fast suite always the same examples."""
     if (REPOSITORY / "test" / "standard.py").is_file():  # not beside a copy of this file, in its own tests
         use_standard_effects()
+    if "COLCON" in os.environ and config.args_source is pytest.Config.ArgsSource.TESTPATHS:
+        config.args = [str(REPOSITORY / name) for name in IN_A_WORKSPACE]
     settings.register_profile("repeatable", derandomize=True)
     if config.getoption("markexpr") == "not slow":
         settings.load_profile("repeatable")

@@ -55,14 +55,20 @@ TEST = [
     *MEASURED,
     *SWEEP,
     *CALIBRATE,
+    "amqtt>=0.11",
+    "colcon-ros>=0.5",
+    "colcon-test-result>=0.3.8",
+    "foxglove-sdk>=0.16",
     "hypothesis>=6.100",
     "jinja2>=3.1",  # pages of evidence
     "jsonschema>=4.18",
     "mcap-ros2-support>=0.5",
+    "paho-mqtt>=2",
     "psutil>=5.9",
     "pytest>=8",
     "pytest-xdist>=3.5",
     "setuptools>=64",
+    "websockets>=13",
     "wheel",
 ]
 DEV = [
@@ -108,6 +114,7 @@ if __name__ == "__main__":
             ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
             (SHARE, ["package.xml"]),
             *tree("layouts", "*.json", "*.xml"),
+            *tree("bridges", "*.yaml"),
             *tree("launch", "*.py", "*.yaml"),
             *tree("config", "*.yaml", "*.csv", "*.npz"),
             (f"lib/{NAME}", sorted(glob("scripts/*"))),

@@ -40,6 +40,7 @@ monitor_node          monitoring: vibration, shaft, load and temperature, nothin
 follower_node         load, end play and spall from vibration and shaft, as they change
 viewer_node           live view in rerun
 car                   the twins, loads or recorders of all axleboxes of a scene or a car in one process
+enclaves              rights of each node under SROS 2, and keys for them
 launching             lets a launch end with a failure when a node has failed
 processes             child processes that never outlive their parent
 child                 the start of such a child: it asks to end with its parent

@@ -32,7 +32,6 @@ from beardyn_ros.node_parameters import (
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.rig import CAR, axleboxes_of, box_rig, boxes_named, place_of
 from beardyn_ros.runtime import EXIT_DONE, EXIT_INCOMPLETE, run_node
-from beardyn_ros.source_time import follows_source
 
 if TYPE_CHECKING:
     from beardyn_ros.run_file import SharedFiles
@@ -146,12 +145,16 @@ class CarTwinNode(NodeGroup):
         boxes = boxes_named(values.boxes, train)
         given = {each.name: getattr(values, each.name) for each in TWIN_OF_A_BOX}
         given[PARENT.name] = values.parent_frame or self.get_namespace().strip("/")
-        clock = not follows_source(values.stamps, values.mode)  # else the train has one
         self.members = [
             TwinNode(
                 box_rig(train, box),
                 **self.of_member(
-                    box, {**given, POSE.name: place_of(train, box), PUBLISH_CLOCK: clock and box is boxes[0]}
+                    box,
+                    {
+                        **given,
+                        POSE.name: place_of(train, box),
+                        PUBLISH_CLOCK: values.publish_clock if box is boxes[0] else "false",
+                    },
                 ),
             )
             for box in boxes

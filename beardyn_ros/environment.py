@@ -49,7 +49,8 @@ def prepare_environment() -> None:
     The wheels leave `AMENT_PREFIX_PATH` unset, a missing or read-only home stops the logger, and the
     announcements and acknowledgements of Fast DDS come up to 3 s apart unless a profile says otherwise: what
     is lost on the way is then sent again too late. The profile also leaves out shared memory, in which a
-    killed process stops others. Another middleware does not read the profile.
+    killed process stops others. Where `RMW_IMPLEMENTATION` names another middleware nothing is set for
+    Fast DDS; nothing ever sets `RMW_IMPLEMENTATION`.
     """
     if not (os.environ.get("ROS_LOG_DIR") or os.environ.get("ROS_HOME") or _home_is_writable()):
         folder = Path(tempfile.gettempdir()) / f"ros_log_{os.getuid()}"
@@ -60,6 +61,8 @@ def prepare_environment() -> None:
     if not distribution and not os.environ.get("AMENT_PREFIX_PATH"):
         os.environ["AMENT_PREFIX_PATH"] = str(_wheel_prefix())
     if any(os.environ.get(name) for name in PROFILE_VARIABLES):
+        return
+    if os.environ.get("RMW_IMPLEMENTATION", FASTDDS_MIDDLEWARE[0]) not in ("", *FASTDDS_MIDDLEWARE):
         return
     old = distribution in FASTDDS_2_DISTRIBUTIONS
     profile, variable = (FASTDDS_2_PROFILE if old else FASTDDS_PROFILE), PROFILE_VARIABLES[old]

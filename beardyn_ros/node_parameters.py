@@ -129,9 +129,10 @@ TWIN = (
     ),
     NodeParameter(
         "publish_clock",
-        True,
-        "publish /clock; one twin of several. With stamps of the source only where it is given: the train "
-        "has a clock",
+        "auto",
+        "publish /clock; one twin of several; auto: with stamps that are simulated time, for a train has a "
+        "clock",
+        choices=("auto", "true", "false"),
     ),
     TYPED,
     FRAME_ID,
@@ -348,6 +349,12 @@ CAR_TWIN = (
         "axleboxes, or none",
     ),
     replace(PARENT, description="frame that the axleboxes stand in, each in its place; empty: the namespace"),
+    NodeParameter(
+        PUBLISH_CLOCK,
+        "auto",
+        "publish /clock, by the first box; one car of several; auto: as of a twin",
+        choices=("auto", "true", "false"),
+    ),
     *TWIN_OF_A_BOX,
 )
 

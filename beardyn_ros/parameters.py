@@ -60,6 +60,8 @@ class NodeParameter:
         wanted = type(self.default)
         if wanted is float and isinstance(value, int) and not isinstance(value, bool):
             value = float(value)
+        if isinstance(value, bool) and str(value).lower() in self.choices:
+            value = str(value).lower()  # YAML reads the word as this
         if type(value) is not wanted:
             raise InputError(
                 f"parameter '{self.name}': {value!r} is of type {type(value).__name__}, "

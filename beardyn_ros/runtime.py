@@ -82,6 +82,7 @@ def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
         return EXIT_BAD_INPUT
     import rclpy
     from rclpy.executors import SingleThreadedExecutor
+    from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.signals import SignalHandlerOptions
 
     logging.basicConfig(format="%(message)s", level=logging.INFO, stream=sys.stderr)
@@ -101,7 +102,10 @@ def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
             rclpy.init(args=["beardyn", *argv], signal_handler_options=SignalHandlerOptions.NO)
         except Exception as error:  # rclpy has several, all about unreadable arguments
             raise InputError(f"the ROS arguments cannot be read: {error}") from error
-        node = make_node()
+        try:
+            node = make_node()
+        except rclpy_implementation.RCLError as error:  # such as an enclave without keys
+            raise InputError(f"the node cannot be made: {' '.join(str(error).split())}") from error
         gc.collect()
         gc.freeze()  # what is imported stays: the collector need not look through it again and again
         executor = SingleThreadedExecutor()

@@ -277,9 +277,9 @@ class TwinNode(LifecycleNode):
 
     @property
     def _publishes_clock(self) -> bool:
-        """Whether this node publishes /clock: of a train's own clock only where it is asked for."""
-        asked = self._values.is_given("publish_clock") or not self._of_source
-        return bool(self._values.publish_clock and asked)
+        """Whether this node publishes /clock: a train has a clock of its own."""
+        asked = self._values.publish_clock
+        return bool(asked == "true" or (asked == "auto" and not self._of_source))
 
     def _rig_of_scene(self, scene: str, tier: str, effects: str) -> Callable[[], Rig]:
         box, pace = self._values.box, self._speed_factor

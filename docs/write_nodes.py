@@ -161,6 +161,11 @@ one process, too, the defects of the scene in those of `faulty`; beside it go `c
 `ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`. The first
 twin publishes `/clock`.
 
+`ros2 launch beardyn train.launch.py cars:=2` starts several such cars, `/train/car_1` and so on, each with a
+load and recordings of its own (`train_car_1.mcap`, or `train_car_1_<box>.mcap`) and at the pace of the clock;
+`faulty_box:=car_2/axle_2_left` names a box of one of them. Each car rides as if it were the first of the
+train; the first publishes `/clock` (`publish_clock` of the others is false).
+
 The scene is the run of the first wheel. A wheel further back comes over the same track later, by its
 distance over the speed: axle 2 by `axle_distance`, axle 3 by `bogie_distance`, axle 4 by both. All shafts
 turn at the present speed of the train. The right rail is another one of the same kind (the next seed), and
@@ -270,7 +275,7 @@ twin's status is the same number. `truth` has `begin_ns`, a stamp that no sample
 Monitor and follower pair vibration and shaft by stamp: where the two have been more than 0.5 s apart for 5 s,
 as with a sensor whose clock drifts, their status warns and states the distance.
 
-`/clock` stays silent then, unless `publish_clock` is given: the train has a clock. A twin that is late
+`/clock` stays silent then, unless `publish_clock` is true: the train has a clock. A twin that is late
 (status `axlebox/lag`) answers load that is younger than its stamps say, by as much as it lags. In `lockstep`
 stamps count from 0 by default; with `stamps:=source` they are those of `load/blocks`, exactly.
 """
@@ -339,7 +344,9 @@ A text on any topic has up to 4 MB; a longer one is refused and counted. Texts d
 
 
 LAUNCHES = """The launch files end with 1 when one of their nodes has ended with another code than 0;
-SIGINT is no failure. They stop nothing that another launch file, which includes them, has started.
+SIGINT is no failure. When the load is replayed all nodes end with 0, but for the viewer, which stays open.
+`use_sim_time:=true` lets the clocks of all nodes follow `/clock`. They stop nothing that another launch file,
+which includes them, has started.
 """
 
 

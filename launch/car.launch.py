@@ -63,6 +63,8 @@ ARGUMENTS = (
         "",
         "between the centres of the bogies, m; empty: 17.5; not with a scene with axleboxes",
     ),
+    ("publish_clock", "true", "publish /clock; one car of several"),
+    ("use_sim_time", "false", "clocks of the nodes follow /clock; the results do not depend on it"),
     ("recorder", "true", "record every box"),
     (
         "output",
@@ -96,7 +98,12 @@ def twins_of_the_scene(car: str, given: dict[str, str], **of_all: object) -> lis
 
 
 def twins_of_a_car(
-    car: str, given: dict[str, str], boxes: tuple[Box, ...], distances: dict[str, float], **of_all: object
+    car: str,
+    given: dict[str, str],
+    boxes: tuple[Box, ...],
+    distances: dict[str, float],
+    clock: bool,
+    **of_all: object,
 ) -> list[Node]:
     """Make a process for each box, with the place of that box; one of them perhaps has another scene."""
     return [
@@ -107,7 +114,7 @@ def twins_of_a_car(
             scene=given["faulty_scene" if box.name == given["faulty_box"] else "scene"],
             box=box.name,
             tier=given["tier"] or "lumped",
-            publish_clock=box is boxes[0],
+            publish_clock=clock and box is boxes[0],
             parent_frame=car,
             pose_in_parent=place_of(replace(CAR, **distances), box),
             **of_all,
@@ -119,19 +126,21 @@ def twins_of_a_car(
 def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     given = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
     car = given["namespace"].strip("/")
-    of_all = {"effects": given["effects"], "speed_factor": float(given["speed_factor"])}
-    of_load: dict[str, object] = {"csv": given["csv"], "duration": float(given["duration"])}
+    clocks = {"use_sim_time": given["use_sim_time"] == "true"}
+    of_all = {"effects": given["effects"], "speed_factor": float(given["speed_factor"]), **clocks}
+    of_load: dict[str, object] = {"csv": given["csv"], "duration": float(given["duration"]), **clocks}
+    clock = given["publish_clock"] == "true"
     # the nodes check the scene; this looks only whether axleboxes are there
     if read_file(find("scenes", given["scene"])).get("axleboxes") is not None:
-        twins = twins_of_the_scene(car, given, **of_all)
+        twins = twins_of_the_scene(car, given, publish_clock=clock, **of_all)
     else:
         distances = {name: float(given[name]) for name in ("axle_distance", "bogie_distance") if given[name]}
         boxes = boxes_named(given["boxes"])
-        twins = twins_of_a_car(car, given, boxes, distances, **of_all)
+        twins = twins_of_a_car(car, given, boxes, distances, clock, **of_all)
         of_load |= {"wheel_defects_on": boxes[0].name, **distances}
     words = {name: given[name] for name in ("scene", "boxes")}
     load = process("car_load", "load", car, **words, **of_load)
-    recorder = process("car_recorder", "recorder", car, **words, output=given["output"])
+    recorder = process("car_recorder", "recorder", car, **words, **clocks, output=given["output"])
     recorders = [recorder] if given["recorder"] == "true" else []
     running = [*twins, load]
     everything = [*running, *recorders]

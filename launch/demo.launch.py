@@ -16,6 +16,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument("mode", default_value="lockstep", description="lockstep or live"),
             DeclareLaunchArgument("csv", default_value="", description="CSV file replayed as load"),
             DeclareLaunchArgument("output", default_value="run.mcap", description="file of the recorder"),
+            DeclareLaunchArgument("use_sim_time", default_value="false", description="clocks follow /clock"),
             IncludeLaunchDescription(
                 twin,
                 launch_arguments={
@@ -23,6 +24,7 @@ def generate_launch_description() -> LaunchDescription:
                     "mode": LaunchConfiguration("mode"),
                     "csv": LaunchConfiguration("csv"),
                     "output": LaunchConfiguration("output"),
+                    "use_sim_time": LaunchConfiguration("use_sim_time"),
                     "speed_factor": "1.0",
                     "recorder": "true",
                     "monitor": "true",

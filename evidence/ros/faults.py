@@ -1,4 +1,4 @@
-"""The twelve faults that outside clients found in the ROS graph, each as a scene with real processes."""
+"""The faults that outside clients found in the ROS graph, each as a scene with real processes."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import WRENCH
 from beardyn_ros.environment import PROFILE_VARIABLES, prepare_environment
+from evidence.ros import strangers
 from test.ros import test_load_stream as stream
 from test.ros import test_malformed as malformed
 from test.ros import test_nothing_lost as lost
@@ -226,5 +227,28 @@ FAULTS = (
     Fault(
         12, "pause, step and hung readers",
         "no /clock in a pause, step answers early, a hung reader stalls 5 s", _pause_and_hang,
+    ),
+    Fault(
+        13, "one message with stamp 0 ends the recording of its topic",
+        "6272 of 7987 messages of force lost, '0 samples lost'", _in_graph(strangers.stray_stamp),
+    ),
+    Fault(
+        14, "a text of 5 kB of brackets, or 'hello', ends nodes",
+        "traceback of twin, load, recorder and viewer", _in_graph(strangers.hostile_texts),
+    ),
+    Fault(
+        15, "a foreign truth chooses the folder, splits the recording or ends the recorder",
+        "a file where the truth says; a run in two files, exit 0", _in_graph(strangers.strange_truth),
+    ),
+    Fault(
+        16, "a device or a FIFO given as CSV", "hangs, or takes all memory", _in_graph(strangers.devices),
+    ),
+    Fault(17, "an integer of 6000 digits in a scene", "traceback", strangers.long_integer),
+    Fault(
+        18, "a file of 33 kB with a chunk of 1 GB", "report is busy for over 100 s", strangers.huge_chunk,
+    ),
+    Fault(
+        19, "a recorder that joins in mid-run", "ends with 5 though nothing was lost after its start",
+        _in_graph(strangers.late_recorder),
     ),
 )  # fmt: skip

@@ -18,9 +18,9 @@ from evidence.pages import DOCS
 from evidence.ros.faults import FAULTS, Fault
 
 PAGE = DOCS / "ros.md"
-HEAD = """# The ROS graph: twelve faults, then and now
+HEAD = """# The ROS graph: faults found by outside clients, then and now
 
-Outside clients (ros2cli, launch, rosbags, mcap) found these faults in the nodes. `python -m
+ros2cli, launch, rosbags and mcap found these faults in the nodes. `python -m
 evidence.ros.review --page` plays each again with real processes and writes this page. Real time and memory
 beside recorder and monitor are measured by `python -m evidence.ros.costs --scene cup_spall --auto` and
 `python -m evidence.ros.memory`; nodes that are killed, starved and fed nonsense by `make soak`.

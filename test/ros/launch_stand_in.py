@@ -1,6 +1,6 @@
 """Runs a launch file where `launch` and `launch_ros` are not installed: they are in no package registry.
 
-Stands in for the few classes that `launch/car.launch.py` uses, with their documented behaviour and with real
+Stands in for the few classes that the launch files use, with their documented behaviour and with real
 processes: ``python -m test.ros.launch_stand_in FOLDER car.launch.py name:=value``. With ``--fake-twin`` the
 twin is the fake one. As with ``ros2 launch``, SIGINT shuts everything down, and the exit code is 0 unless a
 handler has raised.
@@ -35,6 +35,17 @@ class Record:
 
 class DeclareLaunchArgument(Record):
     pass
+
+
+class IncludeLaunchDescription(Record):
+    pass
+
+
+class PythonLaunchDescriptionSource(Record):
+    def described(self) -> LaunchDescription:
+        described = runpy.run_path(self.positional[0])["generate_launch_description"]()
+        assert isinstance(described, LaunchDescription)
+        return described
 
 
 class OpaqueFunction(Record):
@@ -93,13 +104,38 @@ class LaunchConfiguration(Record):
         return str(context.launch_configurations[self.positional[0]])
 
 
+class IfCondition(Record):
+    def evaluate(self, context: Any) -> bool:
+        return performed(self.positional[0], context).lower() in ("true", "1")
+
+
+class ParameterValue(Record):
+    def evaluate(self, context: Any) -> object:
+        text = performed(self.positional[0], context)
+        return text.lower() in ("true", "1") if self.value_type is bool else self.value_type(text)
+
+
+def performed(value: Any, context: Any) -> str:
+    """A text as it is, or what a substitution gives."""
+    return value.perform(context) if isinstance(value, LaunchConfiguration) else str(value)
+
+
 class Node(Record):
     """A process of the package, its parameters in a file under the node's full name as launch_ros does."""
 
-    def start(self, folder: Path, fake_twin: bool) -> subprocess.Popen[bytes]:
+    def is_wanted(self, context: Any) -> bool:
+        condition = self.__dict__.get("condition")
+        return condition is None or condition.evaluate(context)
+
+    def start(self, folder: Path, fake_twin: bool, context: Any) -> subprocess.Popen[bytes]:
+        self.__dict__["namespace"] = performed(self.__dict__["namespace"], context).strip("/")
         full_name = f"/{self.namespace}/{self.name}"
         file = folder / f"{full_name.strip('/').replace('/', '.')}.yaml"
-        values = {name: value for part in self.parameters for name, value in part.items()}
+        values = {
+            name: value.evaluate(context) if isinstance(value, ParameterValue) else value
+            for part in self.parameters
+            for name, value in part.items()
+        }
         fake = self.executable in ("twin", "car_twin") and fake_twin
         if fake and self.executable == "twin":
             values = {**values, "scene": "fake"}
@@ -136,8 +172,14 @@ class Launcher:
                 self.carry_out(action.function(self))
             elif isinstance(action, RegisterEventHandler):
                 self.handlers.append(action.positional[0])
+            elif isinstance(action, IncludeLaunchDescription):
+                for name, value in action.launch_arguments:
+                    self.launch_configurations[name] = performed(value, self)
+                self.carry_out(action.positional[0].described().positional[0])
+            elif isinstance(action, Node) and not action.is_wanted(self):
+                continue
             elif isinstance(action, Node):
-                self.running[action] = action.start(self.folder, self.fake_twin)
+                self.running[action] = action.start(self.folder, self.fake_twin, self)
                 print(f"[launch] {action.namespace}/{action.name} pid {self.running[action].pid}", flush=True)
             elif isinstance(action, LogInfo):
                 print(action.msg, flush=True)
@@ -206,20 +248,24 @@ MODULES: dict[str, dict[str, Any]] = {
     "launch.actions": {
         "DeclareLaunchArgument": DeclareLaunchArgument,
         "EmitEvent": EmitEvent,
+        "IncludeLaunchDescription": IncludeLaunchDescription,
         "LogInfo": LogInfo,
         "OpaqueFunction": OpaqueFunction,
         "RegisterEventHandler": RegisterEventHandler,
         "Shutdown": Shutdown,
         "TimerAction": TimerAction,
     },
+    "launch.conditions": {"IfCondition": IfCondition},
     "launch.event": {"Event": Event},
     "launch.event_handler": {"EventHandler": EventHandler},
     "launch.event_handlers": {"OnProcessExit": OnProcessExit, "OnShutdown": OnShutdown},
     "launch.events": {"matches_action": matches_action},
     "launch.events.process": {"SignalProcess": SignalProcess},
+    "launch.launch_description_sources": {"PythonLaunchDescriptionSource": PythonLaunchDescriptionSource},
     "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
     "launch_ros": {},
     "launch_ros.actions": {"Node": Node},
+    "launch_ros.parameter_descriptions": {"ParameterValue": ParameterValue},
 }
 
 
