@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.record.bag_scanning import files_of
-from beardyn_core.record.messages import decode
+from beardyn_core.record.messages import decode, header_stamp, time_reference
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import WRENCH
@@ -24,8 +24,10 @@ from test.ros import test_malformed as malformed
 from test.ros import test_nothing_lost as lost
 from test.ros import test_several_axleboxes as axleboxes
 from test.ros import test_shared_parameters as shared
+from test.ros import test_source_time as source
 from test.ros import test_splitting as splitting
 from test.ros import test_wall_time as wall
+from test.ros import test_workspace as workspace
 from test.ros.graph import Graph
 
 IN_HZ, IN_AMPLITUDE_N = 45.0, 2e4
@@ -189,6 +191,31 @@ def _pause_and_hang(folder: Path) -> str:
     return f"{said[0]} times /clock in a pause, step answers behind its block, a hung reader stalls nobody"
 
 
+def _time_of_the_train(folder: Path) -> str:
+    scenes = (
+        source.test_live_outputs_carry_the_clock_of_the_source_and_its_events,
+        source.test_a_clock_that_is_set_back_holds_the_twin_and_no_stamp_comes_twice,
+        source.test_a_leap_is_no_loss_and_a_recorder_may_join_late,
+    )
+    for number, scene in enumerate(scenes):
+        place = folder / str(number)
+        place.mkdir()
+        with Graph(place) as graph:
+            scene(graph)
+            if scene is scenes[0]:
+                reference = graph.messages["source_time"][0]
+    ahead = 1e-9 * (header_stamp(reference) - time_reference(reference))
+    return (
+        f"stamps {ahead:.3f} s ahead of simulated time, told on source_time; a step of load is in the force "
+        "within 40 ms of its stamp; a clock that is set costs no sample"
+    )
+
+
+def _linked(folder: Path) -> str:
+    workspace.test_setup_runs_through_a_link_as_colcon_makes_it(folder)
+    return "setup.py runs through links; copied, linked and merged builds are tests"
+
+
 FAULTS = (
     Fault(
         1, "axleboxes end each other's recorder and monitor",
@@ -251,4 +278,9 @@ FAULTS = (
         19, "a recorder that joins in mid-run", "ends with 5 though nothing was lost after its start",
         _in_graph(strangers.late_recorder),
     ),
+    Fault(
+        20, "live mode loses the train's time",
+        "load in epoch time, outputs from 0 on, the offset nowhere", _time_of_the_train,
+    ),
+    Fault(21, "colcon build --symlink-install fails", "README.md not found", _linked),
 )  # fmt: skip
