@@ -8,16 +8,19 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.rail.build import load_of_scene
+from beardyn_core.scene.load import LoadHistory
 from beardyn_ros import load_feed
 from beardyn_ros.load_feed import LoadFeed, missing_background
 from beardyn_ros.run_state import SessionOptions
 
 OPTIONS = SessionOptions("lockstep", 5.0, 5.0, 1.0, 10**10, 10**8, False, 10.0, "axlebox", "one")
 HANDING_OVER_S, WITHOUT_LOAD_S = 0.03, 0.05
+BLOCK_NS, MESSAGE_NS = 20_000_000, 5_000_000
 
 
 class SlowlyFed:
@@ -34,6 +37,27 @@ class SlowlyFed:
         """Take a part."""
         time.sleep(HANDING_OVER_S)
         self.parts += 1
+
+
+class Covered:
+    """Takes load until it covers a block, and what the twin looks ahead."""
+
+    block_ns = BLOCK_NS
+
+    def __init__(self, look_ahead_ns: int) -> None:
+        self.times: list[int] = []
+        self.vertical: list[float] = []
+        self.wanted_ns = look_ahead_ns
+
+    def next_block(self) -> None:
+        self.wanted_ns += BLOCK_NS
+
+    def covered(self) -> bool:
+        return bool(self.times) and self.times[-1] >= self.wanted_ns
+
+    def feed(self, load: LoadHistory) -> None:
+        self.times += load.time_ns.tolist()
+        self.vertical += load.wrench[:, 2].tolist()
 
 
 @pytest.mark.parametrize("absent", [False, True])
@@ -69,3 +93,22 @@ def test_only_a_load_that_cannot_have_the_background_is_told_of() -> None:
     assert "this load has 10000 samples a second" in told
     assert name in told
     assert "live load is filtered" in missing_background(name, with_forces, live=True)
+
+
+@pytest.mark.parametrize(("frequency", "least", "most"), [(2.0, 0.97, 1.0), (45.0, 0.0, 0.02)])
+def test_live_load_is_filtered_before_it_is_sampled(frequency: float, least: float, most: float) -> None:
+    """A sine of 45 Hz, sampled every 20 ms, would come out as one of 5 Hz; found was 5.01 Hz, as strong."""
+    options = replace(OPTIONS, mode="live")
+    feed = LoadFeed(options, threading.Condition(), lambda ready, _timeout: ready(), lambda *_said: None)
+    twin = Covered(0)
+    for block in range(200):
+        for stamp_ns in range((block - 1) * BLOCK_NS + MESSAGE_NS, block * BLOCK_NS + 1, MESSAGE_NS):
+            vertical = 5e4 + 2e4 * np.sin(2.0 * np.pi * frequency * 1e-9 * stamp_ns)
+            feed.live.offer_wrench(np.array([0.0, 0.0, vertical, 0.0, 0.0, 0.0]), 10**12 + stamp_ns)
+            feed.live.offer_speed(100.0, 10**12 + stamp_ns)
+        if block == 0:
+            twin.feed(feed.first(BLOCK_NS))
+        twin.next_block()
+        feed.cover(twin)
+    settled = np.array(twin.vertical)[np.array(twin.times) > 1_000_000_000]
+    assert least * 2e4 <= 0.5 * np.ptp(settled) <= most * 2e4

@@ -17,13 +17,12 @@ from beardyn_core.record.clouds import cloud_to_arrays
 from beardyn_core.record.messages import decode_string, header_stamp, time_reference
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
-from beardyn_core.scene.load import LoadHistory
 from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
 from beardyn_ros.load_feed import LoadFeed
 from beardyn_ros.source_time import FASTEST_DRIFT, ClockReading, SourceStamps
 from test.ros.graph import Graph
 from test.ros.live_train import EPOCH_S, LiveTrain
-from test.ros.test_load_feed import OPTIONS
+from test.ros.test_load_feed import OPTIONS, Covered
 from test.ros.test_recorder import is_connected
 
 BLOCK_NS, DELAY_NS = 20_000_000, 113_000_000
@@ -109,27 +108,6 @@ def test_two_clocks_are_told_apart() -> None:
     assert stamps.apart_s(SHAFT_TOPIC, WRENCH_TOPIC) == pytest.approx(3.2, abs=1e-6)
 
 
-class _Covered:
-    """Takes load until it covers a block, and what the twin looks ahead."""
-
-    block_ns = BLOCK_NS
-
-    def __init__(self, look_ahead_ns: int) -> None:
-        self.times: list[int] = []
-        self.vertical: list[float] = []
-        self.wanted_ns = look_ahead_ns
-
-    def next_block(self) -> None:
-        self.wanted_ns += BLOCK_NS
-
-    def covered(self) -> bool:
-        return bool(self.times) and self.times[-1] >= self.wanted_ns
-
-    def feed(self, load: LoadHistory) -> None:
-        self.times += load.time_ns.tolist()
-        self.vertical += load.wrench[:, 2].tolist()
-
-
 @pytest.mark.parametrize("bandwidth", [2.0, 10.0])
 @pytest.mark.parametrize("look_ahead_ns", [0, 15_000_000])
 def test_the_delay_of_live_load_is_what_stamps_leave_out(look_ahead_ns: int, bandwidth: float) -> None:
@@ -141,7 +119,7 @@ def test_the_delay_of_live_load_is_what_stamps_leave_out(look_ahead_ns: int, ban
     found = []
     for lag_ns in range(0, BLOCK_NS, 4_000_000):  # of the step behind the begin of a block
         feed = LoadFeed(options, threading.Condition(), lambda ready, _timeout: ready(), lambda *_said: None)
-        twin, step_ns, delay_ns = _Covered(look_ahead_ns), 20 * BLOCK_NS + lag_ns, 0
+        twin, step_ns, delay_ns = Covered(look_ahead_ns), 20 * BLOCK_NS + lag_ns, 0
         for block in range(100):
             begin_ns = block * BLOCK_NS
             for stamp_ns in range(begin_ns - BLOCK_NS + 1_000_000, begin_ns + 1, 1_000_000):
