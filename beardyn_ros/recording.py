@@ -13,13 +13,14 @@ from beardyn_core.record.bag_writing import BagWriter, Splitting
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import Diagnostic, decode_diagnostics, decode_string, header_stamp
 from beardyn_core.record.topics import Topic
-from beardyn_ros.run_file import OF_ONE_RUN, RunFile, RunWriter, parsed_truth, run_id_of
+from beardyn_ros.run_file import LIVE_LOAD, OF_ONE_RUN, UNSTAMPED, RunFile, RunWriter, parsed_truth, run_id_of
 from beardyn_ros.run_state import LEFT
 from beardyn_ros.strands import TopicStrands, Waiting
 
 WHOLE = Splitting()
 MESSAGES_BEFORE_TRUTH = 20_000
 LONGEST_NAME = 60
+NOT_OF_A_RUN = (*LIVE_LOAD, "/diagnostics", "/clock", "load/consumed")  # they go on from run to run
 
 
 class Recording:
@@ -176,6 +177,9 @@ class Recording:
         name, cdr = message.entry.name, message.cdr
         if self._old is not None and name == "/diagnostics" and _speaks_of(self._old.run_id, cdr):
             return self._old  # its last word
+        stamped = message.entry.type not in UNSTAMPED and name not in NOT_OF_A_RUN
+        if self._old is not None and stamped and 0 < header_stamp(cdr) < self.current.origin_ns:
+            return self._old
         return self.current
 
     def hear(self, status: Diagnostic) -> None:

@@ -31,7 +31,7 @@ from beardyn_core.record.published import (
     published_before,
     published_counts,
 )
-from beardyn_core.record.stamp_offset import StampOffset
+from beardyn_core.record.stamp_offset import StampOffset, earliest_stamp
 from beardyn_core.record.topics import STRING, Topic
 from beardyn_ros.strands import STEP_NS, TEMPERATURE
 
@@ -41,7 +41,6 @@ UNSTAMPED = (STRING,)
 LIVE_LOAD = ("load/wrench", "load/shaft")  # stamped by the clock of their source, whichever that is
 SIMULATED = ("force", "force_waveform", "vibration", "imu", "shaft", "joint_states")
 DRAWN = ("bodies", "contacts")
-_LATEST_NS = 2**63
 OF_ONE_RUN = (*SIMULATED, *DRAWN, TEMPERATURE)  # their stamps begin anew with each run
 
 
@@ -245,7 +244,8 @@ class RunFile:
             self.problem = "no truth has come: the file does not say which scene it holds"
             return
         self.run_id = run_id_of(truth)
-        self.origin_ns = self._simulated_ns = origin_of(truth)
+        self.origin_ns = self._simulated_ns = earliest_stamp(parsed_truth(truth))
+        self.loss.offset = StampOffset(earliest_ns=self.origin_ns)
         try:
             self.description = RunDescription.from_json(truth)
         except InputError as error:
@@ -316,12 +316,6 @@ class RunFile:
 def run_id_of(truth: str) -> str:
     """Run id in the content of ``truth``; '' when it has none."""
     return str(parsed_truth(truth).get("run_id", ""))
-
-
-def origin_of(truth: str) -> int:
-    """Read the earliest stamp of a run from the content of its ``truth``; 0 of simulated time, [ns]."""
-    found = parsed_truth(truth).get("begin_ns", 0)
-    return found if isinstance(found, int) and 0 <= found < _LATEST_NS else 0
 
 
 def parsed_truth(truth: str) -> dict[str, object]:

@@ -52,6 +52,7 @@ BLOCKS_WAITING_TO_BE_PUBLISHED = 32
 LATE_AFTER_S = 0.040
 # one sample a message: spread over the block, while a waveform is one message a block
 REFERENCE_EVERY = 10  # blocks
+LONGEST_NAP_S = 0.1  # of a run that is held for a clock
 TREND_TOPICS = ("force", "imu", "shaft", "joint_states")
 
 
@@ -330,13 +331,17 @@ class TwinSession:
         while True:
             held, ordered = self._wait_while_paused()
             waited += held
+            if held:
+                self.stamps.expect_leap()
             starved = self.feed.cover(twin)
             waited += self.feed.slept_s
+            if self.feed.slept_s:
+                self.stamps.expect_leap()
             if starved is None:
                 break
             self.pacer.shift(starved + self.feed.slept_s)
             if self.options.of_source and not self._report.blocks:
-                waited += self._announce_source(description, twin.block_ns)
+                waited += self._announce_source(description)
             offset, held = self._offset_of_block(self._report.blocks * twin.block_ns, twin.block_ns)
             waited += held
             covered_at = time.monotonic()
@@ -370,18 +375,18 @@ class TwinSession:
         if block is not None:
             self._put(*self._outgoing_of(block, Offset(self.stamps.offset_ns)))
 
-    def _announce_source(self, description: RunDescription, block_ns: int) -> float:
+    def _announce_source(self, description: RunDescription) -> float:
         """Publish the truth with the earliest stamp of the run, and wait until its readers have it.
 
         By that they know which run the stamps behind it are of. Returns the seconds that took.
         """
-        offset, _ = self._offset_of_block(0, block_ns)
-        begin = time.monotonic()
-        self._put(_truth_of(description, begin_ns=offset.ahead_ns))
+        begin, earliest_ns = time.monotonic(), self.feed.begin_ns
+        if self.options.mode == "live":
+            earliest_ns = self.stamps.preview(WRENCH_TOPIC, self.feed.live_delay_ns(0))
+        self._put(_truth_of(description, begin_ns=earliest_ns))
         self._wait(lambda: self._is_announced, LONGEST_ANNOUNCEMENT_S)
         waited = time.monotonic() - begin
         self.pacer.shift(waited)
-        self.stamps.begin()
         return waited
 
     def confirm_truth(self) -> None:
@@ -399,7 +404,7 @@ class TwinSession:
             return self.stamps.set_constant(self.feed.begin_ns), 0.0
         delay_ns, waited = self.feed.live_delay_ns(begin_ns), 0.0
         while True:
-            offset, behind = self.stamps.follow(WRENCH_TOPIC, block_ns, delay_ns)
+            offset, behind = self.stamps.follow(WRENCH_TOPIC, begin_ns, block_ns, delay_ns)
             if behind <= 0.0:
                 break
             waited += self._hold_for_clock(behind)
@@ -411,17 +416,17 @@ class TwinSession:
         return offset, waited
 
     def _hold_for_clock(self, behind: float) -> float:
-        """Hold the run until the clock of the source has caught up with its stamps; seconds held."""
-        sentence = f"the clock of the source was set back by {behind:.3f} s"
+        """Hold the run for a moment, for the clock of the source is behind its stamps; seconds held."""
+        sentence = f"the clock of the source is {behind:.3f} s behind the stamps, as when it was set back"
         if behind > LONGEST_HOLD_S:
-            self._set_state(PAUSED, f"{sentence}: a new run begins")
+            self._set_state(RUNNING, f"{sentence}: a new run begins")
             with self._condition:
                 self.new_run_wanted = sentence
             self._wake()
             self._wait(lambda: False)  # until the node resets
-        self._set_state(PAUSED, f"{sentence}: no stamp comes twice, the run waits until it has caught up")
+        self._set_state(RUNNING, f"{sentence}: no stamp comes twice, the run waits until it has caught up")
         begin = time.monotonic()
-        self._wait(lambda: False, behind / self.pacer.speed_factor)
+        self._wait(lambda: False, min(behind / self.pacer.speed_factor, LONGEST_NAP_S))
         held = time.monotonic() - begin
         self.pacer.shift(held)
         return held
@@ -429,7 +434,12 @@ class TwinSession:
     def _clock_note(self) -> str:
         """Report a leap of the stamps, and two clocks where one is expected."""
         apart = self.stamps.apart_s(SHAFT_TOPIC, WRENCH_TOPIC)
-        notes = [self.stamps.last_step] if self.stamps.last_step else []
+        notes = [self.stamps.recent_leap] if self.stamps.recent_leap else []
+        if self.stamps.is_at_another_pace:
+            notes = [
+                f"{WRENCH_TOPIC} is stamped at another pace than speed_factor = {self.pacer.speed_factor:g}: "
+                "stamps follow it no longer"
+            ]
         if abs(apart) > FAR_APART_S:
             notes.append(
                 f"{SHAFT_TOPIC} is stamped {abs(apart):.3f} s {'ahead of' if apart > 0.0 else 'behind'} "

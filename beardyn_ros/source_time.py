@@ -10,6 +10,7 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from time import monotonic
 from typing import Annotated as A
 
 from beardyn_core.record.messages import header, make, serialize, time
@@ -18,12 +19,15 @@ from beardyn_core.record.topics import TIME_REFERENCE
 AUTO, SOURCE, SIMULATED = STAMPS = ("auto", "source", "simulated")
 SIMULATED_TIME = "simulated time"  # names the second clock of a `source_time`
 WINDOW_S = 2.0
+SETTLED_S = 0.5  # for which later messages must come before an earlier one is believed no longer
 SET_NS = 50_000_000  # a clock that differs by more was set; it drifts otherwise
 SET_AFTER = 5  # messages that come too early for a clock
 FASTEST_DRIFT = 1e-3  # of a clock that is followed without a step; clocks of computers drift by 1e-4, [-]
 LONGEST_HOLD_S = 10.0
 LONGEST_ANNOUNCEMENT_S = 1.0  # between the earliest stamp that a truth names and the first of the run
 FAR_APART_S = 0.1  # clocks of two topics
+RECENT_S = 5.0  # for which a leap is reported
+LEAPS_AT_ANOTHER_PACE, LEAP_GAP_NS = 8, 500_000_000  # leaps or holds in a row, each so soon after the other
 
 
 def follows_source(stamps: str, mode: str) -> bool:
@@ -79,7 +83,9 @@ class ClockReading:
         while self._received and self._ahead_ns(*self._received[-1]) <= ahead:
             self._received.pop()
         self._received.append((arrival, stamp_ns))
-        while self._received[0][0] < arrival - WINDOW_S:
+        while len(self._received) > 1 and self._received[0][0] < arrival - WINDOW_S:
+            if self._received[1][0] > arrival - SETTLED_S:
+                break  # after a silence a burst of late messages says nothing yet
             self._received.popleft()
 
     def ahead_ns(self) -> int | None:
@@ -107,26 +113,40 @@ class SourceStamps:
         Guards the readings: messages come in another thread than blocks.
     simulated_at : callable
         See `ClockReading`.
-
-    Attributes
-    ----------
-    steps : int
-        Leaps of the stamps: the source has set its clock forward, or the twin was held.
-    last_step : str
-        The latest of them in a sentence, empty without.
     """
 
     def __init__(self, condition: threading.Condition, simulated_at: Callable[[float], float]) -> None:
         self._condition = condition
         self._simulated_at = simulated_at
         self._readings: dict[str, ClockReading] = {}
+        self._end_ns = self._earliest_ns = 0  # latest stamp so far, earliest one of the present run
         self.begin()
 
     def begin(self) -> None:
         """Begin with a run; the clocks go on."""
         self._offset_ns: int | None = None
-        self.steps = 0
-        self.last_step = ""
+        self._leap, self._leapt_at = 0.0, -RECENT_S
+        self._is_leap_expected = False
+        self._unsteady: list[int] = []  # simulated times of leaps and holds in a row, [ns]
+
+    def expect_leap(self) -> None:
+        """Note that the run was held on purpose: the clock goes on meanwhile."""
+        self._is_leap_expected = True
+
+    @property
+    def recent_leap(self) -> str:
+        """Report a leap of the last seconds that nobody has ordered, empty without."""
+        if monotonic() - self._leapt_at > RECENT_S:
+            return ""
+        return f"the clock of the source was set forward, stamps leap by {self._leap:.3f} s"
+
+    @property
+    def is_at_another_pace(self) -> bool:
+        """Whether the clock runs at another pace than simulated time, and is followed no longer in this run.
+
+        Stamps would leap, or wait, all the time.
+        """
+        return len(self._unsteady) >= LEAPS_AT_ANOTHER_PACE
 
     def receive(self, topic: str, stamp_ns: int, arrival: float, was_set: bool) -> None:
         """Take note of a message of live load; the condition must be held."""
@@ -144,7 +164,16 @@ class SourceStamps:
             one, two = self._ahead_ns(topic), self._ahead_ns(other)
         return float("nan") if one is None or two is None else 1e-9 * (one - two)
 
-    def follow(self, topic: str, block_ns: int, delay_ns: int) -> tuple[Offset, float]:
+    def preview(self, topic: str, delay_ns: int) -> int:
+        """Give the stamp that none of a run is earlier than which begins now, nor those of the run before."""
+        with self._condition:
+            ahead = self._ahead_ns(topic)
+        wanted = max((ahead or 0) - delay_ns, 0)
+        overlap = self._end_ns - wanted
+        self._earliest_ns = wanted + (overlap if 0 < overlap <= 2 * SET_NS else 0)
+        return self._earliest_ns
+
+    def follow(self, topic: str, begin_ns: int, block_ns: int, delay_ns: int) -> tuple[Offset, float]:
         """Give the offset of the next block, and for how long the twin must be held before it.
 
         Where the clock was set back, the twin is held until the clock shows a new time: then call again.
@@ -154,8 +183,8 @@ class SourceStamps:
         ----------
         topic : str
             Whose clock is followed.
-        block_ns : int
-            Length of the block, [ns].
+        begin_ns, block_ns : int
+            Simulated time at the begin of the block, and its length, [ns].
         delay_ns : int
             By which what the twin computes lags what came in, [ns].
 
@@ -166,23 +195,36 @@ class SourceStamps:
         """
         with self._condition:
             ahead = self._ahead_ns(topic)
-        if ahead is None:
-            return Offset(self.offset_ns), 0.0
+        if ahead is None or self.is_at_another_pace:
+            return self._stamped(begin_ns, block_ns), 0.0
         wanted = ahead - delay_ns
         if self._offset_ns is None:
-            self._offset_ns = wanted
-            return Offset(wanted, is_new=True), 0.0
+            if wanted + begin_ns < 0:  # a clock that has begun at 0 just now
+                return Offset(0), -1e-9 * (wanted + begin_ns)
+            early = self._earliest_ns - wanted - begin_ns
+            self._offset_ns = wanted + (early if 0 < early <= 2 * SET_NS else 0)
+            return self._stamped(begin_ns, block_ns, is_new=True), 0.0
         change = wanted - self._offset_ns
+        if abs(change) > SET_NS:
+            before = [each for each in self._unsteady[-1:] if begin_ns - each <= LEAP_GAP_NS]
+            if not before or before[0] != begin_ns:
+                self._unsteady = [*(self._unsteady if before else ()), begin_ns][-LEAPS_AT_ANOTHER_PACE:]
         if change < -SET_NS:
             return Offset(self._offset_ns), -1e-9 * change
         if change > SET_NS:
-            self.steps += 1
-            self.last_step = f"stamps leap ahead by {1e-9 * change:.3f} s"
-            self._offset_ns = wanted
-            return Offset(wanted, is_new=True), 0.0
+            if not self._is_leap_expected:
+                self._leap, self._leapt_at = 1e-9 * change, monotonic()
+            self._offset_ns, self._is_leap_expected = wanted, False
+            return self._stamped(begin_ns, block_ns, is_new=True), 0.0
+        self._is_leap_expected = False
         most = round(FASTEST_DRIFT * block_ns)
         self._offset_ns += max(-most, min(most, change))
-        return Offset(self._offset_ns), 0.0
+        return self._stamped(begin_ns, block_ns), 0.0
+
+    def _stamped(self, begin_ns: int, block_ns: int, *, is_new: bool = False) -> Offset:
+        offset_ns = self.offset_ns
+        self._end_ns = offset_ns + begin_ns + block_ns
+        return Offset(offset_ns, is_new)
 
     def _ahead_ns(self, topic: str) -> int | None:
         return self._readings[topic].ahead_ns() if topic in self._readings else None

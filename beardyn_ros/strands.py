@@ -191,7 +191,10 @@ class TopicStrands:
 
     def _is_after_the_old_run(self, stamp: int) -> bool:
         """Check whether a stamp is of the present run, which has begun where the one before had ended."""
-        return self.old is not None and self.old.last_ns < self.origin_ns <= stamp + BLOCK_NS
+        if self.old is None or self.old.last_ns >= self.origin_ns:
+            return False
+        margin_ns = 0 if self.name in STEP_NS else BLOCK_NS  # a block begins before the first of its samples
+        return stamp + margin_ns >= self.origin_ns
 
     def begin_run(
         self, refuse: Callable[[Waiting], None], was_open: bool, origin_ns: int = 0

@@ -253,15 +253,15 @@ class TwinNode(LifecycleNode):
         response.success, response.message = not problem, problem or done
         return response
 
-    def _reset(self) -> str:
-        """Start the scene again; a sentence when that is not possible."""
+    def _reset(self, why: str = "") -> str:
+        """Start the scene again, for a reason that the last word of the run gives; why not, if it cannot."""
         if self._session is None:
             return "the twin is not configured"
         report = self._session.report()
         problem = self._session.reset() or ""
         if not problem:
             self._consumed_ns = None
-            self._reporter.leave(report)
+            self._reporter.leave(report, why)
             self._steps.fail(LEFT)
         return problem
 
@@ -307,8 +307,9 @@ class TwinNode(LifecycleNode):
         for outgoing in self._session.collect():
             self._publish(outgoing)
         if self._session.new_run_wanted:
-            self.get_logger().warning(f"{self._session.new_run_wanted}: a new run begins")
-            self._reset()
+            why = self._session.new_run_wanted
+            self.get_logger().warning(f"{why}: a new run begins")
+            self._reset(why)
         if report.load_lacks != self._load_lacks:
             self._load_lacks = report.load_lacks
             if report.load_lacks:

@@ -201,10 +201,10 @@ class TwinReporter:
         self._name = diagnostic_name(node.get_namespace(), TWIN)
         self._left: SessionReport | None = None
 
-    def leave(self, report: SessionReport) -> None:
+    def leave(self, report: SessionReport, why: str = "") -> None:
         """Keep the report of a run that a reset leaves, unless that run has had its last word."""
         if report.run_id and report.state not in END_STATES:
-            self._left = replace(report, state=INTERRUPTED, sentence=LEFT)
+            self._left = replace(report, state=INTERRUPTED, sentence=f"{LEFT}: {why}" if why else LEFT)
 
     def tell_left_run(self, session: TwinSession, clock_ns: int) -> None:
         """Publish the last word of a run that a reset has left, when the last of its blocks is out."""

@@ -59,7 +59,11 @@ class TypedTopics:
         publisher, conversion, latched = self._publishers[name]
         if not latched and publisher.get_subscription_count() == 0:
             return
-        message = conversion.convert(self._types, cdr, self._frame)
+        try:
+            message = conversion.convert(self._types, cdr, self._frame)
+        except (AttributeError, KeyError, TypeError, ValueError) as error:  # a text that is none of ours
+            self._node.get_logger().warning(f"{name} has no typed form: {error!r}", throttle_duration_sec=5.0)
+            return
         with suppress(rclpy_implementation.RCLError):  # full: the message itself is out, its copy is lost
             publisher.publish(message)
 

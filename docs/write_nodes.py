@@ -270,6 +270,7 @@ twin's status is the same number. `truth` has `begin_ns`, a stamp that no sample
 | is set forward by more than 50 ms, or the twin was paused | leap with it, once; the status says so |
 | is set back by 50 ms to 10 s | the run is held until the clock shows a new time: no stamp comes twice |
 | is set back by more | a new run begins, with a new `run_id` and a recording of its own |
+| runs at another pace than `speed_factor` | go on at the pace of the twin; the status warns |
 | differs between `load/wrench` and `load/shaft` by more than 0.1 s | follow `load/wrench`; the status warns |
 
 Monitor and follower pair vibration and shaft by stamp: where the two have been more than 0.5 s apart for 5 s,

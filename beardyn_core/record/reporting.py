@@ -28,7 +28,7 @@ from beardyn_core.record.published import (
 from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
 from beardyn_core.record.run_summary import chosen_for, collect_diagnostic, recorded_budget
-from beardyn_core.record.stamp_offset import StampOffset
+from beardyn_core.record.stamp_offset import StampOffset, earliest_stamp
 from beardyn_core.record.topics import relative_name
 from beardyn_core.scene.defect import defect_from
 from beardyn_core.sensors.labels import HEALTHY
@@ -189,7 +189,7 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     recorded = {relative_name(topic, namespace): len(each) for (topic, _), each in times.items()}
     for name, count in run.malformed.items():
         recorded[name] -= count
-    ahead_ns = StampOffset(run.source_time).first_ns or 0
+    ahead_ns = StampOffset(run.source_time, earliest_stamp(run.truth)).first_ns or 0
     first = {relative_name(topic, namespace): min(each) - ahead_ns for (topic, _), each in times.items()}
     before = published_before(first, len(run.temperature.components))
     return tuple(missing_messages(published, recorded, before))
@@ -203,7 +203,7 @@ def _rate(times: list[int]) -> float | None:
 def gaps(run: Run) -> tuple[Gap, ...]:
     """Find every place where samples of a stream are missing, by running index or, without one, by time."""
     found: list[Gap] = []
-    offset = StampOffset(run.source_time)
+    offset = StampOffset(run.source_time, earliest_stamp(run.truth))
     for name, samples in (("force_waveform", run.force_waveform), *run.sensor_topics.items()):
         found += _index_gaps(name, samples.sample, samples.time_ns)
     found += _index_gaps("bodies", run.bodies.sample, run.bodies.time_ns)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 LEAP_NS = 25_000_000  # changes beyond are leaps; a clock that drifts changes by 1 ms a second at most
+_LATEST_NS = 2**63
 BLOCK_NS = 20_000_000  # a reference has the stamp of the end of its block
+
+
+def earliest_stamp(truth: Mapping[str, Any]) -> int:
+    """Read the stamp that no sample of a run is earlier than from its truth; 0 of simulated time, [ns]."""
+    found = truth.get("begin_ns", 0)
+    return found if isinstance(found, int) and 0 <= found < _LATEST_NS else 0
 
 
 class StampOffset:
@@ -15,6 +23,8 @@ class StampOffset:
     ----------
     references : iterable of (int, int)
         Stamp and simulated time at it, in their order, [ns].
+    earliest_ns : int
+        Stamps before that are of an earlier run, and left out, [ns].
 
     Attributes
     ----------
@@ -22,8 +32,9 @@ class StampOffset:
         Offset where the recording begins; ``None``: no reference has come, [ns].
     """
 
-    def __init__(self, references: Iterable[tuple[int, int]] = ()) -> None:
+    def __init__(self, references: Iterable[tuple[int, int]] = (), earliest_ns: int = 0) -> None:
         self.first_ns: int | None = None
+        self._earliest_ns = earliest_ns
         self._last_ns = 0
         self._leaps: list[tuple[int, int]] = []  # stamp of the first block behind, and by how much, [ns]
         for stamp_ns, simulated_ns in references:
@@ -31,6 +42,8 @@ class StampOffset:
 
     def add(self, stamp_ns: int, simulated_ns: int) -> None:
         """Take the next reference."""
+        if stamp_ns < self._earliest_ns:
+            return
         ahead_ns = stamp_ns - simulated_ns
         if self.first_ns is None:
             self.first_ns = ahead_ns

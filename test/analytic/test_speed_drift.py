@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.monitor.chain import REFERENCE, MonitorResult, Stretch
+from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.streaming import Monitor
 from test.fault_signals import ORDERS, RATE, ROLLERS, SETTINGS, fault_signal
 
@@ -56,6 +57,26 @@ def test_a_train_that_stops_is_not_healthy_at_a_constant_speed(seed):
     assert "dB within the stretch, as where a train stops or starts" in constant.reason
     counted = REFERENCE(Stretch(RATE, stopping, angle, 8e4, 0), ORDERS, ROLLERS, SETTINGS)
     assert counted.verdict == "healthy"
+
+
+def test_a_train_that_stands_is_not_healthy_at_a_constant_speed():
+    """Once it stands the level is steady again, far below that of the stretches before."""
+    _, angle, acceleration = fault_signal(None, 3, speed=(19.2, 19.2))
+    moving = REFERENCE(Stretch(RATE, acceleration, angle, 8e4, 0), ORDERS, ROLLERS, STATED)
+    assert moving.verdict == "healthy"
+    known = Levels(moving.rms, moving.kurtosis, moving.crest, moving.shaft_frequency)
+    loud, quiet = (known,) * 4, replace(known, rms=0.01 * known.rms)
+
+    def verdict_of(share, earlier):
+        return REFERENCE(
+            Stretch(RATE, share * acceleration, angle, 8e4, 0, earlier=earlier), ORDERS, ROLLERS, STATED
+        )
+
+    stands = verdict_of(0.01, (*loud, *(quiet,) * 16))
+    assert stands.verdict == "not_diagnosable"
+    assert "40 dB below that of earlier stretches" in stands.reason
+    assert verdict_of(1.0, (*loud, *(quiet,) * 16)).verdict == "healthy"  # it goes on
+    assert verdict_of(0.5, loud).verdict == "healthy"
 
 
 def test_a_constant_speed_once_disproved_is_no_longer_believed():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 import threading
 from collections.abc import Callable, Iterator
@@ -51,9 +52,9 @@ def _stamps(clock: Clock, latency: Callable[[], float], duration: float = 8.0) -
             arrival, stamp_ns = arrivals.pop(0)
             stamps.receive(WRENCH_TOPIC, stamp_ns, arrival, was_set=stamp_ns < last_ns)
             last_ns = stamp_ns
-        offset, held = stamps.follow(WRENCH_TOPIC, BLOCK_NS, DELAY_NS)
+        offset, held = stamps.follow(WRENCH_TOPIC, block * BLOCK_NS, BLOCK_NS, DELAY_NS)
         if held > 0.0:
-            origin[0] += held
+            origin[0] += min(held, 0.1)
             continue
         true_ns = round(1e9 * clock(wall)) - DELAY_NS
         yield _Stamped(block * BLOCK_NS + offset.ahead_ns, true_ns, held)
@@ -86,6 +87,57 @@ def test_stamps_follow_a_clock_that_is_set_and_come_once(step: float) -> None:
     assert max(abs(each.stamp_ns - each.true_ns) for each in settled) < 3_000_000
     leaps = np.diff(stamps) - BLOCK_NS
     assert leaps.max() == pytest.approx(1e9 * step, abs=5e6) if step > 0.0 else leaps.max() < 1e6
+
+
+@pytest.mark.parametrize("silence", [0.5, 3.0, 12.0])
+def test_messages_that_come_late_in_a_burst_set_no_clock(silence: float) -> None:
+    """After a silence of the network they come all at once: the clock has gone on, and no stamp waits."""
+
+    def late(wall: float) -> float:
+        return max(4.0 + silence - wall, 0.0) if 4.0 <= wall < 4.0 + silence else 3e-4
+
+    stamps = SourceStamps(threading.Condition(), lambda wall: wall)
+    messages = sorted((wall + late(wall), wall) for wall in np.arange(-1.0, 20.0, 5e-3).tolist())
+    held, ends = 0.0, []
+    for block in range(1000):
+        while messages and messages[0][0] <= 0.02 * block:
+            arrival, wall = messages.pop(0)
+            stamps.receive(WRENCH_TOPIC, round(1e9 * (EPOCH_S + wall)), arrival, was_set=False)
+        offset, behind = stamps.follow(WRENCH_TOPIC, block * BLOCK_NS, BLOCK_NS, DELAY_NS)
+        held += behind
+        ends.append(block * BLOCK_NS + offset.ahead_ns)
+    assert held == 0.0
+    assert (np.abs(np.diff(ends) - BLOCK_NS) <= FASTEST_DRIFT * BLOCK_NS).all()
+
+
+def test_a_clock_that_begins_at_0_gives_no_stamp_before_that() -> None:
+    found = list(_stamps(lambda wall: wall + 1.0, _late(2), 3.0))
+    assert found[0].stamp_ns >= 0
+    assert abs(found[-1].stamp_ns - found[-1].true_ns) < 3_000_000
+
+
+def test_the_next_run_begins_behind_the_one_before() -> None:
+    stamps = SourceStamps(threading.Condition(), lambda wall: wall)
+    for k in range(100):
+        stamps.receive(WRENCH_TOPIC, round(1e9 * (EPOCH_S + 5e-3 * k)), 5e-3 * k, was_set=False)
+    first, _ = stamps.follow(WRENCH_TOPIC, 0, BLOCK_NS, DELAY_NS)
+    end = first.ahead_ns + BLOCK_NS
+    earliest = stamps.preview(WRENCH_TOPIC, DELAY_NS)  # at once: the clock has not gone on
+    stamps.begin()
+    again, held = stamps.follow(WRENCH_TOPIC, 0, BLOCK_NS, DELAY_NS)
+    assert held == 0.0
+    assert earliest == again.ahead_ns == end
+
+
+@pytest.mark.parametrize("pace", [0.5, 2.0])
+def test_a_clock_of_another_pace_is_found_out(pace: float) -> None:
+    stamps = SourceStamps(threading.Condition(), lambda wall: pace * wall)
+    for k in range(2000):
+        wall = 5e-3 * k
+        stamps.receive(WRENCH_TOPIC, round(1e9 * (EPOCH_S + wall)), wall, was_set=False)
+        if k % 4 == 0:
+            stamps.follow(WRENCH_TOPIC, k // 4 * BLOCK_NS, BLOCK_NS, DELAY_NS)
+    assert stamps.is_at_another_pace
 
 
 def test_one_stray_stamp_moves_no_clock() -> None:
@@ -152,6 +204,11 @@ def _reach_ns(graph: Graph) -> int:
     return 40_000_000 + round(1e9 * float(graph.statuses("twin")[-1].value("worst_lag")))
 
 
+def _more_blocks(graph: Graph, count: int) -> None:
+    wanted = len(_blocks(graph)) + count
+    graph.until(lambda: len(_blocks(graph)) > wanted, f"{count} blocks more")
+
+
 def _blocks(graph: Graph) -> list[int]:
     return [header_stamp(cdr) for cdr in graph.messages["force_waveform"]]
 
@@ -199,7 +256,7 @@ def test_a_clock_that_is_set_back_holds_the_twin_and_no_stamp_comes_twice(graph:
         graph.until(lambda: _blocks(graph)[-1] > stepped_ns + 500_000_000, "the answer to the step")
         assert abs(_crossing_ns(graph, 60e3) - stepped_ns) < _reach_ns(graph)
         train.ahead += 2.0
-        graph.until(lambda: "stamps leap ahead" in graph.statuses("twin")[-1].message, "the leap")
+        graph.until(lambda: "stamps leap by" in graph.statuses("twin")[-1].message, "the leap")
         first = graph.statuses("twin")[-1].value("run_id")
         train.ahead -= 100.0
         graph.until(lambda: graph.statuses("twin")[-1].value("run_id") not in ("", first), "a new run")
@@ -216,7 +273,7 @@ def test_a_leap_is_no_loss_and_a_recorder_may_join_late(graph: Graph) -> None:
     with LiveTrain(graph) as train:
         graph.until(lambda: len(_blocks(graph)) > 25, "half a second")
         train.ahead += 2.0
-        graph.until(lambda: "stamps leap ahead" in graph.statuses("twin")[-1].message, "the leap")
+        graph.until(lambda: "stamps leap by" in graph.statuses("twin")[-1].message, "the leap")
         graph.start("second", "beardyn_ros", "recorder", output=str(late))
         graph.until(late.exists, "the second file")
         count = len(_blocks(graph))
@@ -234,6 +291,53 @@ def test_a_leap_is_no_loss_and_a_recorder_may_join_late(graph: Graph) -> None:
 
 
 @pytest.mark.ros
+def test_runs_that_a_reset_parts_are_each_whole(graph: Graph) -> None:
+    """Stamps go on from run to run, so that only the truth tells which run they belong to."""
+    from std_srvs.srv import Trigger
+
+    graph.listen("force_waveform")
+    graph.fake_twin(mode="live", max_age=5.0)
+    graph.node_process("recorder", output=str(graph.folder / "run.mcap"))
+    is_connected(graph, "recorder")
+    with LiveTrain(graph):
+        for reset in range(5):
+            _more_blocks(graph, 20)
+            if reset < 4:
+                assert graph.call("reset", Trigger).success
+        graph.processes.signal("twin", signal.SIGINT)
+        assert graph.exit_code("twin") == 0
+        assert graph.exit_code("recorder") == 0, graph.processes.log("recorder")
+    paths = sorted(graph.folder.glob("*.mcap"))
+    assert len(paths) == 5
+    for path in paths:
+        found, run = report(path), read_run(path)
+        assert found.gaps == ()
+        assert found.missing_messages == (), path
+        assert run.force_waveform.sample[0] == 0
+        assert run.force_waveform.time_ns[0] >= run.truth["begin_ns"]
+    assert (np.diff(_blocks(graph)) > 0.99 * BLOCK_NS).all()
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_a_pace_that_is_not_that_of_the_clock_is_reported_and_not_followed(
+    graph: Graph, factor: float
+) -> None:
+    graph.listen("force_waveform")
+    graph.fake_twin(mode="live", max_age=5.0, speed_factor=factor)
+    with LiveTrain(graph):
+        graph.until(
+            lambda: graph.statuses("twin") and "at another pace" in graph.statuses("twin")[-1].message,
+            "the word about the pace",
+        )
+        _more_blocks(graph, 5)
+        begin = len(_blocks(graph))
+        _more_blocks(graph, 50)
+        assert (np.diff(_blocks(graph)[begin:]) == BLOCK_NS).all()
+        assert f"than speed_factor = {factor:g}" in graph.statuses("twin")[-1].message
+
+
+@pytest.mark.ros
 def test_two_clocks_of_one_load_are_reported(graph: Graph) -> None:
     graph.fake_twin(mode="live", max_age=5.0)
     with LiveTrain(graph, shaft_ahead=3.2):
@@ -241,4 +345,4 @@ def test_two_clocks_of_one_load_are_reported(graph: Graph) -> None:
             lambda: graph.statuses("twin") and "have two clocks" in graph.statuses("twin")[-1].message,
             "the word about two clocks",
         )
-    assert "load/shaft is stamped 3.2" in graph.statuses("twin")[-1].message
+    assert re.search(r"load/shaft is stamped 3\.(19|20)", graph.statuses("twin")[-1].message)

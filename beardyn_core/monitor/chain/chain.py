@@ -32,11 +32,14 @@ from beardyn_core.monitor.chain.speed_drift import (
     LARGEST_LEVEL_CHANGE,
     Drift,
     level_change,
+    level_fall,
     speed_drift,
 )
 from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
+
+_NOTHING_LEFT = 60.0  # [dB]
 
 
 def squared_envelope(stretch: Stretch, band: Band) -> Float:
@@ -129,13 +132,12 @@ class Chain:
                 found, verdict, lined = clockwork, heard, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
+        levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         change = np.nan
         if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
             drift = speed_drift(tracked, settings)
-            verdict, change = (
-                _doubt_speed(verdict, drift, level_change(stretch, (band.low, band.high))),
-                drift.change,
-            )
+            change, level = drift.change, level_change(stretch, (band.low, band.high))
+            verdict = _doubt_speed(verdict, drift, level, level_fall(levels, stretch.earlier))
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
@@ -152,7 +154,6 @@ class Chain:
         sure = confidence_of(verdict.name, grounds) / (1 + len(alike))  # one is as likely as the other
         if verdict.name == HEALTHY and not_judged:
             sure = np.nan  # it says nothing of parts that were not judged
-        levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)
         best, called, comb = verdict.best, verdict.name in FAULTS, verdict.comb
         own = [each.speed for each in verdict.fits if not each.bearing]
         order, expected = best.stated(-np.log(settings.false_alarm_rate))
@@ -196,16 +197,19 @@ class Chain:
         )
 
 
-def _doubt_speed(verdict: Verdict, drift: Drift, level: float) -> Verdict:
-    """Leave open what is healthy at a speed that is stated and not constant, by strikes or by level [dB]."""
+def _doubt_speed(verdict: Verdict, drift: Drift, level: float, fall: float) -> Verdict:
+    """Leave open what is healthy at a speed that is stated and not constant, by strikes or by levels [dB]."""
     if not np.isnan(drift.change):
         reason = (
             f"the speed is not constant: it changes by {100.0 * drift.change:+.0f} % within "
             f"{drift.revolutions:g} revolutions by the rate of strikes; give a tachometer or a speed channel"
         )
-    elif level > LARGEST_LEVEL_CHANGE:
+    elif max(level, fall) > LARGEST_LEVEL_CHANGE:
+        where = "within the stretch" if level > LARGEST_LEVEL_CHANGE else "below that of earlier stretches"
+        size = max(level, fall)
+        change = f"{size:.0f} dB" if size < _NOTHING_LEFT else f"more than {_NOTHING_LEFT:g} dB"
         reason = (
-            f"the level changes by {level:.0f} dB within the stretch, as where a train stops or starts, or a "
+            f"the level changes by {change} {where}, as where a train stops or starts, passes a bridge, or a "
             "signal fails: a constant speed is not believed; give a tachometer or a speed channel"
         )
     else:

@@ -13,6 +13,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.chain.competing_orders import strongest_rival
 from beardyn_core.monitor.chain.fault_lines import over_noise, without_shaft_lines
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
+from beardyn_core.monitor.chain.levels import Levels
 from beardyn_core.monitor.features import order_spectrum
 
 # revolutions of a piece, in which the speed changes evenly, and the step of the changes that are tried, [-]
@@ -21,6 +22,7 @@ _TRIED = np.arange(-15, 16)  # steps
 _HIGHEST_ORDER = 60.0
 _FEWEST = 2  # pieces that must agree
 _PARTS = 10  # of a stretch, whose levels are compared
+_LOUD = 90.0  # per cent of earlier stretches that are quieter
 # [dB]: 284 of 286 public records at a steady speed have up to 5.7, the other two a signal that fails
 LARGEST_LEVEL_CHANGE = 8.0
 
@@ -62,6 +64,17 @@ def speed_drift(tracked: Float, settings: MonitorSettings) -> Drift:
         if isfinite(change):
             return Drift(change, revolutions)
     return Drift(nan, nan)
+
+
+def level_fall(levels: Levels, earlier: Sequence[Levels]) -> float:
+    """Compute by how much a stretch is quieter than earlier ones of a stream, 0 without, [dB].
+
+    Most of these may be of a train that stands: the louder tenth counts.
+    """
+    usual = [each.rms for each in earlier if each.rms > 0.0]
+    if not usual or not levels.rms > 0.0:
+        return 0.0
+    return max(20.0 * log10(float(np.percentile(usual, _LOUD)) / levels.rms), 0.0)
 
 
 def level_change(stretch: Stretch, band: tuple[float, float]) -> float:
