@@ -206,8 +206,8 @@ def _time_of_the_train(folder: Path) -> str:
                 reference = graph.messages["source_time"][0]
     ahead = 1e-9 * (header_stamp(reference) - time_reference(reference))
     return (
-        f"stamps {ahead:.3f} s ahead of simulated time, told on source_time; a step of load is in the force at "
-        "its stamp, within two blocks; a clock that is set costs no sample"
+        f"stamps {ahead:.3f} s ahead of simulated time, told on source_time; a step of load is in the force "
+        "at its stamp, within two blocks; a clock that is set costs no sample"
     )
 
 
