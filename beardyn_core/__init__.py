@@ -118,9 +118,9 @@ __all__ += [
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
-__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
+__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "rating_life"]
+__all__ += ["read"]
 __all__ += [
-    "rating_life",
     "read_measured",
     "report",
     "scene",

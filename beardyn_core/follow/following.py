@@ -205,20 +205,26 @@ class Follower:
         )  # fmt: skip
 
     def _condition_on_load(self) -> None:
-        """Condition the belief on a load that is new: it is observed once, for it is the same every time."""
-        if self._known is None or not self._is_new_load or VERTICAL not in self.names:
+        """Condition the belief on a load that is new: it is observed once, for it is the same every time.
+
+        What was known before goes with it; where no load is known any more, it is as unknown as at first.
+        """
+        if not self._is_new_load or VERTICAL not in self.names:
             return
+        self._is_new_load = False
         k = self.names.index(VERTICAL)
         mean, covariance = self.belief.mean.copy(), self.belief.covariance.copy()
         mean[k] = self._middle[k]
         covariance[k, :] = covariance[:, k] = 0.0
         covariance[k, k] = self._spread[k] ** 2
+        self.belief = Belief(mean, covariance)
+        if self._known is None:
+            return
         row = np.zeros((1, len(mean)))
         row[0, k] = 1.0
         observed = BY_NAME[VERTICAL].scaled(np.array([self._known.value]))
         variance = np.array([self._known.deviation**2])
-        self.belief = correct_belief(Belief(mean, covariance), row, observed, variance).belief
-        self._is_new_load = False
+        self.belief = correct_belief(self.belief, row, observed, variance).belief
 
     def _rate(self, known: Estimates, mileage: float) -> RatedLife | None:
         """Rate the life under a load that is known, and count what is used."""
