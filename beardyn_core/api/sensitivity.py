@@ -111,8 +111,8 @@ def smallest_spalls(
     if isfinite(stretch.load) and abs(stretch.load) > _LEAST_LOAD:
         force = (force[0], force[1], stretch.load)
         if known is not None:
-            own = KnownLoad(abs(stretch.load), _OF_RECORD * abs(stretch.load), "load of the record")
-            known = combine_loads([known, own])
+            recorded = KnownLoad(abs(stretch.load), _OF_RECORD * abs(stretch.load), "load of the record")
+            known = combine_loads([known, recorded])
     if known is not None:
         known = replace(known, doubts=doubts_of(known, base.bearing, Evidence()))
         force = (force[0], force[1], known.value)

@@ -65,7 +65,9 @@ def describe_load(
         for block in source.blocks([load.channel.name]):
             force = load.factor * block[:, 0]
             force = force[np.isfinite(force)]
-            total, squares, count = total + force.sum(), squares + force @ force, count + len(force)
+            total += float(force.sum())
+            squares += float(force @ force)
+            count += len(force)
     first = files[0][0]
     if first is None or not count:
         return None

@@ -144,8 +144,12 @@ def life_row(found: Sequence[Estimates], runs: Described, share: float) -> str:
         surface, counter = mine
         rated = counter.rate(known, condition_estimates(each, known, bearing, WHEEL), 0.0)
         assert rated is not None
-        numbers = [np.array([truth[name]]) for name in ("vertical_load", "lateral_load", "end_play")]
-        life = float(surface.lives(*numbers, np.ones(1), np.full(1, 0.6)).reference_basic[0]) * np.pi * WHEEL
+        up, side, play = (np.array([each]) for each in truth.values())
+        life = (
+            float(surface.lives(up, side, play, np.ones(1), np.full(1, 0.6)).reference_basic[0])
+            * np.pi
+            * WHEEL
+        )
         low, _, high = rated.reference_basic
         ratios.append(log(high / low))
         held += low <= life <= high

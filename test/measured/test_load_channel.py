@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ def columns(force: float = 71.0, name: str = "Fz [kN]") -> dict[str, np.ndarray]
 
 def test_the_mean_of_the_channel_is_kept_and_known(tmp_path: Path) -> None:
     path, recording = table(tmp_path / "a.csv", columns()), tmp_path / "a.mcap"
-    stated = {"speed_rpm": 1200.0, "load_channel": "Fz*", "load_error_percent": 4.0}
+    stated: dict[str, Any] = {"speed_rpm": 1200.0, "load_channel": "Fz*", "load_error_percent": 4.0}
     bd.import_measured(path, recording, bearing="HS130x230", **stated)
     for run in (read_run(recording), bd.read_measured(path, **stated)):
         load = run.measured["load"]
