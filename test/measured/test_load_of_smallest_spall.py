@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import beardyn_core as bd
+from beardyn_core.cli import main as command
 from beardyn_core.study import smallest_spall
 from test.measured.files import RATE, table
 
@@ -42,3 +43,22 @@ def test_the_twin_runs_at_the_known_load(tmp_path: Path, loads: list[Any]) -> No
     assert "check the unit" in doubtful
     assert loads[1:] == pytest.approx([62e3, 7e3])
     assert loads[0] not in loads[1:]
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--load-kn", "62:3"], "--load-kn is that of --smallest-spall"),
+        (["--smallest-spall", "--load-kn", "62000"], "newtons meant"),
+    ],
+)
+def test_a_load_of_the_monitor_that_makes_no_sense_is_refused_before_anything_is_analysed(
+    options: list[str], sentence: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    noise = np.random.default_rng(3).normal(size=6000)
+    path = table(tmp_path / "a.csv", {"time_s": np.arange(6000) / RATE, "az [g]": noise})
+    recording = tmp_path / "a.mcap"
+    words = ["import", str(path), "--speed-rpm", "1200", "--bearing", "HS130x230", "-o", str(recording)]
+    assert command.main(words) == 0
+    assert command.main(["monitor", str(recording), *options]) == 2
+    assert sentence in capsys.readouterr().err
