@@ -183,9 +183,7 @@ def _verdict(found: dict[str, Errors]) -> str:
         gain = 100.0 * (1.0 - after / before)
         helps = abs(each.correlation) > 1.96 / np.sqrt(len(each.error)) and gain > 0.0
         said.append(f"{BY_NAME[name].words}: {f'{gain:.0f} % less error' if helps else 'nothing'}")
-    return (
-        f"**What a load known within 3 % buys.** {'; '.join(said)}. The rating life is given with it alone."
-    )
+    return f"**Gain of a load known within 3 %.** {'; '.join(said)}. The rating life is given with it alone."
 
 
 def main(words: Sequence[str] | None = None) -> int:
