@@ -47,7 +47,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from beardyn_core.api.calibrating import calibrate
-    from beardyn_core.api.estimating import estimate, forecast, train
+    from beardyn_core.api.estimating import estimate, forecast, rating_life, train
     from beardyn_core.api.exporting import export
     from beardyn_core.api.finding import catalogue, which_bearing
     from beardyn_core.api.following import Following, follow
@@ -77,6 +77,8 @@ if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.follow.known_load import KnownLoad
+    from beardyn_core.follow.rated_life import LifeAssumptions, RatedLife
     from beardyn_core.follow.service import Service
     from beardyn_core.monitor.chain import Chain, MonitorSettings
     from beardyn_core.population.labelled_set import LabelledSet
@@ -90,8 +92,19 @@ else:
     from beardyn_core import bearing, follow, monitor, scene
 
 __all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Following"]
-__all__ += ["Forecast", "GrowthLaw", "InputError", "LabelledSet", "Lubricant", "MonitorSettings", "NamePlate"]
 __all__ += [
+    "Forecast",
+    "GrowthLaw",
+    "InputError",
+    "KnownLoad",
+    "LabelledSet",
+    "LifeAssumptions",
+    "Lubricant",
+    "MonitorSettings",
+    "NamePlate",
+]
+__all__ += [
+    "RatedLife",
     "Run",
     "RunSummary",
     "Scene",
@@ -105,7 +118,8 @@ __all__ += [
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
-__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "read"]
+__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "rating_life"]
+__all__ += ["read"]
 __all__ += [
     "read_measured",
     "report",
@@ -120,7 +134,7 @@ __all__ += ["sweep", "torque", "train", "trend", "which_bearing"]
 
 _MODULES = {
     "api.calibrating": ("calibrate",),
-    "api.estimating": ("estimate", "forecast", "train"),
+    "api.estimating": ("estimate", "forecast", "rating_life", "train"),
     "api.exporting": ("export",),
     "api.finding": ("catalogue", "which_bearing"),
     "api.sensitivity": ("smallest_spalls",),
@@ -143,6 +157,8 @@ _MODULES = {
     "follow.forecast": ("Forecast",),
     "follow.service": ("Service",),
     "follow.growth": ("GrowthLaw",),
+    "follow.known_load": ("KnownLoad",),
+    "follow.rated_life": ("LifeAssumptions", "RatedLife"),
     "follow.estimator": ("Estimates", "Estimator"),
     "base.errors": ("InputError", "ValidityError"),
     "sensors.block": ("Block",),

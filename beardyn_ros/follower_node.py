@@ -1,8 +1,8 @@
 """Follow one bearing as a node: load, end play and spall from what a train has.
 
 Inputs are ``vibration``, ``shaft`` and ``temperature`` of the axlebox; those of a real one are remapped:
-``-r vibration:=measured/vibration``. It never reads ``truth``, loads, ``contacts``, ``bodies`` or
-``joint_states``.
+``-r vibration:=measured/vibration``. It never reads ``truth``, ``contacts``, ``bodies`` or
+``joint_states``, and loads only where the parameter ``load`` is ``topic``.
 """
 
 from __future__ import annotations
@@ -21,12 +21,15 @@ from beardyn_core.api.twin_residual import residual_beside
 from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.config import load_plate
+from beardyn_core.follow.conditioning import known_load_of
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimate_json import residual_object, step_object
 from beardyn_core.follow.estimator import Estimates
 from beardyn_core.follow.follower_values import follower_values
 from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.inference import doubt_of
+from beardyn_core.follow.known_load import KnownLoad, combine_loads
+from beardyn_core.follow.load_checks import read_axle_loads
 from beardyn_core.follow.residual import Residual
 from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.service import Service
@@ -41,6 +44,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.labels import HEALTHY
 from beardyn_ros.diagnostics import FOLLOWER, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
+from beardyn_ros.load_hearing import LoadHearing
 from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
@@ -72,13 +76,49 @@ class FollowerNode(Node):
             self, "follower/estimate", "follower/residual", "/diagnostics", typed=typed
         )
         self._numbers = ValueTopics(self._out, FOLLOWER, frame, self._values.values)
+        self._load = self._make_load()
         self._begin()
         hearer = Hearer(self._begin, self._hear_vibration, self._hear_shaft, self._hear_temperature)
-        self._signals = TrainSignals(self, hearer)
+        further = {} if self._load_heard is None else self._load_heard.handlers
+        self._signals = TrainSignals(self, hearer, further)
         self._reported_at = 0.0
         wall_timer(self, TICK_S, self._tick)
         known = ", ".join(self._follower.names)
         self.get_logger().info(f"{self._follower.estimator.plate.name}: follows {known}")
+
+    def _make_load(self) -> KnownLoad | None:
+        """Read the load that is known from the parameters, or prepare to receive it."""
+        self._load_heard: LoadHearing | None = None
+        problems, given = [], self._values.load.strip()
+        try:
+            if given.startswith("topic"):
+                self._load_heard = LoadHearing(given)
+        except InputError as error:
+            problems += [f"node follower, parameter 'load' {each}" for each in error.problems]
+        try:
+            self._axle_loads = read_axle_loads(self._values.axle_load, "parameter 'axle_load'")
+        except InputError as error:
+            problems += [f"node follower, {each}" for each in error.problems]
+        found = None
+        try:
+            found = known_load_of("" if given.startswith("topic") else given, [self._values.load_sensor])
+        except InputError as error:
+            options = {"--load-kn": "parameter 'load'", "--load-sensor": "parameter 'load_sensor'"}
+            for each in error.problems:
+                for option, name in options.items():
+                    each = each.replace(option, name)
+                problems.append(f"node follower, {each}")
+        if problems:
+            raise InputError(problems)
+        return found
+
+    def _load_of(self, end_ns: int) -> KnownLoad | None:
+        """Give the load that is known in the stretch that ends then."""
+        if self._load_heard is None:
+            return self._load
+        begin_ns = end_ns - round(1e9 * self._follower.estimator.stretch)
+        heard = self._load_heard.load_between(begin_ns, end_ns)
+        return combine_loads([each for each in (heard, self._load) if each is not None])
 
     def _begin(self) -> None:
         try:
@@ -88,10 +128,14 @@ class FollowerNode(Node):
                 [f"node follower, parameter 'bearing': {each}" for each in error.problems]
             ) from None
         try:
-            self._follower = follower_of(plate, self._values.estimator or None, service=self._service)
+            self._follower = follower_of(
+                plate, self._values.estimator or None, service=self._service, axle_loads=self._axle_loads
+            )
         except InputError as error:
             problems = [f"node follower, parameter 'estimator': {each}" for each in error.problems]
             raise InputError(problems) from None
+        if self._load_heard is not None:
+            self._load_heard.clear()
         self._twin = self._scene_of_twin()
         self._stretches = StretchIntake(self._follower.estimator)
         self._rows: list[Float] = []
@@ -145,6 +189,7 @@ class FollowerNode(Node):
             estimator = self._follower.estimator
             row = describe(stretch, estimator.orders, estimator.plate, estimator.axes)
             self._way += abs(stretch.revolutions) * math.pi * self._service.wheel_diameter
+            self._follower.know_load(self._load_of(stretch.end_ns))
             self._take(row, 1e-9 * stretch.end_ns)
         self._hear_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
@@ -209,7 +254,13 @@ class FollowerNode(Node):
         doubts = () if step is None else step.doubts
         unexplained = () if self._residual is None else self._residual.sentences
         troubles = filter(
-            None, [self._unheard or self._stretches.doubt, self._trouble, self._signals.clock_note]
+            None,
+            [
+                self._unheard or self._stretches.doubt,
+                "" if self._load_heard is None else self._load_heard.doubt,
+                self._trouble,
+                self._signals.clock_note,
+            ],
         )
         told = "; ".join([*doubts, *unexplained, *troubles])
         status = Diagnostic(

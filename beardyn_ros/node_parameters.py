@@ -307,6 +307,20 @@ FOLLOWER = (
     NodeParameter(
         "wheel_diameter", 920.0, "running diameter of the wheel", "mm", minimum=300.0, maximum=1500.0
     ),
+    NodeParameter(
+        "load",
+        "",
+        "vertical load on this journal that is known, VALUE:UNCERTAINTY such as 70kN:3kN or 70kN:5%; topic "
+        "or topic:UNCERTAINTY%: that of load/blocks or load/wrench; empty: not known",
+    ),
+    NodeParameter(
+        "load_sensor",
+        "",
+        "sensors that give the load, as of beardyn estimate --load-sensor, ; between; empty: none",
+    ),
+    NodeParameter(
+        "axle_load", "", "EMPTY:FULL, axle loads of the vehicle, against which the load is checked", "t"
+    ),
     NodeParameter("twin", "", "healthy scene of this axlebox on its track, a twin next to it; empty: none"),
     NodeParameter("twin_tier", "quasistatic", "of the twin beside", choices=("lumped", "quasistatic")),
     NodeParameter(

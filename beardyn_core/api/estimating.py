@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import file_problems
+from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.follow.known_load import KnownLoad
+    from beardyn_core.follow.rated_life import LifeAssumptions, RatedLife
     from beardyn_core.follow.service import Service
     from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.record.run import Run
@@ -27,6 +30,10 @@ def estimate(
     *,
     bearing: Bearing | NamePlate | str | None = None,
     sensor: str = "",
+    load_kn: KnownLoad | str | float | None = None,
+    load_sensor: str | Sequence[str] = (),
+    axle_load_t: str = "",
+    wheel_diameter: float | None = None,
 ) -> Estimates:
     """Estimate load, end play and spall of a recording, each with an interval.
 
@@ -44,6 +51,18 @@ def estimate(
         Data of the bearing; default that of the recording.
     sensor : str, optional
         Accelerometer; default the first. See `beardyn_core.monitor`.
+    load_kn : KnownLoad, str or float, optional
+        Known vertical load on this journal, kN, VALUE or VALUE:UNCERTAINTY, half of its 90 % interval, such
+        as 80:3 or 80:5%; default not known. An uncertainty that is not given is 10 %. A channel of the load
+        that measured files were imported with is known as well.
+    load_sensor : str or sequence of str, optional
+        Sensor of the train that gives the vertical load, KIND KEY=NUMBER and so on: air_spring, spring or
+        weighing; default none. Several give one load, and must agree. See docs/estimate.md.
+    axle_load_t : str
+        EMPTY:FULL, axle loads that the vehicle can have, t, against which a known load is checked; default
+        none.
+    wheel_diameter : float, optional
+        Running diameter, for the speed against which a known load is checked, [m]; default 0.92.
 
     Returns
     -------
@@ -57,8 +76,12 @@ def estimate(
         No estimator fits the bearing, an axis is not measured, or the run is too short.
     """
     from beardyn_core.api.reading import heard_of
+    from beardyn_core.follow.conditioning import condition_estimates
     from beardyn_core.follow.estimator import Estimator, read_estimator
     from beardyn_core.follow.inference import estimates_of
+    from beardyn_core.follow.load_checks import read_axle_loads
+    from beardyn_core.follow.run_stretches import whole_bearing
+    from beardyn_core.follow.service import Service
     from beardyn_core.follow.shipped import shipped_for
 
     heard, plate, sensor = heard_of(run, bearing, sensor)
@@ -66,7 +89,87 @@ def estimate(
         estimator = shipped_for(plate)
     elif not isinstance(estimator, Estimator):
         estimator = read_estimator(Path(estimator))
-    return estimates_of(heard, estimator, plate, sensor)
+    known = known_load_in(heard, load_kn, load_sensor)
+    axles = read_axle_loads(axle_load_t, "axle_load_t")
+    found = estimates_of(heard, estimator, plate, sensor)
+    if known is None:
+        return found
+    wheel = wheel_diameter or Service().wheel_diameter
+    return condition_estimates(found, known, whole_bearing(plate), wheel, axles)
+
+
+def known_load_in(
+    run: Run, load_kn: KnownLoad | str | float | None, load_sensor: str | Sequence[str]
+) -> KnownLoad | None:
+    """Combine what is stated of the vertical load with the channel of it that a measured run has.
+
+    Parameters
+    ----------
+    run : Run
+    load_kn, load_sensor
+        See `estimate`.
+    """
+    from beardyn_core.follow.conditioning import known_load_of
+    from beardyn_core.follow.known_load import load_of_channel
+
+    sensors = [load_sensor] if isinstance(load_sensor, str) else load_sensor
+    channel = run.measured.get("load")
+    return known_load_of(load_kn, sensors, () if channel is None else (load_of_channel(channel),))
+
+
+def rating_life(
+    found: Estimates,
+    run: Run | Path | str,
+    service: Service | None = None,
+    *,
+    bearing: Bearing | str | None = None,
+    lubricant: Lubricant | str = "L055",
+    temperature_C: tuple[float, float] | None = None,
+    assumptions: LifeAssumptions | None = None,
+) -> RatedLife:
+    """Rate the life of the bearing of a run under a vertical load that is known, with intervals.
+
+    Parameters
+    ----------
+    found : Estimates
+        Of `estimate` with a known load.
+    run, bearing, lubricant
+        See `forecast`.
+    service : Service, optional
+        Mileage so far, for the share that is used, and wheel.
+    temperature_C : 2 floats, optional
+        Of the lubricant, ends of its 90 % interval; default assumed, 40 to 85.
+    assumptions : LifeAssumptions, optional
+        What no recording says of the service, and is varied.
+
+    Raises
+    ------
+    InputError
+        No load is known, or only the data of the bearing is.
+    """
+    from beardyn_core.config import load_lubricant
+    from beardyn_core.follow.rated_life import LifeAssumptions, LifeCounter
+    from beardyn_core.follow.service import Service
+
+    if found.known_load is None:
+        raise InputError("the vertical load is not known; estimate with load_kn or load_sensor")
+    whole = _bearing_of(run, bearing)
+    served = service or Service()
+    grease = load_lubricant(lubricant) if isinstance(lubricant, str) else lubricant
+    counter = LifeCounter(whole, grease, served.wheel_diameter, assumptions or LifeAssumptions())
+    warm = kelvin_of(temperature_C)
+    rated = counter.rate(found.known_load, found, served.mileage, warm)
+    if rated is None:
+        raise InputError("the shaft stands; a rating life needs one that turns")
+    return rated
+
+
+def kelvin_of(temperature_C: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Convert both ends of a temperature in degrees Celsius to kelvin."""
+    if temperature_C is None:
+        return None
+    low, high = temperature_C
+    return low + ZERO_CELSIUS, high + ZERO_CELSIUS
 
 
 def forecast(
@@ -77,6 +180,8 @@ def forecast(
     *,
     bearing: Bearing | str | None = None,
     lubricant: Lubricant | str = "L055",
+    temperature_C: tuple[float, float] | None = None,
+    assumptions: LifeAssumptions | None = None,
 ) -> Forecast:
     """Forecast what remains of the bearing of a run: mileage of a spall, share of the rating life used.
 
@@ -94,22 +199,39 @@ def forecast(
         A whole one: bearing data alone have no rating life.
     lubricant : Lubricant or str
         Of the rating life.
+    temperature_C, assumptions
+        See `rating_life`; of the life under a load that is known.
 
     Raises
     ------
     InputError
         Only the data of the bearing is known, or there is no such lubricant.
     """
-    from beardyn_core.api.reading import heard_of
-    from beardyn_core.bearing.geometry import Bearing
-    from beardyn_core.config import load_bearing, load_lubricant
+    from beardyn_core.config import load_lubricant
     from beardyn_core.follow import forecast as forecasting
 
-    known: Bearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
-    if not isinstance(known, Bearing):  # bearing data alone have no raceways
-        known = load_bearing(known if isinstance(known, str) else known.name)
+    whole = _bearing_of(run, bearing)
     grease = load_lubricant(lubricant) if isinstance(lubricant, str) else lubricant
-    return forecasting.forecast(found, known, grease, service, law)
+    rated = None
+    if found.known_load is not None:
+        rated = rating_life(
+            found, run, service, bearing=whole, lubricant=grease, temperature_C=temperature_C,
+            assumptions=assumptions,
+        )  # fmt: skip
+    return forecasting.forecast(found, whole, grease, service, law, rated)
+
+
+def _bearing_of(run: Run | Path | str, bearing: Bearing | str | None) -> Bearing:
+    """Find the whole bearing of a run, or the one that is named."""
+    from beardyn_core.api.reading import heard_of
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.config import load_bearing
+
+    known: Bearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
+    if isinstance(known, Bearing):
+        return known
+    # bearing data alone have no raceways
+    return load_bearing(known if isinstance(known, str) else known.name)
 
 
 def train(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 from typing import Annotated as A
 
 from beardyn_core.base.errors import InputError
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimator
     from beardyn_core.follow.following import Followed
     from beardyn_core.follow.growth import GrowthLaw
+    from beardyn_core.follow.known_load import KnownLoad
+    from beardyn_core.follow.rated_life import LifeAssumptions
     from beardyn_core.follow.residual import Residual
     from beardyn_core.follow.service import Service
     from beardyn_core.record.run import Run
@@ -59,6 +61,11 @@ def follow(
     lubricant: Lubricant | str = "L055",
     twin: Scene | Path | str | None = None,
     tier: Literal["lumped", "quasistatic"] = "quasistatic",
+    load_kn: KnownLoad | str | float | Sequence[KnownLoad | str | float] | None = None,
+    load_sensor: str | Sequence[str] = (),
+    axle_load_t: str = "",
+    temperature_C: tuple[float, float] | None = None,
+    assumptions: LifeAssumptions | None = None,
 ) -> Following:
     """Follow load, end play and spall of a bearing over its recordings.
 
@@ -85,6 +92,14 @@ def follow(
         octaves are compared with the measured ones; default no twin.
     tier : str
         Of the twin. ``lumped`` or ``quasistatic``.
+    load_kn : KnownLoad, str or float, or sequence of them, optional
+        Known vertical load on this journal, kN, VALUE or VALUE:UNCERTAINTY as of estimate, one for all
+        recordings or one for each; default not known.
+    load_sensor : str or sequence of str, optional
+        Sensor of the train that gives the vertical load, as of estimate, one for all recordings or one for
+        each, several of a recording with ; between; default none.
+    axle_load_t, temperature_C, assumptions
+        See `beardyn_core.estimate` and `beardyn_core.rating_life`.
 
     Raises
     ------
@@ -93,9 +108,11 @@ def follow(
     """
     import numpy as np
 
+    from beardyn_core.api.estimating import kelvin_of, known_load_in
     from beardyn_core.api.making import scene as make_scene
     from beardyn_core.api.reading import heard_of
     from beardyn_core.api.twin_residual import residual_beside
+    from beardyn_core.follow.load_checks import read_axle_loads
     from beardyn_core.follow.run_stretches import follower_of, stretches_followed
     from beardyn_core.record.run import Run
     from beardyn_core.scene.scene import Scene
@@ -108,8 +125,14 @@ def follow(
             raise InputError(
                 f"mileages: {after:g} m comes after {before:g} m; give them in the order of time"
             )
+    stated = one_each("load_kn", load_kn, len(several))
+    sensors = one_each("load_sensor", load_sensor or None, len(several))
     heard, plate, ear = heard_of(several[0], bearing, sensor)
-    follower = follower_of(plate, estimator, service=service, law=law, lubricant=lubricant)
+    follower = follower_of(
+        plate, estimator, service=service, law=law, lubricant=lubricant,
+        axle_loads=read_axle_loads(axle_load_t, "axle_load_t"), assumptions=assumptions,
+        temperature=kelvin_of(temperature_C),
+    )  # fmt: skip
     steps: list[Followed] = []
     rows: list[Float] = []
     time = distance = 0.0
@@ -117,6 +140,7 @@ def follow(
         if k:
             heard, plate, ear = heard_of(run, bearing, sensor)
             follower.begin()
+        follower.know_load(known_load_in(heard, stated[k], sensors[k] or ()))
         begin = distance if mileages is None else mileages[k]
         for row, end, metres in stretches_followed(heard, follower, plate, ear):
             rows.append(row)
@@ -129,3 +153,19 @@ def follow(
         base = twin if isinstance(twin, Scene) else make_scene(twin)
         residual = residual_beside(follower.estimator, np.stack(rows), steps[-1].estimates, base, tier)
     return Following(tuple(steps), residual)
+
+
+def one_each(name: str, given: Any, count: int) -> list[Any]:
+    """Give one of something for each run, of one for all or of one each; None of nothing.
+
+    Raises
+    ------
+    InputError
+        There are neither one nor as many as runs.
+    """
+    several = list(given) if isinstance(given, list | tuple) else [given]
+    if len(several) == 1:
+        return several * count
+    if len(several) != count:
+        raise InputError(f"{name}: has {len(several)} for {count} runs; give one for all, or one for each")
+    return several

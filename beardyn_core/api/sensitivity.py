@@ -14,12 +14,14 @@ from beardyn_core.base.errors import InputError
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.follow.known_load import KnownLoad
     from beardyn_core.monitor.chain import Algorithm, MonitorSettings
     from beardyn_core.record.run import Run
     from beardyn_core.scene.scene import Scene
     from beardyn_core.study.smallest_spall import SmallestSpalls
 
 _LEAST_LOAD = 1000.0  # of a record, below which it is none: that of the twin is taken [N]
+_OF_RECORD = 0.02  # half of the 90 % interval of a load that a record has
 _ALIKE = 0.01  # orders of record and twin, relative: the monitor searches within 2 %
 
 
@@ -31,6 +33,7 @@ def smallest_spalls(
     sensor: str = "",
     algorithm: Algorithm | None = None,
     settings: MonitorSettings | None = None,
+    load_kn: KnownLoad | str | float | None = None,
 ) -> SmallestSpalls:
     """Find the smallest spall of each part that the monitor would have named in a record without a fault.
 
@@ -45,6 +48,9 @@ def smallest_spalls(
         Scene of the axlebox, or of one like it, of which box, sensor and spalls are taken, and the load where
         the record has none; by default that of the recording. It runs in the tier of the scene, up to 28
         times as long as an analysis needs.
+    load_kn : KnownLoad, str or float, optional
+        Known vertical load on this journal, kN, VALUE or VALUE:UNCERTAINTY, half of its 90 % interval;
+        default that of the record, or of the twin. See `estimate`.
 
     Returns
     -------
@@ -57,16 +63,20 @@ def smallest_spalls(
         The record is shorter than an analysis, its last revolutions are not healthy, it has no scene, or the
         twin has a bearing of other orders.
     """
+    from beardyn_core.api.estimating import known_load_in
     from beardyn_core.api.making import scene as make_scene
     from beardyn_core.api.reading import heard_of
     from beardyn_core.choice import scene_from_text
     from beardyn_core.choice.load_cases import circumstances
+    from beardyn_core.follow.known_load import KnownLoad, combine_loads
+    from beardyn_core.follow.load_checks import Evidence, doubts_of
     from beardyn_core.measured.stated_speed import recorded_uncertainty
     from beardyn_core.monitor.chain import REFERENCE, MonitorSettings
     from beardyn_core.study.monitored_recording import HEALTHY, results_of
     from beardyn_core.study.smallest_spall import WIDTHS, LastStretch, SmallestSpalls, smallest_spalls_in
 
     record, data, sensor = heard_of(run, bearing, sensor)
+    known = known_load_in(record, load_kn, ())
     if twin is None:
         if not record.scene_text:
             raise InputError(
@@ -100,6 +110,12 @@ def smallest_spalls(
     force = circumstances(base).typical.force
     if isfinite(stretch.load) and abs(stretch.load) > _LEAST_LOAD:
         force = (force[0], force[1], stretch.load)
+        if known is not None:
+            recorded = KnownLoad(abs(stretch.load), _OF_RECORD * abs(stretch.load), "load of the record")
+            known = combine_loads([known, recorded])
+    if known is not None:
+        known = replace(known, doubts=doubts_of(known, base.bearing, Evidence()))
+        force = (force[0], force[1], known.value)
     made = make_scene(
         base,
         faults=[{"kind": "field_spall", "on": "cup", "width_mm": 1e3 * WIDTHS[-1]}],
@@ -127,4 +143,6 @@ def smallest_spalls(
         f"{1e-3 * abs(force[2]):.3g} kN, field spalls that begin in the middle of the "
         f"load zone, tier {made.tier}"
     )
+    if known is not None:
+        words = "; ".join([words, known.sentence, *known.doubts])
     return SmallestSpalls(tuple(spalls), words)

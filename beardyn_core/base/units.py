@@ -86,6 +86,7 @@ UNITS = {
     "kg": Unit("kilograms"),
     "um": Unit("micrometres", over=1e6),
     "us": Unit("microseconds", over=1e6),
+    "bar": Unit("bar", times=1e5),
     "m2": Unit("square metres"),
     "Hz": Unit("hertz"),
     "mm": Unit("millimetres", over=1e3),
@@ -97,7 +98,7 @@ UNITS = {
 # Endings that people write for a unit and that no key uses.
 _FOREIGN = (
     *("cm", "inch", "in", "ft", "nm", "K", "F", "rad", "rad_s", "mph", "m_s", "ms", "ns", "min", "h"),
-    *("N", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa", "bar"),
+    *("N", "lbf", "Nm", "kNm", "N_per_m", "kN_per_m", "g", "lb", "Pa", "kPa"),
 )
 _ENDINGS = tuple(sorted((*UNITS, *_FOREIGN), key=len, reverse=True))
 

@@ -6,7 +6,14 @@ import argparse
 
 from beardyn_core.api import following
 from beardyn_core.base.errors import InputError
-from beardyn_core.cli.estimate import add_hearing, add_service, service_of
+from beardyn_core.cli.estimate import (
+    add_hearing,
+    add_load,
+    add_service,
+    assumptions_of,
+    in_words_of_options,
+    service_of,
+)
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_box, add_json
@@ -28,6 +35,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     add_parameter(parser, following.follow, "twin", metavar="SCENE")
     add_parameter(parser, following.follow, "tier")
+    add_load(parser, following.follow, "several")
     add_service(parser, "what remains", "at the first recording, in place of --at-km; default 0")
     add_json(parser)
     parser.set_defaults(run=run)
@@ -55,18 +63,25 @@ def run(args: argparse.Namespace) -> int:
         if after < before:
             raise InputError(f"--at-km: {after:g} comes after {before:g}; give mileages in the order of time")
     service, law = service_of(args, at_km[0] if at_km else args.mileage_km or 0.0)
-    found = following.follow(
-        [read_run(each, args.box) for each in args.recordings],
-        args.estimator,
-        bearing=args.bearing,
-        sensor=args.sensor,
-        service=service,
-        mileages=[1e3 * (each - at_km[0]) for each in at_km] or None,
-        law=law,
-        lubricant=args.lubricant,
-        twin=args.twin,
-        tier=args.tier,
-    )
+    warm, assumptions = assumptions_of(args)
+    with in_words_of_options():
+        found = following.follow(
+            [read_run(each, args.box) for each in args.recordings],
+            args.estimator,
+            bearing=args.bearing,
+            sensor=args.sensor,
+            service=service,
+            mileages=[1e3 * (each - at_km[0]) for each in at_km] or None,
+            law=law,
+            lubricant=args.lubricant,
+            twin=args.twin,
+            tier=args.tier,
+            load_kn=args.load_kn,
+            load_sensor=args.load_sensor or (),
+            axle_load_t=args.axle_load_t,
+            temperature_C=warm,
+            assumptions=assumptions,
+        )
     if args.json:
         content = {
             "recordings": args.recordings,

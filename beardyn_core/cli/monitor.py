@@ -80,6 +80,13 @@ def _add_smallest_spall(parser: argparse.ArgumentParser) -> None:
         default="",
         help="scene of the axlebox, or of one like it; default that of the recording; of --smallest-spall",
     )
+    group.add_argument(
+        "--load-kn",
+        metavar="VALUE[:UNCERTAINTY]",
+        default="",
+        help="known vertical load on this journal, kN, such as 80:3 or 80:5%%, half of the 90 %% "
+        "interval; default that of the recording, or of the twin; of --smallest-spall",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -90,8 +97,10 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.study.inspection import hidden_parts
     from beardyn_core.study.monitored_recording import conclude
 
-    if (args.trend or args.which_bearing) and (args.smallest_spall or args.twin):
-        raise InputError("--smallest-spall, --twin: of a verdict; not with --trend or --which-bearing")
+    if (args.trend or args.which_bearing) and (args.smallest_spall or args.twin or args.load_kn):
+        raise InputError(
+            "--smallest-spall, --twin, --load-kn: of a verdict; not with --trend or --which-bearing"
+        )
     if args.trend:
         return run_trend(args)
     recorded = is_recorded(args)
@@ -102,6 +111,9 @@ def run(args: argparse.Namespace) -> int:
         problems.append("--memory is that of --trend; give both")
     if args.twin and not args.smallest_spall:
         problems.append("--twin is that of --smallest-spall; give both")
+    if args.load_kn and not args.smallest_spall:
+        problems.append("--load-kn is that of --smallest-spall; give both")
+    collect_problems(problems, lambda: _known_load(args.load_kn))
     if args.smallest_spall and not recorded:
         problems.append(
             f"--smallest-spall: {args.files[0]} is no recording; `beardyn import` makes one of measured files"
@@ -168,9 +180,18 @@ def _smallest_spalls(
             sensor=mounted.sensor,
             algorithm=algorithm,
             settings=inspection.settings,
+            load_kn=args.load_kn or None,
         )
     except InputError as error:
         return f"not searched, {'; '.join(error.problems)}"
+
+
+def _known_load(text: str) -> None:
+    """Read the load that is known, so that a mistake in it is told before anything is analysed."""
+    from beardyn_core.follow.known_load import read_load
+
+    if text:
+        read_load(text)
 
 
 def _known_twin(name: str) -> None:

@@ -19,6 +19,12 @@ inference           what an estimator makes of a run
 shipped             estimators that are shipped, found by the bearing
 growth              how a spall grows with mileage, with its scatter
 service             what a forecast must be told: mileage, wheel, widest spall
+known_load          a vertical load that somebody knows, stated or of several sources that must agree
+load_sensors        air spring, primary spring and weighing site as loads on a journal
+load_checks         what bearing, lateral load, speed and vehicle say against a load that is stated
+conditioning        a known load among the estimates of a run
+life_surface        rating lives over load, lateral load, viscosity ratio and contamination, interpolated
+rated_life          rating life and share used under a known load, with intervals
 forecast            mileage until a spall is too wide, share of the rating life that is used
 labelled            runs of a set of labelled runs as an estimator sees them
 cubature_filter     means and covariances, carried on and corrected

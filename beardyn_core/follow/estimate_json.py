@@ -10,12 +10,37 @@ from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
+from beardyn_core.follow.known_load import KnownLoad
+from beardyn_core.follow.rated_life import RatedLife
 from beardyn_core.follow.residual import Residual
 
 
 def forecast_object(remains: Forecast) -> dict[str, Any]:
     """Give what JSON has of a forecast."""
-    return keyed_fields(remains, without=("condition",))
+    return {
+        **keyed_fields(remains, without=("condition", "rated")),
+        "rating": None if remains.rated is None else rating_object(remains.rated),
+    }
+
+
+def load_object(load: KnownLoad) -> dict[str, Any]:
+    """Give what JSON has of a load that is known."""
+    return {
+        "value_N": load.value,
+        "interval_90_N": load.interval,
+        "source": load.source,
+        "assumed": load.assumed,
+        "doubts": load.doubts,
+    }
+
+
+def rating_object(rated: RatedLife) -> dict[str, Any]:
+    """Give what JSON has of the rating life under a known load; triples are 5, 50 and 95 of 100."""
+    without = ("load", "assumptions")
+    return {
+        **keyed_fields(rated, without=without),
+        "assumed": keyed_fields(rated.assumptions, temperature="temperature_K"),
+    }
 
 
 def estimates_object(found: Estimates) -> dict[str, Any]:
@@ -36,9 +61,11 @@ def estimates_object(found: Estimates) -> dict[str, Any]:
                 **{f"interval_{name}": _interval_object(each, k) for k, name in enumerate(names)},
                 "at_least": each.at_least,
                 "reason": each.reason,
+                "source": each.source,
             }
             for each in found.quantities
         },
+        "known_load": None if found.known_load is None else load_object(found.known_load),
         "strangeness": found.strangeness,
         "stretches": found.stretches,
         "shaft_frequency_Hz": found.shaft_frequency,

@@ -25,6 +25,7 @@ from beardyn_core.follow.descriptors import names_of
 from beardyn_core.follow.familiarity import Familiarity
 from beardyn_core.follow.fault_location import PartEstimate, PartRule
 from beardyn_core.follow.forest import EventForest, Forest
+from beardyn_core.follow.known_load import KnownLoad
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
@@ -75,6 +76,7 @@ class Estimate:
     at_least: A[
         float, "lower end of the last interval, where the upper end is beyond what was learnt from"
     ] = nan
+    source: A[str, "where it is from, where not from the vibration alone; empty"] = ""
 
     @property
     def sentence(self) -> str:
@@ -82,10 +84,11 @@ class Estimate:
         if self.reason:
             return f"{self.quantity.words}: {self.reason}"
         show, (low, high) = self.quantity.text, self.intervals[-1]
-        return (
+        words = (
             f"{self.quantity.words}: {show(self.value)}, {100 * LEVELS[-1]:.0f} % interval {show(low)} to "
             f"{show(high)}"
         )
+        return f"{words}; {self.source}" if self.source else words
 
 
 @dataclass(frozen=True)
@@ -97,6 +100,7 @@ class Estimates:
     strangeness: A[float, "distance from the runs learnt from, 1 where one in twenty lies farther away, [-]"]
     stretches: A[int, "of the signal that were heard"]
     shaft_frequency: A[float, "middle of the stretches, [Hz]"]
+    known_load: A[KnownLoad | None, "vertical, from outside of the vibration"] = None
 
     @property
     def sentences(self) -> list[str]:
@@ -105,6 +109,8 @@ class Estimates:
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
             lines.append(f"{UNLIKE.format(self.strangeness)}; no numbers are reported")
+        if self.known_load is not None:
+            lines += [f"doubt: {each}" for each in self.known_load.doubts]
         return lines
 
     def __getitem__(self, name: str) -> Estimate:

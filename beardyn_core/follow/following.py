@@ -12,6 +12,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.condition import ConditionBelief
+from beardyn_core.follow.conditioning import VERTICAL, condition_estimates, estimate_of
 from beardyn_core.follow.cubature_filter import Belief, correct_belief, predict_belief
 from beardyn_core.follow.estimator import (
     AS_WIDE,
@@ -24,7 +25,10 @@ from beardyn_core.follow.estimator import (
 )
 from beardyn_core.follow.forecast import SOON, Forecast, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
+from beardyn_core.follow.known_load import KnownLoad
+from beardyn_core.follow.load_checks import AxleLoads
 from beardyn_core.follow.quantities import BY_NAME, Quantity
+from beardyn_core.follow.rated_life import LifeAssumptions, LifeCounter, RatedLife
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
@@ -98,6 +102,11 @@ class Follower:
     lubricant: A[Lubricant | None, "of the rating life"] = None
     service: A[Service, "mileage at the first stretch, wheel"] = field(default_factory=Service)
     law: A[GrowthLaw, "of spalls"] = field(default_factory=GrowthLaw)
+    axle_loads: A[AxleLoads | None, "that the vehicle can have, against which a known load is checked"] = None
+    assumptions: A[LifeAssumptions, "of the rating life under a known load"] = field(
+        default_factory=LifeAssumptions
+    )
+    temperature: A[tuple[float, float] | None, "of the lubricant, ends of 90 %, [K]; none: assumed"] = None
     stretches: A[int, "so far"] = 0
 
     def __post_init__(self) -> None:
@@ -123,6 +132,18 @@ class Follower:
         self._surprise, self._time, self._distance = 1.0, 0.0, 0.0
         self._is_to_come_out = False
         self._strange: list[float] = []  # strangeness of the latest stretches
+        self._known: KnownLoad | None = None
+        self._is_new_load = self._is_new_run = True
+        self._counter = (
+            None
+            if self.bearing is None or self.lubricant is None
+            else LifeCounter(self.bearing, self.lubricant, self.service.wheel_diameter, self.assumptions)
+        )
+
+    def know_load(self, load: KnownLoad | None) -> None:
+        """Take the vertical load as known from now on, until another one is; none: not known any more."""
+        self._is_new_load = self._is_new_load or load != self._known
+        self._known = load
 
     def begin(self) -> None:
         """Begin another recording: load, end play, temperature and what a run adds may all be others by now.
@@ -139,6 +160,7 @@ class Follower:
         covariance[opened, opened] = np.diag(self._unknown.covariance)[opened]
         self.belief = Belief(mean, covariance)
         self._aside[:] = 0.0
+        self._is_new_load = self._is_new_run = True
 
     def take(self, descriptors: Float, time: float, distance: float = 0.0) -> Followed:
         """Take a stretch.
@@ -160,29 +182,66 @@ class Follower:
         if self.condition is not None and self.estimator.part is not None:
             chances = self.estimator.part.probabilities(self.estimator.standardise(descriptors[None]))[0]
             self.condition.take(dict(zip(self.condition.conditions, chances.tolist(), strict=True)))
+        self._condition_on_load()
         changed = self._correct(heard)
         self.stretches += 1
         known = self._estimates(heard)
         service = replace(self.service, mileage=self.service.mileage + distance)
         law = self._law()
+        rated = self._rate(known, service.mileage)
         remains = (
             None
             if self.bearing is None or self.lubricant is None
-            else forecast(known, self.bearing, self.lubricant, service, law)
+            else forecast(known, self.bearing, self.lubricant, service, law, rated)
         )
         doubts = self._doubts()
+        against = () if known.known_load is None else known.known_load.doubts
         count = len(self.names)
         return Followed(
             time, distance, known, heard, self.names, self.belief.covariance[:count, :count].copy(),
             (law.rate, law.rate_spread) if self._grows else (np.nan, np.nan),
-            self._surprise, changed, remains, self._health(known, remains, doubts), doubts,
+            self._surprise, changed, remains, self._health(known, remains, doubts),
+            (*doubts, *against),
         )  # fmt: skip
+
+    def _condition_on_load(self) -> None:
+        """Condition the belief on a load that is new: it is observed once, for it is the same every time.
+
+        What was known before goes with it; where no load is known any more, it is as unknown as at first.
+        """
+        if not self._is_new_load or VERTICAL not in self.names:
+            return
+        self._is_new_load = False
+        k = self.names.index(VERTICAL)
+        mean, covariance = self.belief.mean.copy(), self.belief.covariance.copy()
+        mean[k] = self._middle[k]
+        covariance[k, :] = covariance[:, k] = 0.0
+        covariance[k, k] = self._spread[k] ** 2
+        self.belief = Belief(mean, covariance)
+        if self._known is None:
+            return
+        row = np.zeros((1, len(mean)))
+        row[0, k] = 1.0
+        observed = BY_NAME[VERTICAL].scaled(np.array([self._known.value]))
+        variance = np.array([self._known.deviation**2])
+        self.belief = correct_belief(self.belief, row, observed, variance).belief
+
+    def _rate(self, known: Estimates, mileage: float) -> RatedLife | None:
+        """Rate the life under a load that is known, and count what is used."""
+        if self._counter is None or known.known_load is None:
+            return None
+        if self._is_new_run:
+            self._counter.begin(mileage)
+            self._is_new_run = False
+        return self._counter.rate(known.known_load, known, mileage, self.temperature)
 
     def _carry(self, seconds: float, metres: float) -> None:
         """Let the numbers wander for a time, and the spall grow over a distance."""
         count = len(self.names)
         noise = np.zeros(len(self.belief.mean))
         noise[:count] = self._spread**2 * [seconds / _WANDERS.get(name, _YEAR) for name in self.names]
+        if self._known is not None and VERTICAL in self.names:
+            noise[self.names.index(VERTICAL)] = 0.0  # the load that is known is that of the whole recording
         if not (self._grows and metres and self._spalled):
             self.belief = Belief(self.belief.mean, self.belief.covariance + np.diag(noise))
             return
@@ -258,7 +317,7 @@ class Follower:
     def _estimates(self, heard: Estimates) -> Estimates:
         """Give the belief in the words of an estimate."""
         part = None if self.condition is None else self.condition.estimate
-        return replace(
+        found = replace(
             heard,
             part=part,
             stretches=self.stretches,
@@ -268,6 +327,27 @@ class Follower:
                 for each in heard.quantities
             ),
         )
+        return found if self._known is None else self._with_load(found, heard, self._known)
+
+    def _with_load(self, found: Estimates, heard: Estimates, load: KnownLoad) -> Estimates:
+        """Check a known load against this stretch, and give it, or what the belief makes of it."""
+        wheel = self.service.wheel_diameter
+        believed = found[VERTICAL] if VERTICAL in self.names else None
+        others = tuple(each for each in found.quantities if each.quantity.name != VERTICAL)
+        # what the vibration says alone is in `heard`: the belief has the known load in it already
+        alone = tuple(each for each in heard.quantities if each.quantity.name == VERTICAL)
+        checked = condition_estimates(
+            replace(found, quantities=(*alone, *others)), load, self.bearing, wheel, self.axle_loads
+        )
+        if believed is None or not isfinite(believed.value):
+            return checked
+        assert checked.known_load is not None
+        if checked.known_load.doubts:
+            return checked  # the wider of both
+        low, high = believed.intervals[-1]
+        half = 0.5 * log(high / low) * believed.value
+        kept = replace(checked.known_load, value=believed.value, half_width=half)
+        return replace(checked, quantities=(estimate_of(kept), *others), known_load=kept)
 
     def _estimate(self, quantity: Quantity) -> Estimate:
         if quantity.of_fault and not self._spalled:

@@ -13,6 +13,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, drawn_between
+from beardyn_core.follow.rated_life import RatedLife
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
@@ -41,6 +42,7 @@ class Forecast:
         tuple[float, float, float],
         "share of L10r that is used, least, likely, most; NaN unknown",
     ]
+    rated: A[RatedLife | None, "rating life under a load that is known, with intervals"] = None
 
     @property
     def sentences(self) -> list[str]:
@@ -63,6 +65,8 @@ class Forecast:
             lines.append(
                 f"spall of the {self.condition}: how wide it can be is not known, so no mileage is given"
             )
+        if self.rated is not None:
+            return [*lines, *self.rated.sentences]
         if isfinite(self.life):
             lines.append(
                 f"rating life at {1e-3 * self.equivalent_load:.1f} kN: {self.life / 1e9:.2f} million km (ISO "
@@ -77,7 +81,12 @@ class Forecast:
 
 
 def forecast(
-    found: Estimates, bearing: Bearing, lubricant: Lubricant, service: Service, law: GrowthLaw | None = None
+    found: Estimates,
+    bearing: Bearing,
+    lubricant: Lubricant,
+    service: Service,
+    law: GrowthLaw | None = None,
+    rated: RatedLife | None = None,
 ) -> Forecast:
     """Forecast what remains from estimates of load, end play and spall.
 
@@ -90,6 +99,8 @@ def forecast(
         Of the rating life.
     service : Service
     law : GrowthLaw, optional
+    rated : RatedLife, optional
+        Under a load that is known; it takes the place of lives at the estimated load.
 
     Notes
     -----
@@ -101,6 +112,17 @@ def forecast(
     """
     condition = HEALTHY if found.part is None else found.part.condition
     widest = service.widest or min(WIDEST_FORECAST, pi * bearing.pitch_diameter / bearing.roller_count)
+    if rated is not None:
+        return Forecast(
+            condition,
+            widest,
+            _remaining(found, widest, law or GrowthLaw()),
+            rated.equivalent_load[1],
+            rated.basic[1],
+            rated.reference_basic[1],
+            rated.used_basic,
+            rated,
+        )
     classes = [_class_of(found, k) for k in range(3)]
     life = [None if each is None else _life_of(each, found, bearing, lubricant) for each in classes]
     around = pi * service.wheel_diameter

@@ -18,6 +18,8 @@ from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import doubt_of, stretches_of
+from beardyn_core.follow.load_checks import AxleLoads
+from beardyn_core.follow.rated_life import LifeAssumptions
 from beardyn_core.follow.service import Service
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.record.run import Run
@@ -30,6 +32,9 @@ def follower_of(
     service: Service | None = None,
     law: GrowthLaw | None = None,
     lubricant: Lubricant | str = "L055",
+    axle_loads: AxleLoads | None = None,
+    assumptions: LifeAssumptions | None = None,
+    temperature: tuple[float, float] | None = None,
 ) -> Follower:
     """Make the filter of one bearing; see `beardyn_core.follow`.
 
@@ -44,15 +49,20 @@ def follower_of(
         estimator = read_estimator(Path(estimator))
     if doubt := doubt_of(estimator, plate):
         raise InputError(f"{doubt}; train one with `beardyn train`")
-    whole = plate if isinstance(plate, Bearing) else _whole(plate.name)
+    whole = whole_bearing(plate)
     grease = load_lubricant(lubricant) if isinstance(lubricant, str) else lubricant
-    return Follower(estimator, whole, grease, service or Service(), law or GrowthLaw())
+    return Follower(
+        estimator, whole, grease, service or Service(), law or GrowthLaw(), axle_loads,
+        assumptions or LifeAssumptions(), temperature,
+    )  # fmt: skip
 
 
-def _whole(name: str) -> Bearing | None:
+def whole_bearing(plate: Bearing | NamePlate) -> Bearing | None:
     """Find the bearing of bearing data; none where only these are known."""
+    if isinstance(plate, Bearing):
+        return plate
     try:
-        return load_bearing(name)
+        return load_bearing(plate.name)
     except InputError:
         return None
 

@@ -28,6 +28,7 @@ other_mcap    MCAP of other tools
 clock         sampling rate and gaps from time stamps
 choice        which channels are axes, speed and time; unit and rate: told, or refused
 choosing      a file while that is found out: a channel by its name, and what is to be said
+load_channel  a channel with the vertical load on the journal
 speed_choice  where the speed of the shaft comes from
 sensor_choice channels that are axes of accelerometers, and their unit
 alignment     tables of a file and files of a measurement on one time

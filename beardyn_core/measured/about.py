@@ -14,6 +14,7 @@ from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 from beardyn_core.bearing.factors import SYMBOLS
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.measured.claimed_start import Start
+from beardyn_core.measured.load_channel import describe_load
 from beardyn_core.measured.stated_speed import uncertainty_of
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.chain import MonitorSettings
@@ -64,6 +65,9 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
             "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
             "uncertainty": uncertainty_of(survey),
         },
+        "load": describe_load(
+            [(each.chosen.load, each.chosen.source) for each in survey.files], survey.reading.load_error
+        ),
         "bearings": {each.label: _write_bearing(each) for each in bearings},
         "understood": list(survey.told),
         "warnings": list(survey.warnings),

@@ -13,6 +13,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.measured.choosing import Choosing, find_channel
 from beardyn_core.measured.claimed_rate import is_plausible
 from beardyn_core.measured.formats import Format, open_measured
+from beardyn_core.measured.load_channel import LoadChannel, choose_load
 from beardyn_core.measured.options import Reading
 from beardyn_core.measured.sensor_choice import Sensor, choose_sensors
 from beardyn_core.measured.source import Channel, Source
@@ -37,6 +38,7 @@ class Chosen:
     problems: A[tuple[str, ...], "what must be asked for; sensors may lack then"]
     told: A[tuple[str, ...], "how the file was understood, in sentences"]
     warnings: A[tuple[str, ...], "where what was said and what the file says differ"]
+    load: A[LoadChannel | None, "vertical load on the journal"] = None
 
     @property
     def tables(self) -> dict[str, list[Channel]]:
@@ -66,7 +68,10 @@ def choose(path: Path, reading: Reading) -> Chosen:
     times = _times(work)
     stamps = {channel.name for channel in times.values()}
     speed = choose_speed(work)
-    taken = stamps | ({speed.channel.name} if speed.channel is not None else set())
+    load = choose_load(work)
+    taken = stamps | {
+        each.channel.name for each in (speed, load) if each is not None and each.channel is not None
+    }
     candidates = [each for each in source.channels if each.name not in taken and not each.is_time]
     ramps, empty = _ramps(work, candidates, times)
     sensors = choose_sensors(work, [each for each in candidates if each.name not in ramps], empty)
@@ -77,7 +82,9 @@ def choose(path: Path, reading: Reading) -> Chosen:
     work.warnings += [f"{path}: {warning}" for warning in source.warnings if reading.rate is None]
     told = (f"{kind.name}: {'; '.join(source.notes)}" if source.notes else kind.name, *work.told)
     problems = tuple(dict.fromkeys(work.problems))
-    return Chosen(path, kind, source, sensors, speed, times, seconds, problems, told, tuple(work.warnings))
+    return Chosen(
+        path, kind, source, sensors, speed, times, seconds, problems, told, tuple(work.warnings), load
+    )
 
 
 def _ramps(

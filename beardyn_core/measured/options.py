@@ -69,6 +69,17 @@ class Reading:
         "a pulse begins where its channel rises through this; default the middle between the "
         "levels of its pulses",
     ] = None
+    load_channel: A[
+        str,
+        At(),
+        "channel with the vertical load on this journal, for beardyn estimate and follow; * and ? as above",
+    ] = ""
+    load_unit: A[str, At(one_of=("", "N", "kN", "t", "kg")), "of that channel; default that of the file"] = ""
+    load_error: A[
+        float | None,
+        At("percent", gt=0.0, le=50.0),
+        "half of the 90 % interval of its mean; default 10 % are assumed",
+    ] = None
     time_channel: A[
         str, At(), "channel with the time stamps; default one called time; none: there is none"
     ] = ""
@@ -104,6 +115,8 @@ class Reading:
                 "1400:1800, both above 0 "
                 "and at most a factor of two apart"
             )
+        if (self.load_unit or self.load_error is not None) and not self.load_channel:
+            yield "load_unit and load_error_percent are of load_channel, which is not given"
         if self.scale == 0.0:
             yield "scale is 0; it must be another number"
         if self.separator == "comma" and self.decimal == "comma":

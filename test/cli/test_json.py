@@ -56,6 +56,7 @@ MEASURED = {
     ],
     "sensors": {"top": {"rate_Hz": 12000.0, "channels": {"z": "a"}, "m_per_s2_per_number": {"z": 9.80665}}},
     "speed": {"from": "constant", "channel": None, "constant_rad_per_s": 188.0},
+    "load": {"channel": "Fz", "mean_N": 7e4, "rms_about_mean_N": 3e3, "uncertainty_N": 2e3},
     "bearings": {
         "drive_end": {
             "name": "6205", "description": "", "roller_count": 9, "roller_diameter_m": 0.00794,

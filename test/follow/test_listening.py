@@ -186,9 +186,17 @@ def test_command_tells_what_the_function_finds(
     forecast = ["--mileage-km", "200000", "--bearing", "HS130x230"]
     assert command.main(["estimate", str(path), "--estimator", str(file), *forecast]) == 0
     assert "rating life" in capsys.readouterr().out
-    assert command.main(["estimate", str(path), "--estimator", str(file), "--json", *forecast]) == 0
+    words = ["estimate", str(path), "--estimator", str(file), "--json", *forecast]
+    assert command.main(words) == 0
     told = json.loads(capsys.readouterr().out)
-    check("estimate", told)
+    assert command.main([*words, "--load-kn", "70:3", "--temperature-c", "50:60"]) == 0
+    known = json.loads(capsys.readouterr().out)
+    check("estimate", told, known)
+    assert known["known_load"]["value_N"] == known["estimates"]["vertical_load_N"]["value"]
+    assert known["forecast"]["rating"]["temperature_is_stated"]
+    assert known["forecast"]["rating"]["temperature_K"] == [323.15, 333.15]
+    assert told["known_load"] is None
+    assert told["forecast"]["rating"] is None
     load = told["estimates"]["vertical_load_N"]
     assert (load["value"] or np.nan, load["reason"]) == pytest.approx(
         (found["vertical_load"].value, found["vertical_load"].reason), nan_ok=True

@@ -61,7 +61,8 @@ def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     taught(drawn(60, 2), runs=80).save(tmp_path / "one.npz")
     every: list[dict[str, Any]] = []
     words = ["follow", *runs, "--estimator", str(tmp_path / "one.npz"), "--json"]
-    cases = ((["--at-km", "400000", "412000", "--twin", "smooth_run"], 1.2e7), (["--widest-mm", "12"], 0.0))
+    at = ["--at-km", "400000", "412000", "--load-kn", "50:3", "60:3", "--twin", "smooth_run"]
+    cases = ((at, 1.2e7), (["--widest-mm", "12"], 0.0))
     for options, begin in cases:
         assert command.main([*words, *options]) == 0
         told = json.loads(capsys.readouterr().out)
@@ -71,4 +72,10 @@ def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     assert told["steps"][-1]["forecast"]["widest_m"] == pytest.approx(12e-3)
     check("follow", *every)
     assert every[0]["residual"]["explained"] == 1.0
+    first, last = (every[0]["steps"][k]["forecast"]["rating"] for k in (0, -1))
+    assert len(first["spans_m"]) == 1
+    middle = pytest.approx(4.06e8, rel=1e-3)  # between both recordings
+    assert last["spans_m"] == [[0.0, middle], [middle, pytest.approx(4.12e8, rel=1e-3)]]
+    assert last["used_basic"][1] > first["used_basic"][1]
+    assert every[1]["steps"][-1]["known_load"] is None
     assert every[1]["residual"] is None

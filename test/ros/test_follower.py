@@ -103,6 +103,47 @@ def test_a_twin_runs_beside_and_what_is_heard_is_compared_with_it(graph: Graph) 
     assert "Traceback" not in graph.processes.log("follower")
 
 
+def test_a_known_load_gives_a_rating_life_from_a_topic_or_a_parameter(graph: Graph) -> None:
+    graph.listen("follower/estimate")
+    graph.fake_twin(speed_factor=2.0)
+    graph.node_process("follower", bearing="HS130x230", mileage=1000.0, load="topic:5%")
+    graph.until(
+        lambda: any(each.value("connected") == "true" for each in graph.statuses("follower")),
+        "the connection of the follower",
+    )
+    graph.fake_load(duration=3.5)
+    assert graph.exit_code("follower") == 0
+    told = [decode_told(cdr) for cdr in graph.messages["follower/estimate"]]
+    assert len(told) == 3
+    for step in told:
+        load = step["known_load"]
+        assert load["source"] == "topic"
+        low, high = load["interval_90_N"]
+        assert np.sqrt(high / low) == pytest.approx(1.05, abs=0.01)
+        assert step["estimates"]["vertical_load_N"]["value"] == pytest.approx(load["value_N"])
+    rating = told[-1]["forecast"]["rating"]
+    assert rating["spans_m"] == [[0.0, pytest.approx(1e6, rel=1e-3)]]
+    low, middle, high = rating["used"]
+    assert 0.0 < low < middle < high < 1.0
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ({"load": "70000kN"}, "parameter 'load' is '70000kN'"),
+        ({"load": "topic:80%"}, "parameter 'load' is 'topic:80%'"),
+        ({"load_sensor": "spring x=1"}, "parameter 'load_sensor'"),
+        ({"axle_load": "17"}, "parameter 'axle_load'"),
+    ],
+)
+def test_a_load_that_makes_no_sense_is_refused_at_once(
+    words: dict[str, str], sentence: str, graph: Graph
+) -> None:
+    graph.node_process("follower", bearing="HS130x230", **words)
+    assert graph.exit_code("follower") == 2
+    assert sentence in graph.processes.log("follower")
+
+
 def test_mistakes_are_refused_with_the_parameter(graph: Graph) -> None:
     graph.node_process("follower", bearing="HS999")
     assert graph.exit_code("follower") == 2
