@@ -19,6 +19,7 @@ KINDS = (
     "sensor",
     "background",
     "bearing_data",
+    "fleet_manifest",
 )
 _FORMER = {"plate": "bearing_data"}  # a name of before
 
@@ -46,6 +47,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import json_schema
+    from beardyn_core.fleet.manifest_line import manifest_schema
 
-    print(json.dumps(json_schema(args.kind), indent=2))
+    found = manifest_schema() if args.kind == "fleet_manifest" else json_schema(args.kind)
+    print(json.dumps(found, indent=2))
     return 0
