@@ -101,6 +101,7 @@ def analyse(recording: FleetRecording, estimator: str = SHIPPED) -> Analysis:
         The file cannot be read, or does not say what a monitor needs.
     """
     from beardyn_core.measured.stated_speed import recorded_uncertainty
+    from beardyn_core.measured.survey import DEAD
     from beardyn_core.monitor.chain import MonitorSettings
     from beardyn_core.monitor.streaming import measured_axes
     from beardyn_core.study.inspection import inspect_run
@@ -108,7 +109,12 @@ def analyse(recording: FleetRecording, estimator: str = SHIPPED) -> Analysis:
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        run, given = _read(recording)
+        try:
+            run, given = _read(recording)
+        except InputError as error:
+            if not all(each.endswith(DEAD) for each in error.problems):
+                raise
+            return Analysis("not_diagnosable", DEAD, recording.bearing)  # what there is to know of the sensor
         settings = MonitorSettings(
             speed_uncertainty=recorded_uncertainty(run.measured),
             interval=max(MonitorSettings().interval, run.duration / _ANALYSES),

@@ -171,7 +171,7 @@ def _csv_rows(path: Path) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _yaml_rows(path: Path) -> list[tuple[str, dict[str, Any]]]:
-    from beardyn_core.config import read_file
+    from beardyn_core.config.yaml_text import read_file
 
     content = read_file(path)
     defaults, several = content.get("defaults") or {}, content.get("recordings")

@@ -6,7 +6,8 @@ of the ride is the axlebox; what both ends of an axle have is the wheelset.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated as A
 
@@ -46,9 +47,9 @@ def compare_sisters(recordings: Sequence[Stored]) -> dict[int, Comparison]:
     """
     found: dict[int, Comparison] = {}
     for ride in _rides(recordings):
+        ride = _alike(ride)
         if len(ride) <= LEAST_SISTERS:
             continue
-        shapes = {each.analysis.levels.shape for each in ride.values()}
         relative: dict[Axlebox, Float] = {}
         warmer: dict[Axlebox, float] = {}
         for box, each in ride.items():
@@ -56,10 +57,7 @@ def compare_sisters(recordings: Sequence[Stored]) -> dict[int, Comparison]:
             others = (
                 others if len(others) >= LEAST_SISTERS else [o.analysis for b, o in ride.items() if b != box]
             )
-            if len(shapes) == 1:
-                relative[box] = each.analysis.levels - np.median([o.levels for o in others], axis=0)
-            else:
-                relative[box] = np.full(each.analysis.levels.shape, np.nan)
+            relative[box] = each.analysis.levels - np.median([o.levels for o in others], axis=0)
             known = [o.temperature for o in others if np.isfinite(o.temperature)]
             enough = len(known) >= LEAST_SISTERS
             warmer[box] = each.analysis.temperature - float(np.median(known)) if enough else np.nan
@@ -78,6 +76,19 @@ def compare_sisters(recordings: Sequence[Stored]) -> dict[int, Comparison]:
 def partner_of(box: Axlebox) -> Axlebox:
     """Give the axlebox at the other end of the axle."""
     return box._replace(side="right" if box.side == "left" else "left")
+
+
+def _alike(ride: Mapping[Axlebox, Stored]) -> dict[Axlebox, Stored]:
+    """Keep the recordings of a ride with the axes that most have; a dead sensor has none."""
+    kinds = Counter(each.analysis.axes for each in ride.values() if each.analysis.levels.size)
+    most = kinds.most_common(1)
+    if not most:
+        return {}
+    return {
+        box: each
+        for box, each in ride.items()
+        if each.analysis.levels.size and each.analysis.axes == most[0][0]
+    }
 
 
 def _rides(recordings: Sequence[Stored]) -> list[dict[Axlebox, Stored]]:
