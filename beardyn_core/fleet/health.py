@@ -89,10 +89,11 @@ class _Watched:
     level: int = 0  # of the alarm, as a place in SCALE
     below: int = 0  # recordings in a row whose cause is less
     blind: int = 0  # recordings in a row that cannot tell
+    blind_since: float = nan
+    blind_mileage: float = nan
     since: float = nan
     since_mileage: float = nan
     raised: float = nan
-    told: int = 0  # recordings that could tell
 
 
 def replay(
@@ -157,8 +158,10 @@ def _after(
     hot = analysis.verdict == "hot_box" or analysis.temperature >= MonitorSettings().hot
     if not blind:
         watched.recent.append(recording)
-        watched.told += 1
+    if not silent:  # levels of a recording that is too short for a verdict count
         _compare(watched, recording, comparison, has_sisters, usual)
+    if blind and not watched.blind:
+        watched.blind_since, watched.blind_mileage = recording.time, recording.mileage
     watched.blind = watched.blind + 1 if blind else 0
     part, support = _named(watched)
     other = _other_evidence(watched, notes)
@@ -169,7 +172,11 @@ def _after(
             "" if not isfinite(analysis.temperature) else f", {analysis.temperature - ZERO_CELSIUS:.0f} °C"
         )
         why.insert(0, f"the axlebox is hot{warmth}")
-    if not blind or hot:
+    # what levels alone have raised, levels alone release
+    by_levels = (
+        watched.level == SCALE.index(WATCH) and not support and not silent and analysis.levels.size > 0
+    )
+    if not blind or hot or cause > watched.level or by_levels:
         _move(watched, cause, recording)
     state = SCALE[watched.level]
     if watched.level > cause and watched.level >= SCALE.index(WATCH):
@@ -186,7 +193,7 @@ def _after(
             if watched.blind > 1
             else "the last recording cannot tell"
         )
-        if state in (OK, WATCH):
+        if state == OK:
             state = CANNOT_TELL
             why.insert(0, f"{sentence}: {reason}")
         else:
@@ -199,9 +206,9 @@ def _after(
     is_ok = state == OK
     return Health(
         state, part if watched.level >= SCALE.index(WATCH) else "",
-        nan if is_ok else watched.since if isfinite(watched.since) else recording.time,
-        nan if is_ok else watched.since_mileage if isfinite(watched.since) else recording.mileage,
-        nan if is_ok else watched.raised if isfinite(watched.raised) else recording.time,
+        nan if is_ok else watched.since if isfinite(watched.since) else watched.blind_since,
+        nan if is_ok else watched.since_mileage if isfinite(watched.since) else watched.blind_mileage,
+        nan if is_ok else watched.raised if isfinite(watched.raised) else watched.blind_since,
         tuple(why), tuple(notes), rise, support,
     )  # fmt: skip
 

@@ -165,7 +165,8 @@ def judge(store_path: Path) -> dict[str, Any]:
         }
         before = [a for a, day in zip(alarm, days, strict=True) if day < spall.begins]
         false_alarms += any(before)
-        until = BEGIN.timestamp() + 86_400.0 * (firsts["plan"] + 60)
+        planned = firsts["plan"] if isfinite(firsts["plan"]) else ends
+        until = BEGIN.timestamp() + 86_400.0 * (planned + 60)
         at_plan = [each for each in history if each.time <= until]
         left = judge_mileage(at_plan, spall.part)
         now = (at_plan[-1].time - BEGIN.timestamp()) / 86_400.0
@@ -215,7 +216,14 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, required=True, help="for recordings and store")
     parser.add_argument("--every", type=int, default=7, help="days between two recordings")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--judge", action="store_true", help="judge a store that is there")
     args = parser.parse_args()
+    if args.judge:
+        write_whole(
+            KEPT,
+            json.dumps({**judge(args.folder / "year.sqlite"), "every_days": args.every}, indent=1) + "\n",
+        )
+        return
     from evidence.fleet.signals import names
 
     runs = {name: twin_run(name, args.folder / "runs") for name in names()}
@@ -230,10 +238,8 @@ def main() -> None:
         progress=lambda done, total: print(f"{done} of {total}", flush=True) if done % 64 == 0 else None,
     )  # fmt: skip
     print(told.refused[:5])
-    took = {"seconds": time.time() - begin, "refused": len(told.refused), "every_days": args.every}
-    result = {**judge(store), **took}
-    write_whole(KEPT, json.dumps(result, indent=1) + "\n")
-    print(json.dumps(result, indent=1))
+    print(f"{time.time() - begin:.0f} s")
+    write_whole(KEPT, json.dumps({**judge(store), "every_days": args.every}, indent=1) + "\n")
 
 
 if __name__ == "__main__":
