@@ -12,7 +12,8 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.units import ZERO_CELSIUS
-from beardyn_core.fleet.identity import Axlebox
+from beardyn_core.fleet.analysis import Analysis
+from beardyn_core.fleet.identity import Axlebox, write_date
 from beardyn_core.fleet.sisters import Comparison
 from beardyn_core.fleet.store import Stored
 from beardyn_core.monitor.chain import MonitorSettings
@@ -36,7 +37,8 @@ class HealthSettings:
     agreeing_with_other: A[int, "the same where trend, sisters or temperature agree"] = 2
     least_confidence: A[float, "of a verdict that counts, [-]"] = 0.5
     widest: A[float, "width that a spall may reach, at the upper end of its interval: `act`, [m]"] = 20e-3
-    least_width: A[float, "width that a spall has at least: `act`, [m]"] = 10e-3
+    least_width: A[float, "or its width, or the least of it: `act`, [m]"] = 10e-3
+    wide: A[int, "recordings of the bearing with such a spall, at any time"] = 2
     release: A[int, "recordings without cause, one after the other, after which an alarm ends"] = 10
     release_watch: A[int, "the same of `watch`"] = 5
     differs: A[float, "over the other axleboxes of the ride, in two bands, [dB]"] = 10.0
@@ -86,6 +88,8 @@ class _Watched:
     compared: deque[Float] = field(default_factory=deque)
     shared: deque[Float] = field(default_factory=deque)
     warmer: deque[float] = field(default_factory=deque)
+    wide: dict[str, list[Stored]] = field(default_factory=dict)  # by part
+    part: str = ""  # that was named last
     level: int = 0  # of the alarm, as a place in SCALE
     below: int = 0  # recordings in a row whose cause is less
     blind: int = 0  # recordings in a row that cannot tell
@@ -158,12 +162,15 @@ def _after(
     hot = analysis.verdict == "hot_box" or analysis.temperature >= MonitorSettings().hot
     if not blind:
         watched.recent.append(recording)
+        if analysis.verdict in PARTS and _counts(recording, settings) and _is_wide(analysis, settings):
+            watched.wide.setdefault(analysis.verdict, []).append(recording)
     if not silent:  # levels of a recording that is too short for a verdict count
         _compare(watched, recording, comparison, has_sisters, usual)
     if blind and not watched.blind:
         watched.blind_since, watched.blind_mileage = recording.time, recording.mileage
     watched.blind = watched.blind + 1 if blind else 0
     part, support = _named(watched)
+    watched.part = part or watched.part
     other = _other_evidence(watched, notes)
     cause = _cause(watched, part, support, other, why)
     if hot:
@@ -177,9 +184,11 @@ def _after(
         watched.level == SCALE.index(WATCH) and not support and not silent and analysis.levels.size > 0
     )
     if not blind or hot or cause > watched.level or by_levels:
-        _move(watched, cause, recording)
+        _move(watched, cause, recording, held=bool(other))
     state = SCALE[watched.level]
-    if watched.level > cause and watched.level >= SCALE.index(WATCH):
+    if watched.level > cause and watched.level >= SCALE.index(PLAN) and other:
+        notes.append("the part is no longer named, and levels are as high as before: the alarm stays")
+    elif watched.level > cause and watched.level >= SCALE.index(WATCH):
         left = (
             settings.release if watched.level >= SCALE.index(PLAN) else settings.release_watch
         ) - watched.below
@@ -205,7 +214,7 @@ def _after(
     rise = nan if watched.point is None else watched.point.rise
     is_ok = state == OK
     return Health(
-        state, part if watched.level >= SCALE.index(WATCH) else "",
+        state, watched.part if watched.level >= SCALE.index(WATCH) else "",
         nan if is_ok else watched.since if isfinite(watched.since) else watched.blind_since,
         nan if is_ok else watched.since_mileage if isfinite(watched.since) else watched.blind_mileage,
         nan if is_ok else watched.raised if isfinite(watched.raised) else watched.blind_since,
@@ -244,13 +253,17 @@ def _compare(
         watched.point = watched.trend.take(levels, recording.time)
 
 
+def _counts(recording: Stored, settings: HealthSettings) -> bool:
+    """Tell whether a verdict is sure enough to count; one of another monitor may state no confidence."""
+    return not recording.analysis.confidence < settings.least_confidence
+
+
 def _named(watched: _Watched) -> tuple[str, int]:
     """Find the part that most of the recent recordings name, and how many do."""
     counts = dict.fromkeys(PARTS, 0)
     for each in watched.recent:
         verdict = each.analysis.verdict
-        sure = not each.analysis.confidence < watched.settings.least_confidence
-        if verdict in PARTS and sure:
+        if verdict in PARTS and _counts(each, watched.settings):
             for part in {verdict, *each.analysis.also_fits} & set(PARTS):
                 counts[part] += 1
     # of equal counts the one that was named last
@@ -296,15 +309,11 @@ def _cause(watched: _Watched, part: str, support: int, other: list[str], why: li
         needed = settings.agreeing_with_other if other else settings.agreeing
         level = SCALE.index(PLAN if support >= needed else WATCH)
     if level == SCALE.index(PLAN) and named:
-        wide = [
-            each
-            for each in named
-            if each.stage == SEVERE or each.width_high >= settings.widest
-            or (not isfinite(each.width) and each.width_low >= settings.least_width)
-        ]  # fmt: skip
-        if len(wide) >= settings.agreeing_with_other:
+        wide = watched.wide.get(part, [])
+        if len(wide) >= settings.wide:
             level = SCALE.index(ACT)
-            why.insert(0, f"the spall is wide: {wide[-1].stage_reason}")
+            last = wide[-1]
+            why.insert(0, f"the spall is wide, on {write_date(last.time)} {last.analysis.stage_reason}")
         elif named[-1].stage_reason:
             why.append(f"size: {named[-1].stage_reason}")
     if other:
@@ -317,12 +326,22 @@ def _cause(watched: _Watched, part: str, support: int, other: list[str], why: li
     return level
 
 
-def _move(watched: _Watched, cause: int, recording: Stored) -> None:
-    """Raise the state at once, lower it after so many recordings without cause."""
+def _is_wide(analysis: Analysis, settings: HealthSettings) -> bool:
+    """Tell whether a spall is so wide that it must come out; a spall does not become smaller."""
+    known = analysis.width if isfinite(analysis.width) else analysis.width_low
+    reaches = analysis.width_high >= settings.widest or known >= settings.least_width
+    return analysis.stage == SEVERE or reaches
+
+
+def _move(watched: _Watched, cause: int, recording: Stored, *, held: bool) -> None:
+    """Raise the state at once, lower it after so many recordings without cause.
+
+    An alarm stays where levels are `held`: of a wide spall a monitor may name no part any more.
+    """
     settings, before = watched.settings, watched.level
     if cause >= watched.level:
         watched.level, watched.below = cause, 0
-    else:
+    elif not (held and watched.level >= SCALE.index(PLAN)):
         watched.below += 1
         needed = settings.release if watched.level >= SCALE.index(PLAN) else settings.release_watch
         if watched.below >= needed:
@@ -332,6 +351,7 @@ def _move(watched: _Watched, cause: int, recording: Stored) -> None:
     if watched.level and not before:
         watched.since, watched.since_mileage = recording.time, recording.mileage
     if not watched.level:
+        watched.part = ""
         watched.since = watched.since_mileage = nan
 
 

@@ -38,6 +38,14 @@ from beardyn_core.study.report_page.page_html import html_of
 
 TITLE = "Condition of a fleet"
 COLOURS = {ACT: "#7f0000", PLAN: "#c62828", WATCH: "#b26a00", CANNOT_TELL: "#616161", OK: "#2e7d32"}
+_KEEPER = (
+    "How far the vehicle may run until then is for the rules of its keeper: mileage left is a forecast from "
+    "what is assumed, no permission."
+)
+_BY_LEVELS = (
+    "Look at the other end of the axle and at the wheel: what both ends have is not the bearing.",
+    "Check the sensor and its mounting, and record again at a similar speed. Levels do not name a part.",
+)
 _SHOWN = (WATCH, PLAN, ACT)
 _ASSUMED = 12  # lines of what was assumed of a recording
 
@@ -93,7 +101,7 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
     table = Rows(
         "Axleboxes, the one that needs attention most first; a linked one has a page of its own below",
         ("rank", "axlebox", "health", "since", "why", "last recording", "what to do"),
-        (0.05, 0.15, 0.1, 0.13, 0.28, 0.09, 0.2),
+        (0.05, 0.14, 0.11, 0.12, 0.28, 0.11, 0.19),
         tuple(rows),
         tuple(links),
     )
@@ -230,5 +238,8 @@ def _actions(standing: Standing) -> tuple[str, ...]:
 
     health = standing.health
     first = f"{standing.advice[0].upper()}{standing.advice[1:]}."
-    kind = health.part or ("hot_box" if standing.last.analysis.verdict == "hot_box" else "unexplained")
-    return (first, *ADVICE[kind].actions)
+    if health.part:
+        return (first, *ADVICE[health.part].actions[:-1], _KEEPER)
+    if standing.last.analysis.verdict == "hot_box" or health.state == ACT:
+        return (first, *ADVICE["hot_box"].actions)
+    return (first, *_BY_LEVELS)

@@ -48,7 +48,7 @@ def draw_health(axes: Axes, points: Sequence[HealthPoint]) -> None:
                 label=label,
                 **edge,
             )
-    axes.set_yticks(range(len(SCALE)), [each.replace("_", " ") for each in SCALE])
+    axes.set_yticks(range(len(SCALE)), [each.replace("_", "\n") for each in SCALE])
     axes.set_ylim(-0.4, len(SCALE) - 0.2)
     axes.legend(loc="upper left", fontsize=SMALL, ncols=3, frameon=False, handletextpad=0.2)
     _label_dates(axes)

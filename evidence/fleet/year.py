@@ -165,11 +165,12 @@ def judge(store_path: Path) -> dict[str, Any]:
         }
         before = [a for a, day in zip(alarm, days, strict=True) if day < spall.begins]
         false_alarms += any(before)
-        planned = firsts["plan"] if isfinite(firsts["plan"]) else ends
-        until = BEGIN.timestamp() + 86_400.0 * (planned + 60)
-        at_plan = [each for each in history if each.time <= until]
-        left = judge_mileage(at_plan, spall.part)
-        now = (at_plan[-1].time - BEGIN.timestamp()) / 86_400.0
+        known = (judge_mileage(history[:count], spall.part) for count in range(1, len(history) + 1))
+        first = next(
+            ((each, one) for each, one in zip(known, history, strict=True) if each.is_known),
+            (judge_mileage(history, spall.part), history[-1]),
+        )
+        left, now = first[0], (first[1].time - BEGIN.timestamp()) / 86_400.0
         found.append(
             {
                 "box": box.name,
@@ -180,6 +181,7 @@ def judge(store_path: Path) -> dict[str, Any]:
                 "width_mm": {k: None if not isfinite(d) else width_mm(spall, d) for k, d in firsts.items()},
                 "lead_days": None if not isfinite(firsts["plan"]) else ends - firsts["plan"],
                 "left": left.sentence,
+                "left_on_day": now if left.is_known else None,
                 "left_km": [each / 1e3 for each in left.distance] if left.is_known else None,
                 "true_left_km": KM_A_DAY * (ends - now),
                 "rank": next(each.rank for each in status.standings if each.axlebox == box),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from beardyn_core.fleet.health import ACT, CANNOT_TELL, OK, PLAN, WATCH, Health, HealthSettings, replay
@@ -48,7 +50,24 @@ def test_verdicts_of_different_parts_do_not_add_up() -> None:
 
 def test_wide_spalls_call_for_action_by_the_upper_end_of_their_interval() -> None:
     assert states(history([wide("cup", 8e-3)] * 4))[-1] == PLAN
-    assert states(history([wide("cup", 19.5e-3)] * 4))[-1] == ACT
+    assert states(history([wide("cup", 9e-3, 11.5e-3)] * 4))[-1] == ACT
+
+
+def test_a_spall_that_was_wide_stays_wide_where_it_is_no_longer_measured() -> None:
+    assert states(history([wide("cup", 11e-3), "cup", wide("cup", 12e-3), *["cup"] * 5]))[-1] == ACT
+    assert states(history([wide("cup", 11e-3), *["cup"] * 7]))[-1] == PLAN
+
+
+def test_an_alarm_stays_while_levels_are_high_though_no_part_is_named() -> None:
+    rise = [0.0] * 14 + [14.0] * (RELEASE + 8)
+    _, recordings = train(rise)
+    mine = [each for each in recordings if each.axlebox == BOX]
+    made = [
+        replace(each, analysis=replace(each.analysis, verdict="cone" if 14 <= day < 18 else "healthy"))
+        for day, each in enumerate(mine)
+    ]
+    health, _ = replay(made, compare_sisters(recordings))
+    assert (health.state, health.part, health.support) == (PLAN, "cone", 0)
 
 
 def test_an_alarm_ends_only_after_many_recordings_without_cause() -> None:

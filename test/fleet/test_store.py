@@ -124,7 +124,7 @@ def test_acknowledged_alarms_come_after_those_that_nobody_has(tmp_path: Path) ->
     path = tmp_path / "s.sqlite"
     with open_store(path, write=True, make=True) as store:
         for day in range(5):
-            for axle, width in (("1", 12e-3), ("2", 6e-3), ("3", 0.0)):
+            for axle, width in (("1", 9e-3), ("2", 6e-3), ("3", 0.0)):
                 made = wide("cup", width) if width else analysis()
                 store.add(recording(day, BOX._replace(axle=axle)), made)
     boxes = bd.fleet(path)
