@@ -136,16 +136,7 @@ def analyse(recording: FleetRecording, estimator: str = SHIPPED) -> Analysis:
         axes=tuple(each[-1] for each in measured_names(signal)),
         levels=_levels(measured_axes(signal.values), signal.rate),
         duration=run.duration,
-        assumed=tuple(
-            dict.fromkeys(
-                [
-                    *(run.measured.get("understood") or []),
-                    *(run.measured.get("warnings") or []),
-                    *(str(each.message) for each in caught),
-                    *([f"not whole: {run.problem}"] if run.problem else []),
-                ]
-            )
-        ),
+        assumed=_assumed(run, recording, [str(each.message) for each in caught]),
     )
     if finding is not None:
         analysis = replace(
@@ -164,6 +155,14 @@ def analyse(recording: FleetRecording, estimator: str = SHIPPED) -> Analysis:
     if inspection.verdict not in ("healthy", "not_diagnosable"):
         analysis = replace(analysis, evidence=_evidence_of(inspection, signal))
     return _with_estimate(analysis, run, plate, recording, estimator)
+
+
+def _assumed(run: Run, recording: FleetRecording, told: list[str]) -> tuple[str, ...]:
+    """List how the file was understood, and warnings, without its folder."""
+    found = [*(run.measured.get("understood") or []), *(run.measured.get("warnings") or []), *told]
+    if run.problem:
+        found.append(f"not whole: {run.problem}")
+    return tuple(dict.fromkeys(each.replace(str(recording.path), recording.path.name) for each in found))
 
 
 def _read(recording: FleetRecording) -> tuple[Run, tuple[Any, ...]]:
@@ -303,7 +302,7 @@ def _with_estimate(
     try:
         found = estimates_of(run, fitting, plate, recording.sensor)
     except InputError as error:
-        note = f"no estimate: {'; '.join(error.problems)}"
+        note = f"no estimate: {'; '.join(error.problems)}".replace(str(recording.path), recording.path.name)
         return replace(analysis, assumed=(*analysis.assumed, note))
     analysis = replace(analysis, estimate=estimates_object(found))
     called = analysis.verdict in ("cup", "cone", "roller")

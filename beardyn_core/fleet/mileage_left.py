@@ -96,13 +96,22 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
     effective = float(weight.sum() ** 2 / np.sum(weight**2))
     if effective < _LEAST_EFFECTIVE or typical > 1.5:
         return _unknown("the widths so far do not agree with the assumed law of growth")
-    now = law.grow_areas(begin, rate, float(mileage[-1] - mileage[0]))
+    # from the last recording on, which may have no width: what has grown since the last one is gone
+    last = [each for each in history if isfinite(each.mileage)][-1]
+    now = law.grow_areas(begin, rate, last.mileage - float(mileage[0]))
     distance = law.distance(now, across * WIDEST_FORECAST, rate)
     order = np.argsort(distance)
     share = np.cumsum(weight[order]) / weight.sum()
     low, likely, high = (float(distance[order][np.searchsorted(share, q)]) for q in (0.05, 0.5, 0.95))
+    if likely == 0.0:
+        return MileageLeft(
+            (low, likely, high), (last.time,) * 3,
+            f"by its growth the spall is {1e3 * WIDEST_FORECAST:.0f} mm wide or wider by now; its width was "
+            f"measured last on {write_date(known[-1].time)}: take the bearing out now",
+            _assumed(law),
+        )  # fmt: skip
     pace = _pace(history)
-    dates = tuple(known[-1].time + each / pace if pace > 0.0 else nan for each in (low, likely, high))
+    dates = tuple(last.time + each / pace if pace > 0.0 else nan for each in (low, likely, high))
     end = f"{1e3 * WIDEST_FORECAST:.0f} mm"
     text = f"{likely / 1e3:,.0f} km until {end}, 90 % interval {low / 1e3:,.0f} to {high / 1e3:,.0f}"
     if pace > 0.0 and high / pace < _CENTURY:

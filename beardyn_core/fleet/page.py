@@ -75,6 +75,8 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
     rows, links = [], []
     for each in status.standings:
         health = each.health
+        if health.state == OK:
+            continue
         rows.append(
             (
                 str(each.rank),
@@ -87,6 +89,7 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
             )
         )
         links.append(f"p{number[each.axlebox]}" if each.axlebox in number else "")
+    healthy = tuple(each.axlebox.name for each in status.standings if each.health.state == OK)
     worst = status.standings[0]
     told = ", ".join(f"{count} {state.replace('_', ' ')}" for state, count in counts.items() if count)
     headline = Headline(
@@ -108,7 +111,15 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
     scale = Facts(
         "The scale", tuple((state.replace("_", " "), MEANINGS[state]) for state in reversed(SCALE)), 1
     )
-    return Page(f"{TITLE}, {write_date(status.as_of)}", headline, (table, scale))
+    return Page(f"{TITLE}, {write_date(status.as_of)}", headline, (*_tables(table, healthy), scale))
+
+
+def _tables(table: Rows, healthy: tuple[str, ...]) -> list[Part]:
+    """Give the table of those that are not ok, and the names of those that are."""
+    parts: list[Part] = [table] if table.rows else []
+    if healthy:
+        parts.append(Points(f"{len(healthy)} axleboxes that are ok", (", ".join(healthy),)))
+    return parts
 
 
 def acknowledged_mark(standing: Standing) -> str:

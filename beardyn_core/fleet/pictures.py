@@ -49,7 +49,7 @@ def draw_health(axes: Axes, points: Sequence[HealthPoint]) -> None:
                 **edge,
             )
     axes.set_yticks(range(len(SCALE)), [each.replace("_", "\n") for each in SCALE])
-    axes.set_ylim(-0.4, len(SCALE) - 0.2)
+    axes.set_ylim(-0.4, len(SCALE) + 0.3)
     axes.legend(loc="upper left", fontsize=SMALL, ncols=3, frameon=False, handletextpad=0.2)
     _label_dates(axes)
 
@@ -145,6 +145,8 @@ def draw_sisters(axes: Axes, status: FleetStatus, box: Axlebox) -> None:
         else:
             axes.plot(time, level, color="0.7", linewidth=0.6, zorder=1)
     axes.set(ylabel="over the others, dB")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.3 * (high - low))  # room for the names
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="upper left", fontsize=SMALL, ncols=2, frameon=False)
     if not axes.lines:

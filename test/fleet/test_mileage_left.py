@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from beardyn_core.fleet.mileage_left import judge_mileage
 from beardyn_core.follow.growth import GrowthLaw
-from test.fleet.made_history import history, wide
+from test.fleet.made_history import DAY, history, wide
 
 
 def test_the_interval_holds_the_mileage_of_spalls_that_grow_by_the_law() -> None:
@@ -41,3 +42,13 @@ def test_a_spall_of_20_mm_has_nothing_left_and_the_assumed_is_named() -> None:
     assert known.is_known
     assert any("assumed" in each for each in known.assumed)
     assert "a day" in known.sentence
+
+
+def test_mileage_counts_from_the_last_recording_although_it_has_no_width() -> None:
+    measured = [wide("cup", each) for each in (8e-3, 8.4e-3, 9e-3, 9.5e-3)]
+    first = judge_mileage(history(measured, every=DAY), "cup")
+    later = judge_mileage(history([*measured, "cup", "cup"], every=DAY), "cup")
+    assert first.distance[1] - later.distance[1] == pytest.approx(2 * 5e5, rel=0.2)
+    long_ago = judge_mileage(history([*measured, *["cup"] * 400], every=DAY), "cup")
+    assert long_ago.distance[1] == 0.0
+    assert "take the bearing out now" in long_ago.sentence
