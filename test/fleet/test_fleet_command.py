@@ -11,6 +11,7 @@ import pytest
 
 from beardyn_core.cli.main import main
 from beardyn_core.fleet.identity import Axlebox
+from test.cli.json_page import check
 from test.fleet.made_history import write_files, write_manifest
 
 FAULTY = Axlebox("V1", "2", "left")
@@ -38,12 +39,15 @@ def test_recordings_are_added_once_ranked_and_shown(
     words = ("add", folder, "--store", store, "--workers", 1, "--estimator", "none", "--json")
     code, out, _ = fleet(capsys, *words)
     assert (code, json.loads(out)["added"]) == (0, 12)
+    check("fleet add", json.loads(out))
     code, out, _ = fleet(capsys, *words)
     assert (json.loads(out)["added"], json.loads(out)["known"]) == (0, 12)
 
     code, out, _ = fleet(capsys, "status", "--store", store, "--json")
     listed = json.loads(out)["axleboxes"]
     assert code == 12
+    assert fleet(capsys, "acknowledge", "V1", 2, "left", "--store", store, "--by", "workshop")[0] == 0
+    check("fleet status", json.loads(out), json.loads(fleet(capsys, "status", "--store", store, "--json")[1]))
     first = listed[0]
     assert (first["axle"], first["side"], first["health"], first["part"]) == ("2", "left", "plan", "cup")
     assert first["since_mileage_m"] == 1.0e6
