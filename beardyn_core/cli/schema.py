@@ -19,8 +19,8 @@ KINDS = (
     "sensor",
     "background",
     "bearing_data",
-    "fleet_manifest",
 )
+MANIFEST = "fleet_manifest"  # of recordings, no configuration
 _FORMER = {"plate": "bearing_data"}  # a name of before
 
 
@@ -37,7 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "kind",
         nargs="?",
         type=lambda name: _FORMER.get(name, name),
-        choices=KINDS,
+        choices=(*KINDS, MANIFEST),
         default="scene",
         help="kind of file; default scene",
     )
@@ -49,6 +49,6 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.config import json_schema
     from beardyn_core.fleet.manifest_line import manifest_schema
 
-    found = manifest_schema() if args.kind == "fleet_manifest" else json_schema(args.kind)
+    found = manifest_schema() if args.kind == MANIFEST else json_schema(args.kind)
     print(json.dumps(found, indent=2))
     return 0
