@@ -31,6 +31,7 @@ laboratory  general contact search against closed forms: `beardyn contacts`
 population  sweeps: sets of labelled runs, and a learner to compare with
 follow      load, end play and spall from vibration, with intervals
 calibration the scene of one measured axlebox
+fleet       recordings of many axleboxes in a store, and one ranked list
 api         the functions of this module
 cli         the beardyn command, a module a subcommand
 =========== =====================================================================
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.estimating import estimate, forecast, rating_life, train
     from beardyn_core.api.exporting import export
     from beardyn_core.api.finding import catalogue, which_bearing
+    from beardyn_core.api.fleets import Fleet, fleet
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import heat_interval, steady_heat
     from beardyn_core.api.making import bearing, lubricant, name_plate, scene
@@ -89,7 +91,7 @@ if TYPE_CHECKING:
     from beardyn_core.sensors.summary import RunSummary
     from beardyn_core.twin import Twin
 else:
-    from beardyn_core import bearing, follow, monitor, scene
+    from beardyn_core import bearing, fleet, follow, monitor, scene
 
 __all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Following"]
 __all__ += [
@@ -116,7 +118,8 @@ __all__ += [
     "calibrate",
     "catalogue",
 ]
-__all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "follow"]
+__all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "fleet", "follow"]
+__all__ += ["Fleet"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "rating_life"]
 __all__ += ["read"]
@@ -138,6 +141,7 @@ _MODULES = {
     "api.exporting": ("export",),
     "api.finding": ("catalogue", "which_bearing"),
     "api.sensitivity": ("smallest_spalls",),
+    "api.fleets": ("Fleet",),
     "api.following": ("Following",),
     "api.heat": ("heat_interval", "steady_heat"),
     "api.making": ("lubricant", "name_plate"),
@@ -170,7 +174,12 @@ _MODULES = {
     "scene.scene": ("Scene",),
     "twin": ("Twin",),
 }
-_ROOMS = {"bearing": "api.making", "follow": "api.following", "monitor": "api.reading", "scene": "api.making"}
+_ROOMS = {
+    **dict.fromkeys(("bearing", "scene"), "api.making"),
+    "fleet": "api.fleets",
+    "follow": "api.following",
+    "monitor": "api.reading",
+}
 """Rooms whose name is also that of a function, and where that is."""
 _PLACE = {name: module for module, names in _MODULES.items() for name in names}
 
@@ -203,7 +212,9 @@ class _CallableRoom(ModuleType):
 
 
 if not TYPE_CHECKING:
-    bearing.__class__ = follow.__class__ = monitor.__class__ = scene.__class__ = _CallableRoom
+    bearing.__class__ = fleet.__class__ = follow.__class__ = monitor.__class__ = scene.__class__ = (
+        _CallableRoom
+    )
 
     def __getattr__(name: str) -> Any:
         """Import a name of `__all__` when it is first asked for."""

@@ -29,7 +29,8 @@ compiles, and it says what it has kept.
 | 0 | done |
 | 2 | bad input, every mistake a sentence and nothing written; or a disk that is full |
 | 3 | the model left its range of validity; the recording up to there is closed and readable |
-| 10 | `beardyn monitor`: the worst bearing is not diagnosable |
+| 3 | `beardyn fleet add`: files that cannot be read; the others are added |
+| 10 | `beardyn monitor`, `beardyn fleet status`: the worst bearing is not diagnosable |
 | 11 | `beardyn monitor`: the worst bearing has strikes that are unexplained |
 | 12 | `beardyn monitor`: the worst bearing has a faulty part, or a hot box |
 | 130 | interrupted |
@@ -70,6 +71,12 @@ def section(name: str, parser: argparse.ArgumentParser, purpose: str) -> Iterato
             text = text.replace("%(default)g", f"{action.default:g}" if "%(default)g" in text else "")
             yield f"| {invocation(action)} | {plain(text)} |"
     yield ""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            words = {each.dest: each.help or "" for each in action._choices_actions}
+            for own, each in action.choices.items():
+                for line in section(f"{name} {own}", each, words[own]):
+                    yield f"#{line}" if line.startswith("### ") else line
 
 
 def page() -> str:

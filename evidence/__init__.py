@@ -20,6 +20,7 @@ ladder      docs/ladder.md: what accuracy costs
 automatic   docs/automatic.md: what `effects: auto` chooses, on trial
 trial       docs/trial.md: the monitor on trial
 population  docs/sweep.md: what a learner makes of a set, how fast sets are made
+fleet       docs/fleet_year.md: a year of 64 axleboxes in one store, and what it takes
 follow      docs/estimate.md: a train played in full, followed from what its sensor hears
 calibration docs/estimate.md: scenes fitted to recordings of hidden axleboxes
 performance docs/performance.md: speeds measured by `benchmarks`

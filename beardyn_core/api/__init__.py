@@ -15,6 +15,7 @@ statics       stiffness, torque, life, film and load distribution, no run needed
 sweeping      sets of labelled runs over a population of bearings
 estimating    load, end play and spall from a run, what remains; training
 following     the same over many stretches and runs
+fleets        recordings of many axleboxes in a store, and their ranked list
 twin_residual measured minus twin, at the known state of the bearing
 calibrating   the scene of one measured axlebox, fitted to its healthy recordings
 heat          steady temperatures and losses by source, no run needed either

@@ -85,6 +85,8 @@ def parameters_of(function: Callable[..., Any]) -> dict[str, Parameter]:
     hints = get_type_hints(function, {}, names, include_extras=True)
     found = {}
     for name, each in inspect.signature(function).parameters.items():
+        if name not in hints:  # the object of a method
+            continue
         hint = plain_hint(hints[name])[0]
         found[name] = Parameter(hint, each.default, words.get(name, ""))
     return found

@@ -28,6 +28,7 @@ COMMANDS = {
     "recordings": ("import", "view", "report", "monitor", "estimate", "follow", "calibrate", "export"),
     "bearings and monitors": ("bearing", "structure", "trial", "contacts"),
     "populations": ("sweep", "baseline", "train"),
+    "fleets": ("fleet",),
     "files": ("schema",),
 }
 """The subcommands, each a module of this package, under the headings of the help."""

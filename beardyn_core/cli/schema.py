@@ -20,6 +20,7 @@ KINDS = (
     "background",
     "bearing_data",
 )
+MANIFEST = "fleet_manifest"  # of recordings, no configuration
 _FORMER = {"plate": "bearing_data"}  # a name of before
 
 
@@ -36,7 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "kind",
         nargs="?",
         type=lambda name: _FORMER.get(name, name),
-        choices=KINDS,
+        choices=(*KINDS, MANIFEST),
         default="scene",
         help="kind of file; default scene",
     )
@@ -46,6 +47,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.config import json_schema
+    from beardyn_core.fleet.manifest_line import manifest_schema
 
-    print(json.dumps(json_schema(args.kind), indent=2))
+    found = manifest_schema() if args.kind == MANIFEST else json_schema(args.kind)
+    print(json.dumps(found, indent=2))
     return 0

@@ -30,6 +30,7 @@ LEAST_SAMPLES = 16
 FASTEST_RPM = 1e6
 LONGEST_STEP = 3.0  # times the usual one, from which samples of the speed are a gap
 LARGEST = 1e6  # [m/s^2]; beyond it the unit or the scale is wrong
+DEAD = "the sensor is dead or not connected"  # end of the sentence where no sample differs
 
 
 @dataclass
@@ -399,7 +400,7 @@ def _judge_numbers(
         elif time is not None and name == time.name:
             continue
         elif each.low == each.high and (name in factors or speed.kind == "tacho"):
-            what = "the sensor is dead or not connected" if name in factors else "it has no pulses"
+            what = DEAD if name in factors else "it has no pulses"
             found.problems.append(f"{where}: every sample is {each.low:g}; {what}")
         elif name in factors and each.is_ramp:
             what = "rises or falls evenly from sample to sample, as a time or a counter does"

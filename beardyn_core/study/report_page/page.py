@@ -48,6 +48,7 @@ class Rows:
     head: tuple[str, ...]
     widths: A[tuple[float, ...], "of the columns, shares of the page"]
     rows: tuple[tuple[str, ...], ...]
+    links: A[tuple[str, ...], "page that each row leads to, ``p1``; '' or none: no page"] = ()
 
 
 @dataclass(frozen=True)

@@ -81,7 +81,7 @@ def _page(page: Page, number: int, foot: str) -> str:
         for place, part in enumerate(page.parts)
     )
     return (
-        f"<section>\n<h1>{escape(page.title)}</h1>\n{_headline(page.headline)}\n{parts}\n"
+        f'<section id="p{number}">\n<h1>{escape(page.title)}</h1>\n{_headline(page.headline)}\n{parts}\n'
         f"<footer>{escape(foot)}</footer>\n</section>"
     )
 
@@ -110,8 +110,17 @@ def _part(part: Part, name: str) -> str:
 def _table(part: Rows) -> str:
     columns = "".join(f'<col style="width:{100 * width:g}%">' for width in part.widths)
     head = "".join(f"<th>{escape(each)}</th>" for each in part.head)
-    rows = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in part.rows)
+    links = part.links or ("",) * len(part.rows)
+    rows = "".join(_row(row, link) for row, link in zip(part.rows, links, strict=True))
     return f"<table><colgroup>{columns}</colgroup><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def _row(row: tuple[str, ...], link: str) -> str:
+    """Write a row; one that leads to a page does so by its second cell."""
+    cells = [escape(cell) for cell in row]
+    if link:
+        cells[1] = f'<a href="#{escape(link)}">{cells[1]}</a>'
+    return f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
 
 
 def panel_places(count: int, width: float, height: float) -> Iterator[tuple[float, float, float, float]]:

@@ -33,7 +33,7 @@ _TURNS = 3.0  # of the shaft in the close-up
 _FLOOR_OF_BAND = 500.0  # [Hz], where the monitor gives no band
 
 
-class _Marked(NamedTuple):
+class Marked(NamedTuple):
     """A line of the spectrum that is marked."""
 
     order: float
@@ -49,12 +49,22 @@ def draw_spectrum(axes: Axes, inspection: Inspection) -> None:
     if result is None or result.spectrum is None or not len(result.spectrum.order):
         _say(axes, "no analysis was possible: there is no spectrum")
         return
-    lines = _labelled_lines(inspection, result)
-    highest = max((each.order for each in lines), default=result.spectrum.order[-1]) * 1.04
-    end = min(float(result.spectrum.order[-1]), highest)
+    orders = inspection.mounted.plate.frequencies
+    lines = marked_lines(
+        (orders.bpfo, orders.bpfi, orders.bsf, orders.ftf),
+        result.verdict, result.fault_order, result.comb_order, result.also_fits,
+    )  # fmt: skip
+    draw_marked_spectrum(axes, result.spectrum.order, result.spectrum.level, lines)
+
+
+def draw_marked_spectrum(axes: Axes, order: Float, level: Float, lines: Sequence[Marked]) -> None:
+    """Draw a spectrum, shape [line], with a label at every marked line that has room."""
+    axes.set(xlabel="order, cycles per revolution of the shaft", ylabel="over background, dB")
+    highest = max((each.order for each in lines), default=order[-1]) * 1.04
+    end = min(float(order[-1]), highest)
     lines = [each for each in lines if each.order <= end]
-    shown = result.spectrum.order <= end
-    order, level = result.spectrum.order[shown], np.maximum(result.spectrum.level[shown], _FLOOR)
+    shown = order <= end
+    order, level = order[shown], np.maximum(level[shown], _FLOOR)
     top = float(level.max()) + 2.0
     for place, _, colour, style in lines:
         axes.plot([place, place], [_FLOOR, top], color=colour, linestyle=style, linewidth=0.8, zorder=1)
@@ -71,36 +81,49 @@ def draw_spectrum(axes: Axes, inspection: Inspection) -> None:
         )  # fmt: skip
 
 
-def _labelled_lines(inspection: Inspection, result: MonitorResult) -> list[_Marked]:
-    """List the lines that are marked: the part that is called with its harmonics first."""
-    orders = inspection.mounted.plate.frequencies
-    fundamentals = {"cup": orders.bpfo, "cone": orders.bpfi, "roller": 2.0 * orders.bsf}
-    found: list[_Marked] = []
-    for part in sorted(_PARTS, key=lambda part: part != result.verdict):
+def marked_lines(
+    orders: tuple[float, float, float, float],
+    verdict: str,
+    fault_order: float,
+    comb_order: float,
+    also_fits: Sequence[str],
+) -> list[Marked]:
+    """List the lines that are marked: the part that is called with its harmonics first.
+
+    Parameters
+    ----------
+    orders : tuple of float
+        BPFO, BPFI, BSF and FTF from bearing data, [-].
+    fault_order, comb_order : float
+        As found, NaN without, [-].
+    """
+    bpfo, bpfi, bsf, ftf = orders
+    fundamentals = {"cup": bpfo, "cone": bpfi, "roller": 2.0 * bsf}
+    found: list[Marked] = []
+    for part in sorted(_PARTS, key=lambda part: part != verdict):
         symbol, colour, style = _PARTS[part]
-        is_called = part == result.verdict
         shown = (
-            is_called and CAGE not in result.also_fits
+            part == verdict and CAGE not in also_fits
         )  # else the cage alone shows it, which is marked below
-        step, count = (result.fault_order, _HARMONICS) if shown else (fundamentals[part], 2)
+        step, count = (fault_order, _HARMONICS) if shown else (fundamentals[part], 2)
         if isfinite(step):
             found += _multiples(step, count, symbol, colour, style)
-    if isfinite(result.comb_order):
-        found += _multiples(result.comb_order, _HARMONICS, "strikes", _COMB, "-.")
+    if isfinite(comb_order):
+        found += _multiples(comb_order, _HARMONICS, "strikes", _COMB, "-.")
     found += _multiples(1.0, _SHAFT_MULTIPLES, "shaft", _SHAFT, ":")
-    if isfinite(orders.ftf):
-        found.append(_Marked(orders.ftf, "FTF", _SHAFT, ":"))
+    if isfinite(ftf):
+        found.append(Marked(ftf, "FTF", _SHAFT, ":"))
     return found
 
 
-def _multiples(order: float, count: int, label: str, colour: str, style: Any) -> list[_Marked]:
+def _multiples(order: float, count: int, label: str, colour: str, style: Any) -> list[Marked]:
     return [
-        _Marked(number * order, label if number == 1 else f"{number}×{label}", colour, style)
+        Marked(number * order, label if number == 1 else f"{number}×{label}", colour, style)
         for number in range(1, count + 1)
     ]
 
 
-def _placed_labels(axes: Axes, lines: Sequence[_Marked], end: float) -> list[tuple[int, float, _Marked]]:
+def _placed_labels(axes: Axes, lines: Sequence[Marked], end: float) -> list[tuple[int, float, Marked]]:
     """Choose row and middle of labels, so that none covers another; one without room is left out."""
     figure = axes.get_figure(root=True)
     assert figure is not None

@@ -1,0 +1,107 @@
+"""Files through the whole command: added once, ranked, and shown on a page with the evidence."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from beardyn_core.cli.main import main
+from beardyn_core.fleet.identity import Axlebox
+from test.cli.json_page import check
+from test.fleet.made_history import write_files, write_manifest
+
+FAULTY = Axlebox("V1", "2", "left")
+
+
+def fleet(capsys: pytest.CaptureFixture[str], *words: object) -> tuple[int, str, str]:
+    code = main(["fleet", *map(str, words)])
+    told = capsys.readouterr()
+    return code, told.out, told.err
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recordings")
+    lines = write_files(folder, 3, FAULTY)
+    dead = np.load(folder / lines[-1]["file"])["tacho"]
+    np.savez(folder / lines[-1]["file"], z=np.zeros(len(dead)), tacho=dead)  # axle 2 right on the last day
+    return folder
+
+
+def test_recordings_are_added_once_ranked_and_shown(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    store = tmp_path / "fleet.sqlite"
+    words = ("add", folder, "--store", store, "--workers", 1, "--estimator", "none", "--json")
+    code, out, _ = fleet(capsys, *words)
+    assert (code, json.loads(out)["added"]) == (0, 12)
+    check("fleet add", json.loads(out))
+    code, out, _ = fleet(capsys, *words)
+    assert (json.loads(out)["added"], json.loads(out)["known"]) == (0, 12)
+
+    code, out, _ = fleet(capsys, "status", "--store", store, "--json")
+    listed = json.loads(out)["axleboxes"]
+    assert code == 12
+    assert fleet(capsys, "acknowledge", "V1", 2, "left", "--store", store, "--by", "workshop")[0] == 0
+    check("fleet status", json.loads(out), json.loads(fleet(capsys, "status", "--store", store, "--json")[1]))
+    first = listed[0]
+    assert (first["axle"], first["side"], first["health"], first["part"]) == ("2", "left", "plan", "cup")
+    assert first["since_mileage_m"] == 1.0e6
+    assert (listed[1]["side"], listed[1]["health"]) == ("right", "cannot_tell")
+    assert listed[1]["last_verdict"] == "not_diagnosable"
+    assert {each["health"] for each in listed[2:]} == {"ok"}
+
+    code, out, _ = fleet(capsys, "status", "--store", store)
+    assert "V1 axle 2 left" in out
+    assert "2 axleboxes are ok" in out
+    assert "outer ring (cup): named by 3 of the last 3" in out
+
+    page = tmp_path / "fleet.html"
+    code, out, _ = fleet(capsys, "report", "--store", store, "--html", page)
+    text = page.read_text(encoding="utf-8")
+    assert code == 0
+    headings = ("What was assumed", "What to do next", "Spectrum of the envelope")
+    for part in ("V1 axle 2 left", "PLAN", "CANNOT TELL", "BPFO", "<svg", *headings):
+        assert part in text
+    assert not re.search(r"(src|href)=\"(?!#)", text)  # nothing is loaded
+    links = re.findall(r'href="#(p\d+)"', text)
+    assert links
+    assert all(f'id="{each}"' in text for each in links)
+    code, _, err = fleet(capsys, "report", "--store", store, "--html", page)
+    assert code == 2
+    assert "the file exists" in err
+
+
+def test_mistakes_are_told_at_once_and_nothing_is_added(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines = write_files(tmp_path / "own", 1)
+    lines[1]["bearing"] = "no_such_bearing"
+    lines[2]["time"] = "2099-01-01"
+    write_manifest(tmp_path / "own", lines)
+    store = tmp_path / "fleet.sqlite"
+    code, _, err = fleet(capsys, "add", tmp_path / "own", "--store", store)
+    assert code == 2
+    assert "no_such_bearing" in err
+    assert "in the future" in err
+    code, _, err = fleet(capsys, "status", "--store", store)
+    assert code == 2
+    assert "has no recording" in err
+
+
+@pytest.mark.slow  # two processes begin
+def test_a_file_that_cannot_be_read_is_refused_and_the_others_are_added(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines = write_files(tmp_path / "own", 1)
+    (tmp_path / "own" / lines[0]["file"]).write_bytes(b"PK\x03\x04 cut off")
+    words = ("--workers", 2, "--estimator", "none", "--json")
+    code, out, err = fleet(capsys, "add", tmp_path / "own", "--store", tmp_path / "s.sqlite", *words)
+    assert code == 3
+    assert json.loads(out)["added"] == 3
+    assert "not added" in err
+    assert lines[0]["file"] in err
