@@ -80,7 +80,8 @@ if TYPE_CHECKING:
     from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
     from beardyn_core.follow.known_load import KnownLoad
-    from beardyn_core.follow.rated_life import LifeAssumptions, RatedLife
+    from beardyn_core.follow.life_assumptions import LifeAssumptions
+    from beardyn_core.follow.rated_life import RatedLife
     from beardyn_core.follow.service import Service
     from beardyn_core.monitor.chain import Chain, MonitorSettings
     from beardyn_core.population.labelled_set import LabelledSet
@@ -162,7 +163,8 @@ _MODULES = {
     "follow.service": ("Service",),
     "follow.growth": ("GrowthLaw",),
     "follow.known_load": ("KnownLoad",),
-    "follow.rated_life": ("LifeAssumptions", "RatedLife"),
+    "follow.life_assumptions": ("LifeAssumptions",),
+    "follow.rated_life": ("RatedLife",),
     "follow.estimator": ("Estimates", "Estimator"),
     "base.errors": ("InputError", "ValidityError"),
     "sensors.block": ("Block",),

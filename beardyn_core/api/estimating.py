@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
     from beardyn_core.follow.known_load import KnownLoad
-    from beardyn_core.follow.rated_life import LifeAssumptions, RatedLife
+    from beardyn_core.follow.life_assumptions import LifeAssumptions
+    from beardyn_core.follow.rated_life import RatedLife
     from beardyn_core.follow.service import Service
     from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.record.run import Run
@@ -148,7 +149,8 @@ def rating_life(
         No load is known, or only the data of the bearing is.
     """
     from beardyn_core.config import load_lubricant
-    from beardyn_core.follow.rated_life import LifeAssumptions, LifeCounter
+    from beardyn_core.follow.life_assumptions import LifeAssumptions
+    from beardyn_core.follow.rated_life import LifeCounter
     from beardyn_core.follow.service import Service
 
     if found.known_load is None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from beardyn_core.follow.following import Followed
     from beardyn_core.follow.growth import GrowthLaw
     from beardyn_core.follow.known_load import KnownLoad
-    from beardyn_core.follow.rated_life import LifeAssumptions
+    from beardyn_core.follow.life_assumptions import LifeAssumptions
     from beardyn_core.follow.residual import Residual
     from beardyn_core.follow.service import Service
     from beardyn_core.record.run import Run

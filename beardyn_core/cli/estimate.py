@@ -15,7 +15,7 @@ from beardyn_core.cli.generated_parser import add_command, add_field, add_parame
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import in_options
 from beardyn_core.cli.options import add_box, add_json
-from beardyn_core.follow.rated_life import LifeAssumptions
+from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.service import Service
 
 if TYPE_CHECKING:

@@ -24,6 +24,7 @@ load_sensors        air spring, primary spring and weighing site as loads on a j
 load_checks         what bearing, lateral load, speed and vehicle say against a load that is stated
 conditioning        a known load among the estimates of a run
 life_surface        rating lives over load, lateral load, viscosity ratio and contamination, interpolated
+life_assumptions    what a rating life assumes of lubricant, cleanliness and load between
 rated_life          rating life and share used under a known load, with intervals
 forecast            mileage until a spall is too wide, share of the rating life that is used
 labelled            runs of a set of labelled runs as an estimator sees them

@@ -26,9 +26,10 @@ from beardyn_core.follow.estimator import (
 from beardyn_core.follow.forecast import SOON, Forecast, forecast
 from beardyn_core.follow.growth import NORMAL_90, GrowthLaw
 from beardyn_core.follow.known_load import KnownLoad
+from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.load_checks import AxleLoads
 from beardyn_core.follow.quantities import BY_NAME, Quantity
-from beardyn_core.follow.rated_life import LifeAssumptions, LifeCounter, RatedLife
+from beardyn_core.follow.rated_life import LifeCounter, RatedLife
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 

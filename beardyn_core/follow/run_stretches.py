@@ -18,8 +18,8 @@ from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import doubt_of, stretches_of
+from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.load_checks import AxleLoads
-from beardyn_core.follow.rated_life import LifeAssumptions
 from beardyn_core.follow.service import Service
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.record.run import Run

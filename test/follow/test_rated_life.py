@@ -14,9 +14,10 @@ from beardyn_core.bearing.life import reference_viscosity
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.known_load import NORMAL_90, KnownLoad
+from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.life_surface import LifeSurface
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.follow.rated_life import LifeAssumptions, LifeCounter
+from beardyn_core.follow.rated_life import LifeCounter
 
 BEARING, GREASE = load_bearing("HS130x230"), load_lubricant("L055")
 WHEEL, TURN = 0.92, 0.92 * pi
