@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,6 +51,18 @@ def _in_graph(scene: Callable[[Graph], str]) -> Callable[[Path], str]:
             return scene(graph)
 
     return play
+
+
+def _in_graphs(folder: Path, scenes: Sequence[Callable[[Graph], object]]) -> list[Graph]:
+    """Play scenes one after the other; the graphs have what they have received."""
+    graphs = []
+    for number, scene in enumerate(scenes):
+        place = folder / str(number)
+        place.mkdir()
+        with Graph(place) as graph:
+            scene(graph)
+        graphs.append(graph)
+    return graphs
 
 
 def _last(graph: Graph, key: str, part: str = "twin") -> str:
@@ -145,11 +157,7 @@ def _blame(folder: Path) -> str:
         stream.test_the_warning_of_a_refusal_goes_when_all_is_well_again,
         stream.test_a_twin_that_was_told_to_stop_is_recorded_as_interrupted,
     )
-    for number, scene in enumerate(scenes):
-        place = folder / str(number)
-        place.mkdir()
-        with Graph(place) as graph:
-            scene(graph)
+    _in_graphs(folder, scenes)
     return "wild numbers, far stamps and a foreign frame refused by name, WARN goes, SIGINT is 'interrupted'"
 
 
@@ -181,14 +189,8 @@ def _pause_and_hang(folder: Path) -> str:
         wall.test_step_answers_when_its_block_is_published,
         wall.test_a_hung_reliable_reader_of_the_load_stalls_nobody,
     )
-    said = []
-    for number, scene in enumerate(scenes):
-        place = folder / str(number)
-        place.mkdir()
-        with Graph(place) as graph:
-            scene(graph)
-            said.append(len(graph.messages["/clock"]))
-    return f"{said[0]} times /clock in a pause, step answers behind its block, a hung reader stalls nobody"
+    said = len(_in_graphs(folder, scenes)[0].messages["/clock"])
+    return f"{said} times /clock in a pause, step answers behind its block, a hung reader stalls nobody"
 
 
 def _time_of_the_train(folder: Path) -> str:
@@ -197,13 +199,7 @@ def _time_of_the_train(folder: Path) -> str:
         source.test_a_clock_that_is_set_back_holds_the_twin_and_no_stamp_comes_twice,
         source.test_a_leap_is_no_loss_and_a_recorder_may_join_late,
     )
-    for number, scene in enumerate(scenes):
-        place = folder / str(number)
-        place.mkdir()
-        with Graph(place) as graph:
-            scene(graph)
-            if scene is scenes[0]:
-                reference = graph.messages["source_time"][0]
+    reference = _in_graphs(folder, scenes)[0].messages["source_time"][0]
     ahead = 1e-9 * (header_stamp(reference) - time_reference(reference))
     return (
         f"stamps {ahead:.3f} s ahead of simulated time, told on source_time; a step of load is in the force "
