@@ -94,7 +94,8 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, fleet, follow, monitor, scene
 
-__all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Following"]
+__all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Fleet"]
+__all__ += ["Following"]
 __all__ += [
     "Forecast",
     "GrowthLaw",
@@ -120,7 +121,6 @@ __all__ += [
     "catalogue",
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "fleet", "follow"]
-__all__ += ["Fleet"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
 __all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "rating_life"]
 __all__ += ["read"]
