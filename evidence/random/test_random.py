@@ -153,7 +153,7 @@ def test_results_are_kept_and_only_the_missing_are_run(
 
 
 def test_results_are_of_all_modules_that_a_run_goes_through() -> None:
-    """Except for the engine of compilation, and what files of an estimator and a fleet are read by for `config`."""
+    """Except for the engine of compilation, and what files of an estimator and a fleet are read by."""
     asked = "import sys, evidence.random.trial as t; t.tried(3, 1, 'fast'); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout
     files = {path.as_posix() for path in book.sources()}
