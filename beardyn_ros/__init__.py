@@ -26,6 +26,7 @@ load_gate             what comes in as load: checked, counted, queued
 load_feed             load for the twin's thread: waiting, age, knowing pauses, the smooth line of live load
 load_intake           topics that carry load, decoded for the twin or refused
 run_state             options of a session, the messages it hands over, its report
+pacer                 simulated time on the wall clock: when a block is due, how late it was
 session               the twin in its own thread: compile, wait for load, advance, pace
 twin_report           the twin's diagnostics: its runs, the one that a reset has left too
 twin_node             the lifecycle node around a session: topics, services, diagnostics

@@ -234,7 +234,7 @@ def _compare(
     analysis = recording.analysis
     levels: Float | None = None
     if comparison is not None:
-        # a wheel is heard at both ends of its axle: what the other end has as well is not this bearing's
+        # a wheel strikes both ends of its axle: what the other end has as well is not this bearing's
         both = np.fmax(comparison.partner, 0.0)
         alone = comparison.levels - np.where(np.isfinite(both), both, 0.0)
         watched.compared.append(alone)

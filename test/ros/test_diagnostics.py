@@ -8,10 +8,10 @@ import pytest
 
 from beardyn_core.record.messages import Diagnostic
 from beardyn_core.record.published import kept_pace
-from beardyn_ros import session
+from beardyn_ros import pacer as pacing
 from beardyn_ros.load_gate import RefusalReport
+from beardyn_ros.pacer import LATE_AFTER_S, Pacer
 from beardyn_ros.run_state import FINISHED, RUNNING, SessionReport
-from beardyn_ros.session import LATE_AFTER_S, Pacer
 from beardyn_ros.twin_report import NodeStanding, pace_sentence, twin_diagnostic
 
 STANDING = NodeStanding("", 0, "lockstep", 0.0, 1, {}, 0, ())
@@ -30,7 +30,7 @@ def test_a_block_is_late_by_when_it_is_published_and_not_by_when_it_is_ready(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now = 100.0
-    monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: now))
+    monkeypatch.setattr(pacing, "time", SimpleNamespace(monotonic=lambda: now))
     pacer = Pacer(2.0)
     due = [pacer.hand_over(20_000_000 * index) for index in (1, 2, 3)]
     assert due == pytest.approx([100.01, 100.02, 100.03])
@@ -45,7 +45,7 @@ def test_a_block_is_late_by_when_it_is_published_and_not_by_when_it_is_ready(
 
 def test_time_waited_for_somebody_else_makes_no_block_late(monkeypatch: pytest.MonkeyPatch) -> None:
     now = 100.0
-    monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: now))
+    monkeypatch.setattr(pacing, "time", SimpleNamespace(monotonic=lambda: now))
     pacer = Pacer(1.0)
     now = 103.0
     pacer.shift(3.0)
