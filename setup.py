@@ -56,6 +56,7 @@ TEST = [
     *SWEEP,
     *CALIBRATE,
     "amqtt>=0.11",
+    "colcon-package-information>=0.4",
     "colcon-ros>=0.5",
     "colcon-test-result>=0.3.8",
     "foxglove-sdk>=0.16",

@@ -6,7 +6,6 @@ import importlib.util
 import json
 import math
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
@@ -238,16 +237,16 @@ def test_without_the_package_there_is_no_typed_topic(graph: Graph) -> None:
 
 
 @pytest.mark.skipif(
-    importlib.util.find_spec("colcon_core") is None,
-    reason="colcon is not installed (pip install colcon-common-extensions)",
+    any(importlib.util.find_spec(f"colcon_{part}") is None for part in ("package_information", "ros")),
+    reason="colcon is not installed (pip install colcon-package-information colcon-ros)",
 )
 def test_colcon_finds_the_package_next_to_the_nodes_as_the_page_says(tmp_path: Path) -> None:
     page = (PACKAGE.parents[1] / "docs/nodes.md").read_text(encoding="utf-8")
     (folders,) = re.findall(r"^colcon build --base-paths (.+)$", page, re.MULTILINE)
     (tmp_path / "src").mkdir()
     (tmp_path / "src/beardyn").symlink_to(PACKAGE.parents[1])
-    colcon = shutil.which("colcon", path=str(Path(sys.executable).parent)) or "colcon"
-    command = [colcon, "list", "--base-paths", *folders.split()]
+    main = "import sys; from colcon_core.command import main; sys.exit(main())"
+    command = [sys.executable, "-c", main, "list", "--base-paths", *folders.split()]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=100, check=False)
     assert done.returncode == 0, done.stderr
     found = {line.split()[0]: line.split()[-1] for line in done.stdout.splitlines()}
