@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.lanes.lane_math import floor, where_greater
 from beardyn_core.physics.lanes.lane_tables import prefetch
 from beardyn_core.physics.waviness import WaveParams
+from beardyn_core.scene.patch import Patch
 
 # A finer table fits no cache. Waves of more than 256 a turn have fewer points each than in the other tiers:
 # linear interpolation takes 2 % off those of 1000 a turn, which strike at 8 kHz at 200 km/h.
@@ -65,6 +67,16 @@ def highest_wave(faults: FaultParams) -> float:
         np.abs(waves.table).max() for waves in (faults.cone_waves, faults.roller_waves) if waves is not None
     ]
     return float(sum(gaps))
+
+
+def highest_points(faults: FaultParams, patches: Sequence[Patch]) -> float:
+    """Bound how much nearer waves and rims bring cup and cone to each other over a roller, [m].
+
+    A roller has its own on both sides.
+    """
+    waves = faults.cup_waves, faults.cone_waves, faults.roller_waves, faults.roller_waves
+    rims = sum(patch.rim_height * (2.0 if patch.on == "roller" else 1.0) for patch in patches)
+    return float(sum(np.abs(each.table).max() for each in waves if each is not None)) + rims
 
 
 def _seen_from(waves: WaveParams, ahead: Float, here: float, opposite: float) -> Float:

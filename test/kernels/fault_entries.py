@@ -191,9 +191,10 @@ def spring_contacts(lanes: Any, cases: Any, out: Any, reach: Any, p: Any) -> Non
 
 @entry
 def massless_rollers(lanes: Any, cases: Any, out: Any, p: Any) -> None:
-    """Rollers of tier lumped: azimuth in the cup and approach of cup and cone; output: load on the cup."""
+    """Rollers of tier lumped: azimuth in the cup, approach of cup and cone, spin; output: load on the cup."""
     for case in range(cases.shape[0]):
         zero = lanes.constant(0.0)
         angle, approach = lanes.load(cases, case, 0), lanes.load(cases, case, 1)
-        load = faulted_load(lanes, 0, approach, zero, angle, (zero, zero, 0.0), p.faults, p)
+        turns = (zero, zero, cases[case, 2, 0])
+        load = faulted_load(lanes, 0, approach, zero, angle, turns, p.faults, p)
         lanes.store(out, case, 0, load)

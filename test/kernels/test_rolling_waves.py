@@ -14,10 +14,12 @@ from beardyn_core.physics.bodies.layout import POCKET_ANGLE
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.rolling_waves import MOST_POINTS, highest_wave, rolling_wave_params
 from beardyn_core.physics.tiers.parameters import Parameters
+from beardyn_core.physics.tiers.tiers import TIERS
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scatter import Scatter
 from beardyn_core.scene.waviness import Waviness, band_amplitudes
 from test.kernels.casting import Float, through
-from test.kernels.fault_entries import pairs_in_table, rolling_gaps, waves_on_cone
+from test.kernels.fault_entries import massless_rollers, pairs_in_table, rolling_gaps, waves_on_cone
 from test.kernels.rig import parameters_of
 from test.scenes import scene_with
 
@@ -125,3 +127,20 @@ def test_waves_on_the_cone_are_looked_up_wherever_a_roller_may_touch(lanes: Any)
     assert near.any()
     assert (~near).any()
     assert highest_wave(waved(lanes.width).effects.faults) == 0.0
+
+
+@pytest.mark.parametrize("on", ["cup", "cone", "roller"])
+def test_nothing_is_met_beyond_the_highest_rim_and_a_rim_is_met_before_it(lanes: Any, on: str) -> None:
+    """A rim as long as the roller, which stands at every place of it or has it on either side."""
+    length = scene_with().bearing.effective_length
+    rim = Patch(on, 0, 0.1, 4e-3, 5e-5, length, rim_height=3e-6, rim_width=1.5e-3)
+    scene = replace(scene_with(None, defects=(rim,)), tier="lumped")
+    p = TIERS["lumped"].parameters(scene, parameters_of(scene, lanes.width))
+    assert p.highest == pytest.approx(6e-6 if on == "roller" else 3e-6)
+    azimuths = np.linspace(-0.5, 0.5, 401)
+    cases = np.array([[azimuth, -height] for azimuth in azimuths for height in (p.highest, 2e-6)])
+    turned = -1.0 if on == "roller" else 0.0
+    cases = np.column_stack([cases, turned * cases[:, 0]])
+    load = through(lanes, massless_rollers, np.repeat(cases, lanes.width, 0), 1, p)[:: lanes.width, 0]
+    assert load[::2].max() == 0.0
+    assert load[1::2].max() > 10.0

@@ -129,7 +129,7 @@ def lost_between_rings(
     """Share of the load that a roller of tier lumped loses: it gives way between cup and cone."""
     scene = replace(scene_with(effects, defects=patches), tier="lumped")
     p = TIERS["lumped"].parameters(scene, parameters_of(scene, lanes.width))
-    cases = np.array([[azimuth, 2.0 * DEPTH] for azimuth in azimuths(arcs)])
+    cases = np.array([[azimuth, 2.0 * DEPTH, 0.0] for azimuth in azimuths(arcs)])
     load = through(lanes, massless_rollers, np.repeat(cases, lanes.width, 0), 1, p)[:: lanes.width, 0]
     return np.asarray(1.0 - load[:-1] / load[-1])
 

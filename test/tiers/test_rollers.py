@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,8 @@ from beardyn_core.physics.statics.roller_equilibrium import (
 )
 from beardyn_core.physics.statics.static import _rotation
 from beardyn_core.scene.scene import Scene
-from beardyn_core.sensors.block import Block
+from beardyn_core.scene.waviness import Waviness
+from beardyn_core.sensors.block import LARGEST, Block
 from beardyn_core.twin import Twin
 from test.runs import constant_load
 from test.tiers.runs import Float, heavy, scene_of
@@ -90,6 +92,31 @@ def test_a_tilt_of_the_kernel_is_the_tilt_of_the_exact_equilibrium() -> None:
     pressed = reference.cone.force.sum(axis=-1) > 100.0
     assert pressed.sum() > 10
     np.testing.assert_allclose(found[pressed], reference.position[..., 2][pressed], atol=1e-9)
+
+
+@pytest.mark.parametrize("on", ["cup", "cone", "roller"])
+def test_crests_of_waves_press_rollers_that_the_round_rings_would_not_touch(on: str) -> None:
+    """A roller that leaves the load zone lets go of it crest by crest, not at once."""
+    size, apart, turning = 2e-6, 1e-6, 10.0
+    scene = replace(
+        scene_of("static_80kN", "lumped"), end_play=1e-4, waviness=(Waviness(on, 0, (40,), (size,)),)
+    )
+    place = (scene.bearing.normal_gap(scene.end_play) - apart) / math.cos(scene.bearing.cup_angle)
+    found = {}
+    for waves in (scene.waviness, ()):
+        _, twin = held(replace(scene, waviness=waves), (0.0, 0.0, place), (0.0, 0.0), turning, 1)
+        contacts = np.concatenate([twin.advance().contacts for _ in range(15)])
+        found[waves] = contacts[..., 0, LARGEST].max(axis=(0, 2))
+    share = spring_params(scene.bearing, scene.numerics.laminae).cone_share
+    crest = size * {"cup": 1.0, "cone": share, "roller": 1.0 + share}[on]
+    approach, load = load_of_approach(scene.bearing, 20)
+    np.testing.assert_allclose(found[()], 0.0, atol=1.0)
+    np.testing.assert_allclose(
+        found[scene.waviness],
+        [np.interp(crest - apart, approach[::-1], load[::-1]), 0.0],
+        rtol=0.05,
+        atol=1.0,
+    )
 
 
 # With a profile the contact grows from the middle lamina by lamina, which no short series follows.

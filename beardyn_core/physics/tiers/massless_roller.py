@@ -200,7 +200,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
         angle = lanes.load(p.base.rollers, block, POCKET_ANGLE)
         load = lanes.constant(idle)
         # most rollers outside the load zone cost no more than this look
-        if any_positive(approach):
+        if any_positive(approach + p.highest):
             fetch_waves(lanes, block, later, p.waves)
             rate = rate_wave[0] * cosine + (rate_wave[1] * sine + rate_wave[2])
             rate = less_opening(lanes, block, SPEED, rate, p.bending, None)

@@ -52,6 +52,7 @@ class LumpedParameters(NamedTuple):
     sides: Any  # [1, 1, lane]: -1 in lanes of row 0, +1 in lanes of row 1
     faults: FaultParams | None
     waves: RollingWaveParams | None
+    highest: float  # bound of what waves and rims bring cup and cone nearer by [m]
     bending: BendingParams | None
     slide: SlideParams | None  # ``None``: without a film
 

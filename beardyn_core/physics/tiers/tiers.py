@@ -15,7 +15,7 @@ from beardyn_core.physics.bodies.layout import CONE_BODY, POSITION, TILT
 from beardyn_core.physics.cage.play import loose_params
 from beardyn_core.physics.pure_rolling import kinematic_params
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
-from beardyn_core.physics.rolling_waves import highest_wave, rolling_wave_params
+from beardyn_core.physics.rolling_waves import highest_points, highest_wave, rolling_wave_params
 from beardyn_core.physics.statics.roller_equilibrium import spring_params
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import tilt_restraint
@@ -28,6 +28,7 @@ from beardyn_core.physics.tiers.sliding import slide_params
 from beardyn_core.physics.tiers.start import initial_state, settle_lumped
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.tier_bending import bending_params, step_body
+from beardyn_core.scene.defect import every_patch
 from beardyn_core.scene.scene import Scene
 
 
@@ -72,6 +73,7 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         sides=sides,
         faults=tier_parameters.patches_or_none(base.effects.faults),
         waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
+        highest=highest_points(base.effects.faults, every_patch(scene.defects, scene.bearing)),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         slide=slide_params(scene),
     )
