@@ -163,7 +163,10 @@ class MonitorSettings:
     faint_sidebands: A[
         float, "and sidebands must make its evidence so many times that without them: cone and roller, [-]"
     ] = 1.3
-    faint_sharpest: A[float, "or strikes must make so much in one of `strike_bands`: cup, [-]"] = 0.4
+    faint_sharpest: A[
+        tuple[float, float],
+        "and strikes so much in one of `strike_bands`: cup and turns of the cage, cone and roller, [-]",
+    ] = (0.45, 0.2)
     foreign_strikes: A[
         float,
         "and what those of a comb that no part explains at any speed must make, for it may come from a "

@@ -206,14 +206,18 @@ def is_faint_fault(candidate: Candidate, settings: MonitorSettings) -> bool:
     Rollers that pass give a healthy bearing lines of the cup, and rollers that differ make them come and go
     with the cage: there an octave must strike more than theirs do. Those of cone and roller are a fault's
     where load zone or cage modulates them; combs without such sidebands were measured in healthy bearings.
+    Waves of cone and rollers have them too, where no background hides them, but are smooth.
     """
     if candidate.score < candidate.threshold + settings.faint_margin:
         return False
     if candidate.rival.own >= settings.faint_rival * candidate.evidence:
         return False
+    plain, modulated = settings.faint_sharpest
     if not candidate.pattern.sidebands:
-        return candidate.sharpest >= settings.faint_sharpest
-    return candidate.evidence >= settings.faint_sidebands * candidate.alone
+        return candidate.sharpest >= plain
+    return (
+        candidate.sharpest >= modulated and candidate.evidence >= settings.faint_sidebands * candidate.alone
+    )
 
 
 def temperature_state(temperature: float, heating: float, settings: MonitorSettings) -> str:
