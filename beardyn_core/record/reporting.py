@@ -50,7 +50,9 @@ class TopicCount:
     name: str
     type: str
     count: A[int, "messages"]
-    rate: A[float | None, "messages between the first and the last, [1/s]; ``None`` without such a span"]
+    rate: A[
+        float | None, "from the first message to the last, without leaps, [1/s]; ``None`` without such a span"
+    ]
 
 
 @dataclass(frozen=True)
@@ -139,6 +141,7 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
     )
     statuses = (each for _, told in run.diagnostics for each in told)
     pace, late = kept_pace(statuses, namespace_in(name for name, _ in times))
+    offset = StampOffset(run.source_time, earliest_stamp(run.truth))
     return Report(
         path=str(scan.path),
         size_bytes=scan.size_bytes,
@@ -149,7 +152,7 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         begin=min(map(min, own)) * 1e-9,
         end=max(map(max, own)) * 1e-9,
         topics=tuple(
-            TopicCount(name, its_type, len(each), _rate(each))
+            TopicCount(name, its_type, len(each), _rate(each, offset))
             for (name, its_type), each in sorted(times.items())
         ),
         attachments={name: len(data) for name, data in scan.attachments.items()},
@@ -195,9 +198,10 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     return tuple(missing_messages(published, recorded, before))
 
 
-def _rate(times: list[int]) -> float | None:
+def _rate(times: list[int], offset: StampOffset) -> float | None:
     begin, end = min(times), max(times)
-    return (len(times) - 1) * 1e9 / (end - begin) if end > begin else None
+    span = end - begin - offset.leapt(begin, end)
+    return (len(times) - 1) * 1e9 / span if span > 0 else None
 
 
 def gaps(run: Run) -> tuple[Gap, ...]:

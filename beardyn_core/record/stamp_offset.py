@@ -53,5 +53,9 @@ class StampOffset:
 
     def count_missing(self, last_ns: int, stamp_ns: int, step_ns: int) -> int:
         """Count the samples of a regular stream that are missing between two stamps; leaps lose none."""
-        leapt = sum(by for at, by in self._leaps if last_ns < at <= stamp_ns + step_ns)
+        leapt = self.leapt(last_ns, stamp_ns + step_ns)
         return max(round((stamp_ns - last_ns - leapt) / step_ns) - 1, 0)
+
+    def leapt(self, begin_ns: int, end_ns: int) -> int:
+        """Add up the leaps after a stamp and up to another, [ns]."""
+        return sum(by for at, by in self._leaps if begin_ns < at <= end_ns)
