@@ -130,15 +130,24 @@ class Recording:
         return any(_speaks_of(run_id, message.cdr) for run_id in self._last_words)
 
     def _give_up_waiting(self) -> None:
-        """Write what has waited for a truth in vain, unless the present run goes on."""
+        """Write what has waited for a truth in vain, unless the present run goes on, or none has begun."""
         if self.current is None:
-            self._open(None)
+            if self._is_between_runs():
+                self._early = self._early[len(self._early) // 2 :]  # the next run may begin with the rest
+                self._waiting = len(self._early)
+            else:
+                self._open(None)
             return
         for strands in self._strands.values():
             for message in strands.end(self._refuse):
                 self._refuse(message)
         self._waiting -= len(self._early)
         self._early.clear()
+
+    def _is_between_runs(self) -> bool:
+        """Tell whether all that waits goes on behind a run that is over: a file of that alone is of no run."""
+        idle = sum(each.entry.name in NOT_OF_A_RUN for each in self._early)
+        return bool(self.paths) and idle == self._waiting
 
     def _on_truth(self, entry: Topic, cdr: bytes) -> None:
         text = decode_string(cdr)
@@ -243,7 +252,7 @@ class Recording:
 
     def close(self, status: str) -> None:
         """Finish the present run; messages of the next wait for its truth."""
-        if self.current is None and (self._early or self._waiting):
+        if self.current is None and (self._early or self._waiting) and not self._is_between_runs():
             self._open(None)
         self._close_old()
         self.decide()

@@ -22,6 +22,7 @@ from beardyn_core.record.messages import (
     decode_diagnostics,
     encode_diagnostics,
     encode_string,
+    encode_time,
     header_stamp,
 )
 from beardyn_core.record.plot_values import FOLLOWER, value_topics
@@ -30,7 +31,7 @@ from beardyn_core.record.reading import read_run
 from beardyn_core.record.reporting import report
 from beardyn_core.record.topics import TOPICS, topic
 from beardyn_ros.diagnostics import TwinWatch
-from beardyn_ros.recording import Recording, free_name
+from beardyn_ros.recording import MESSAGES_BEFORE_TRUTH, Recording, free_name
 from beardyn_ros.run_state import FINISHED, INTERRUPTED, LEFT
 from test.ros.fake_twin import fake_history
 from test.ros.graph import Graph
@@ -334,6 +335,28 @@ def test_a_file_without_a_truth_has_the_last_word_of_the_twin(tmp_path: Path) ->
     recording.close("")
     assert len(recording.paths) == 1
     assert "/diagnostics" in recorded_topics(recording.paths[0])
+
+
+@pytest.mark.parametrize("count", [10, 2 * MESSAGES_BEFORE_TRUTH])
+def test_a_load_that_goes_on_behind_a_run_makes_no_file(tmp_path: Path, count: int) -> None:
+    """It is of the next run; where none has begun, it may be all that there is, and is kept."""
+    heard = topic("/clock"), encode_time(0)
+    recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
+    recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": "one"})))
+    recording.close("finished")
+    for _ in range(count):
+        recording.add(*heard)
+    recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": "two"})))
+    assert recording.current is not None
+    assert 10 <= recording.current.counts["/clock"] <= MESSAGES_BEFORE_TRUTH
+    recording.close("finished")
+    recording.add(*heard)
+    recording.close("the recorder was told to stop")
+    assert [path.name for path in recording.paths] == ["run.mcap", "run_2.mcap"]
+    alone = Recording(lambda _scene, number: free_name(tmp_path / "alone.mcap", number), "/axlebox")
+    alone.add(*heard)
+    alone.close("")
+    assert recorded_topics(tmp_path / "alone.mcap") == {"/clock"}
 
 
 def test_an_early_last_word_counts_where_the_run_before_said_nothing() -> None:
