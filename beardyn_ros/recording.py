@@ -145,7 +145,7 @@ class Recording:
         self._early.clear()
 
     def _is_between_runs(self) -> bool:
-        """Tell whether all that waits goes on behind a run that is over: a file of that alone is of no run."""
+        """Tell whether all that waits goes on behind a run that is over, and so is of none."""
         idle = sum(each.entry.name in NOT_OF_A_RUN for each in self._early)
         return bool(self.paths) and idle == self._waiting
 
