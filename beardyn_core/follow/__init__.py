@@ -14,7 +14,9 @@ regression          numbers from descriptors by kernel ridge regression
 forest              numbers from descriptors by trees
 fault_location      which part is spalled, with sets of parts that hold their promise
 familiarity         whether runs are of the kind learnt from: another box lies far from them
+mounting            a mounting of a sensor that is not as stated, in words
 estimator           the numbers that make an estimator, its card, and the file that keeps them
+mounting_search     what must be undone of a mounting for a strange signal to be familiar
 inference           what an estimator makes of a run
 shipped             estimators that are shipped, found by the bearing
 growth              how a spall grows with mileage, with its scatter

@@ -18,8 +18,8 @@ from beardyn_core.monitor.severity import narrow_width
 AXES = ("x", "y", "z")
 RACEWAYS = ("cup", "cone")
 THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
-_TWELFTHS = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
-_FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
+FINE = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
+LEVEL_FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
 _PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
 _TURNS = (1, 2)  # multiples of the shaft
 _BESIDE = 0.35  # of an order: how far the lines lie that a line is compared with
@@ -58,7 +58,7 @@ def names_of(axes: tuple[str, ...]) -> tuple[str, ...]:
         *(f"way_{part}" for part in RACEWAYS),
         *("louder", "way", *entry_exit_features.NAMES, *passage_profile.NAMES, *event_order.NAMES),
         *(f"band_{axis}_{middle:.0f}" for axis in axes for middle in THIRDS),
-        *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in _TWELFTHS),
+        *(f"fine_{axis}_{middle:.0f}" for axis in axes for middle in FINE),
         *(f"{line}_{what}_{axis}" for axis in axes for line in lines for what in ("level", "lead")),
     )
 
@@ -87,7 +87,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
         for part, order in nominal.items()
     }
     found = {
-        "shaft": log10(max(stretch.shaft_frequency, _FLOOR)),
+        "shaft": log10(max(stretch.shaft_frequency, LEVEL_FLOOR)),
         **_of_monitor(stretch, orders, plate),
         **_ways(stretch, passed, plate),
     }
@@ -98,7 +98,7 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     found |= event_order.order_of_events(stretch, louder, passed[louder], plate, axes)
     for k, axis in enumerate(axes):
         heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
-        for name, middles, share in (("band", THIRDS, 3), ("fine", _TWELFTHS, 12)):
+        for name, middles, share in (("band", THIRDS, 3), ("fine", FINE, 12)):
             levels = band_levels(heard, stretch.rate, middles, share)
             found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
     found |= _lines(stretch, orders, axes)
@@ -131,15 +131,23 @@ def _ways(stretch: Stretch, passed: dict[str, float], plate: NamePlate) -> dict[
 def band_levels(signal: Float, rate: float, middles: tuple[float, ...], share: int) -> dict[float, float]:
     """Measure bands, so many to an octave, against 1 m/s^2, [dB]; NaN from half of the sampling rate on."""
     power = np.abs(rfft(signal * np.hanning(len(signal)))) ** 2 / len(signal) ** 2 * (2.0 * 8.0 / 3.0)
-    frequency, half = np.arange(len(power)) * rate / len(signal), 2.0 ** (0.5 / share)
-    edges = np.searchsorted(frequency, [middle * half**side for middle in middles for side in (-1, 1)])
     sums = np.concatenate([[0.0], np.cumsum(power)])
-    levels = {}
-    for k, middle in enumerate(middles):
-        first, last = edges[2 * k], edges[2 * k + 1]
+    bands = bands_of(middles, share, rate, len(signal))
+    return {
+        middle: nan if band is None else _level(float(sums[band.stop] - sums[band.start]))
+        for middle, band in zip(middles, bands, strict=True)
+    }
+
+
+def bands_of(middles: tuple[float, ...], share: int, rate: float, samples: int) -> list[slice | None]:
+    """Find the lines of bands, so many to an octave, in the spectrum of a signal; none beyond it."""
+    frequency, half = np.arange(samples // 2 + 1) * rate / samples, 2.0 ** (0.5 / share)
+    found: list[slice | None] = []
+    for middle in middles:
+        first, last = np.searchsorted(frequency, [middle / half, middle * half]).tolist()
         inside = middle * half < 0.5 * rate and last > first
-        levels[middle] = _level(float(sums[last] - sums[first])) if inside else nan
-    return levels
+        found.append(slice(first, last) if inside else None)
+    return found
 
 
 def _lines(stretch: Stretch, orders: FaultFrequencies, axes: tuple[str, ...]) -> dict[str, float]:
@@ -165,4 +173,4 @@ def _line(weighted: Float, angle: Float, order: float) -> Float:
 
 
 def _level(power: float) -> float:
-    return 10.0 * log10(max(power, _FLOOR**2))
+    return 10.0 * log10(max(power, LEVEL_FLOOR**2))

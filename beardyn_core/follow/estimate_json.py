@@ -67,6 +67,7 @@ def estimates_object(found: Estimates) -> dict[str, Any]:
         },
         "known_load": None if found.known_load is None else load_object(found.known_load),
         "strangeness": found.strangeness,
+        "mountings": [keyed_fields(each) for each in found.mountings],
         "stretches": found.stretches,
         "shaft_frequency_Hz": found.shaft_frequency,
     }

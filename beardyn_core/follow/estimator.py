@@ -26,6 +26,7 @@ from beardyn_core.follow.familiarity import Familiarity
 from beardyn_core.follow.fault_location import PartEstimate, PartRule
 from beardyn_core.follow.forest import EventForest, Forest
 from beardyn_core.follow.known_load import KnownLoad
+from beardyn_core.follow.mounting import Mounting
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
@@ -101,6 +102,7 @@ class Estimates:
     stretches: A[int, "of the signal that were heard"]
     shaft_frequency: A[float, "middle of the stretches, [Hz]"]
     known_load: A[KnownLoad | None, "vertical, from outside of the vibration"] = None
+    mountings: A[tuple[Mounting, ...], "of the sensor that would make a strange signal familiar"] = ()
 
     @property
     def sentences(self) -> list[str]:
@@ -109,6 +111,9 @@ class Estimates:
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
             lines.append(f"{UNLIKE.format(self.strangeness)}; no numbers are reported")
+        if self.mountings:
+            said = ", or ".join(each.sentence for each in self.mountings)
+            lines.append(f"check how the sensor is mounted: the signal would be familiar if {said}")
         if self.known_load is not None:
             lines += [f"doubt: {each}" for each in self.known_load.doubts]
         return lines

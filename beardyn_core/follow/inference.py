@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Protocol
@@ -16,6 +17,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimates, Estimator
+from beardyn_core.follow.mounting_search import mountings_of
 from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.run import Run
 
@@ -79,16 +81,15 @@ def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, s
     """
     if doubt := doubt_of(estimator, bearing):
         raise InputError(f"{run.label}: {doubt}; train one with `beardyn train`")
-    rows = [
-        describe(stretch, estimator.orders, estimator.plate, estimator.axes)
-        for stretch in stretches_of(run, estimator, sensor)
-    ]
-    if not rows:
+    stretches = list(stretches_of(run, estimator, sensor))
+    if not stretches:
         raise InputError(
             f"{run.label}: has no {estimator.stretch:.2f} s of whole vibration in which the shaft turns "
             f"{FEWEST_TURNS:g} times one way; the estimator hears so much at once"
         )
-    return estimator.estimates(np.stack(rows))
+    rows = [describe(each, estimator.orders, estimator.plate, estimator.axes) for each in stretches]
+    found = estimator.estimates(np.stack(rows))
+    return replace(found, mountings=mountings_of(stretches, estimator)) if found.strangeness > 1.0 else found
 
 
 def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import isclose
 from typing import Any, NamedTuple
 
@@ -46,15 +46,9 @@ def describe_runs(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = A
     known = runs.labels_of(chosen, [*columns, "bearing_id", "condition"])
     plate = plate_of(runs)
     orders = frequencies(plate.roller_count, plate.pitch_diameter, plate.roller_diameter, plate.contact_angle)
-    kept = [AXES.index(axis) for axis in axes]
     rows = np.full((len(chosen), len(names_of(axes))), np.nan)
-    signals = runs.signals
-    time, turned = np.asarray(signals.time_vibration), np.asarray(signals.time_shaft)
-    rate = sampling_of(runs).rate
-    for k, run in enumerate(chosen):
-        heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
-        angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
-        rows[k] = describe(Stretch(rate, heard, angle, np.nan, 0), orders, plate, axes)
+    for k, stretch in enumerate(stretches_of_set(runs, part, axes)):
+        rows[k] = describe(stretch, orders, plate, axes)
     truth = {
         each.name: np.asarray(known[each.label], np.float64)
         if each.label in columns
@@ -63,6 +57,16 @@ def describe_runs(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = A
     }
     made = [f"{runs.folder}, ride {run}" for run in chosen] if is_one_bearing(runs) else known["bearing_id"]
     return Described(rows, truth, *(np.asarray(names).astype(str) for names in (made, known["condition"])))
+
+
+def stretches_of_set(runs: LabelledSet, part: str | None, axes: tuple[str, ...] = AXES) -> Iterator[Stretch]:
+    """Take vibration and shaft of the complete runs of a part of a set, one after the other."""
+    kept, rate = [AXES.index(axis) for axis in axes], sampling_of(runs).rate
+    time, turned = np.asarray(runs.signals.time_vibration), np.asarray(runs.signals.time_shaft)
+    for run in runs.runs_of(part):
+        heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
+        angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
+        yield Stretch(rate, heard, angle, np.nan, 0)
 
 
 def plate_of(runs: LabelledSet) -> NamePlate:
