@@ -130,7 +130,7 @@ class Recording:
         return any(_speaks_of(run_id, message.cdr) for run_id in self._last_words)
 
     def _give_up_waiting(self) -> None:
-        """Write what has waited for a truth in vain, unless the present run goes on, or none has begun."""
+        """Write what has waited for a truth in vain, unless a run goes on or the last one is over."""
         if self.current is None:
             if self._is_between_runs():
                 self._early = self._early[len(self._early) // 2 :]  # the next run may begin with the rest
@@ -145,7 +145,7 @@ class Recording:
         self._early.clear()
 
     def _is_between_runs(self) -> bool:
-        """Tell whether all that waits goes on behind a run that is over, and so is of none."""
+        """Check whether all that waits goes on behind a run that is over, and so is of none."""
         idle = sum(each.entry.name in NOT_OF_A_RUN for each in self._early)
         return bool(self.paths) and idle == self._waiting
 

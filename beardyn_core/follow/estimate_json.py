@@ -11,6 +11,7 @@ from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
 from beardyn_core.follow.known_load import KnownLoad
+from beardyn_core.follow.mounting import GAIN, TURNED, Mounting
 from beardyn_core.follow.rated_life import RatedLife
 from beardyn_core.follow.residual import Residual
 
@@ -18,7 +19,7 @@ from beardyn_core.follow.residual import Residual
 def forecast_object(remains: Forecast) -> dict[str, Any]:
     """Give what JSON has of a forecast."""
     return {
-        **keyed_fields(remains, without=("condition", "rated")),
+        **keyed_fields(remains, without=("condition", "rated"), other_laws="other_laws_m"),
         "rating": None if remains.rated is None else rating_object(remains.rated),
     }
 
@@ -67,7 +68,7 @@ def estimates_object(found: Estimates) -> dict[str, Any]:
         },
         "known_load": None if found.known_load is None else load_object(found.known_load),
         "strangeness": found.strangeness,
-        "mountings": [keyed_fields(each) for each in found.mountings],
+        "mountings": [mounting_object(each) for each in found.mountings],
         "stretches": found.stretches,
         "shaft_frequency_Hz": found.shaft_frequency,
     }
@@ -81,8 +82,21 @@ def _interval_object(estimate: Estimate, level: int) -> tuple[float, float | Non
     return low, None if isfinite(estimate.at_least) else high
 
 
+def mounting_object(mounting: Mounting) -> dict[str, Any]:
+    """Give what JSON has of a mounting of the sensor that is not as stated."""
+    return {
+        "kind": mounting.kind,
+        "axes": mounting.axes,
+        "angle_deg": mounting.amount if mounting.kind == TURNED else None,
+        "gain_dB": mounting.amount if mounting.kind == GAIN else None,
+        "strangeness": mounting.strangeness,
+    }
+
+
 def step_object(step: Followed) -> dict[str, Any]:
     """Give what JSON has of one stretch."""
+    estimates = estimates_object(step.estimates)
+    del estimates["mountings"]  # of a whole recording alone
     return {
         "time_s": step.time,
         "distance_m": step.distance,
@@ -90,7 +104,7 @@ def step_object(step: Followed) -> dict[str, Any]:
         "doubts": step.doubts,
         "changed": step.changed,
         "surprise": step.surprise,
-        **estimates_object(step.estimates),
+        **estimates,
         "growth_m2_per_m": step.rate[0],
         "growth_factor_90": step.rate[1],
         "names": step.names,

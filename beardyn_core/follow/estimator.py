@@ -113,7 +113,7 @@ class Estimates:
             lines.append(f"{UNLIKE.format(self.strangeness)}; no numbers are reported")
         if self.mountings:
             said = ", or ".join(each.sentence for each in self.mountings)
-            lines.append(f"check how the sensor is mounted: the signal would be familiar if {said}")
+            lines.append(f"check mounting and gain of the sensor: the signal would be familiar if {said}")
         if self.known_load is not None:
             lines += [f"doubt: {each}" for each in self.known_load.doubts]
         return lines

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import isfinite, nan, pi
 from typing import TYPE_CHECKING
 from typing import Annotated as A
@@ -12,7 +13,7 @@ import numpy as np
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
-from beardyn_core.follow.growth import GrowthLaw, drawn_between
+from beardyn_core.follow.growth import GrowthLaw, PowerLaw, drawn_between, other_laws
 from beardyn_core.follow.rated_life import RatedLife
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
@@ -43,6 +44,10 @@ class Forecast:
         "share of L10r that is used, least, likely, most; NaN unknown",
     ]
     rated: A[RatedLife | None, "rating life under a load that is known, with intervals"] = None
+    other_laws: A[
+        Mapping[str, tuple[float, float, float]],
+        "the same mileage by other laws of growth, by their names; empty without one",
+    ] = field(default_factory=dict)
 
     @property
     def sentences(self) -> list[str]:
@@ -61,6 +66,12 @@ class Forecast:
                 f"spall of the {self.condition}: {1e3 * self.widest:.0f} mm wide in {middle} km, 90 % "
                 f"interval {low} to {high} km; {when}"
             )
+            if self.other_laws:
+                others = ", ".join(
+                    f"{name} {middle / 1e3:,.0f} km ({low / 1e3:,.0f} to {high / 1e3:,.0f})"
+                    for name, (low, middle, high) in self.other_laws.items()
+                )
+                lines.append(f"by other laws of growth with the same rate at the critical area: {others}")
         elif self.condition != HEALTHY:
             lines.append(
                 f"spall of the {self.condition}: how wide it can be is not known, so no mileage is given"
@@ -110,18 +121,21 @@ def forecast(
     has no mileage left: its width is known too badly for one. The load of the stretches heard stands for the
     whole mileage.
     """
+    law = law or GrowthLaw()
     condition = HEALTHY if found.part is None else found.part.condition
     widest = service.widest or min(WIDEST_FORECAST, pi * bearing.pitch_diameter / bearing.roller_count)
+    remaining, others = _remaining(found, widest, law)
     if rated is not None:
         return Forecast(
             condition,
             widest,
-            _remaining(found, widest, law or GrowthLaw()),
+            remaining,
             rated.equivalent_load[1],
             rated.basic[1],
             rated.reference_basic[1],
             rated.used_basic,
             rated,
+            others,
         )
     classes = [_class_of(found, k) for k in range(3)]
     life = [None if each is None else _life_of(each, found, bearing, lubricant) for each in classes]
@@ -131,28 +145,36 @@ def forecast(
     return Forecast(
         condition,
         widest,
-        _remaining(found, widest, law or GrowthLaw()),
+        remaining,
         nan if likely is None else likely.equivalent_load,
         nan if likely is None else likely.basic * around,
         nan if likely is None else likely.reference_basic * around,
         (used[0], used[1], used[2]) if service.mileage else (nan, nan, nan),
+        other_laws=others,
     )
 
 
-def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[float, float, float]:
-    """Draw mileages until the spall is too wide, and give their quantiles, [m]."""
+Mileages = tuple[float, float, float]
+
+
+def _remaining(found: Estimates, widest: float, law: GrowthLaw) -> tuple[Mileages, dict[str, Mileages]]:
+    """Draw mileages until the spall is too wide; give their quantiles, and those by other laws, [m]."""
     width = _estimate(found, "width")
     length = _estimate(found, "length")
     if width is not None and _must_come_out(width, widest):
-        return _NOTHING
+        return _NOTHING, {}
     if width is None or not isfinite(width.value) or length is None or not length.intervals:
-        return nan, nan, nan
+        return (nan, nan, nan), {}
     random = np.random.default_rng(_SEED)
     across = drawn_between(length.intervals[-1], _DRAWS, random)
     area = across * drawn_between(width.intervals[-1], _DRAWS, random)
-    distance = law.distance(area, across * widest, law.rates(_DRAWS, random))
-    low, middle, high = np.quantile(distance, _QUANTILES).tolist()
-    return low, middle, high
+    rates = law.rates(_DRAWS, random)
+
+    def mileages(grows: GrowthLaw | PowerLaw) -> Mileages:
+        low, middle, high = np.quantile(grows.distance(area, across * widest, rates), _QUANTILES).tolist()
+        return low, middle, high
+
+    return mileages(law), {name: mileages(each) for name, each in other_laws(law).items()}
 
 
 def _must_come_out(width: Estimate, widest: float) -> bool:

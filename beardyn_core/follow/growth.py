@@ -1,4 +1,4 @@
-"""How a spall grows with mileage, and how far it may run: a law with its scatter, not a number."""
+"""How a spall grows with mileage, and how far it may run: laws with their scatter, not a number."""
 
 from __future__ import annotations
 
@@ -54,6 +54,42 @@ class GrowthLaw:
     def rates(self, count: int, random: np.random.Generator) -> Float:
         """Draw rates of bearings, lognormal, shape [count], [m^2/m]."""
         return self.rate * np.exp(random.normal(0.0, log(self.rate_spread) / NORMAL_90, count))
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """Growth of the area of a spall at a rate that goes with a power of the area.
+
+    A published family for rolling bearings, whose exponent is fitted to each of them; the exponents beside
+    which a forecast is shown, 0, 1/2 and 1, are **assumed**, as the rate at the reference area is.
+
+    References
+    ----------
+    Li, Kurfess, Liang (2000), Mech. Syst. Signal Process. 14, 747: defect growth at a power of its size, with
+    a lognormal factor.
+    """
+
+    exponent: A[float, At(ge=0.0, le=2.0), "0: linear in mileage, 1: exponential; assumed"]
+    reference_area: A[float, At(gt=0.0), "at which the rate is given, [m^2]; assumed"] = 250.0e-6
+    rate: A[float, At(gt=0.0), "median there, [m^2/m]; assumed"] = 1.0e-10
+
+    def __post_init__(self) -> None:
+        refuse(self, "growth of a spall")
+
+    def distance(self, begin: Float, end: Float, rate: Float) -> Float:
+        """Compute the distance in which areas grow from one to another at their rates, [m]; 0 where grown."""
+        first, last = begin / self.reference_area, np.maximum(end, begin) / self.reference_area
+        left = 1.0 - self.exponent
+        grown = np.log(last / first) if left == 0.0 else (last**left - first**left) / left
+        return np.asarray(self.reference_area * grown / rate, np.float64)
+
+
+def other_laws(law: GrowthLaw) -> dict[str, PowerLaw]:
+    """Give other laws of growth that have the rate of one at its critical area, by their names."""
+    return {
+        name: PowerLaw(exponent, law.critical_area, law.rate)
+        for name, exponent in (("linear", 0.0), ("root of the area", 0.5), ("exponential", 1.0))
+    }
 
 
 def drawn_between(interval: tuple[float, float], count: int, random: np.random.Generator) -> Float:

@@ -15,11 +15,12 @@ class Mounting:
     """A mounting of the sensor that would make a strange signal familiar."""
 
     kind: A[str, "``exchanged``, ``turned`` or ``gain``"]
-    axes: A[
-        tuple[str, ...],
-        "that are exchanged, in the order in which they are to be read; turned about; amplified",
+    axes: A[tuple[str, ...], "of the channels in their order; the one turned about; those with another gain"]
+    amount: A[
+        float,
+        "angle by which the sensor is turned by the rule of the right hand [degree], or gain over the one "
+        "stated [dB]; 0 of an exchange",
     ]
-    amount: A[float, "angle it is turned by [degree], or gain that is too high [dB]; 0 of an exchange"]
     strangeness: A[float, "of the signal with it undone, [-]"]
 
     @property

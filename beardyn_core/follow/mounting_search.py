@@ -38,8 +38,8 @@ def mountings_of(stretches: Sequence[Stretch], estimator: Estimator) -> tuple[Mo
     Returns
     -------
     tuple of Mounting
-        Best first, and those within `AS_GOOD` of it, one of each kind and axes. Empty where the signal is
-        familiar as it is, or nothing makes it so.
+        Best first, and other familiar ones within `AS_GOOD` of it, one of each kind and axes. Empty where
+        the signal is familiar as it is, or nothing makes it so.
 
     Notes
     -----
@@ -48,21 +48,21 @@ def mountings_of(stretches: Sequence[Stretch], estimator: Estimator) -> tuple[Mo
     """
     if estimator.axes != AXES or not stretches:
         return ()
-    powers, wanted = np.stack([cross_powers(each) for each in stretches]), _Wanted(estimator)
-    if wanted.strangeness(powers, np.eye(len(AXES))) <= 1.0:
+    powers, levels = np.stack([cross_powers(each) for each in stretches]), _Levels(estimator)
+    if levels.strangeness(powers, np.eye(len(AXES))) <= 1.0:
         return ()
     found = sorted(
-        _candidates(lambda turn: wanted.strangeness(powers, turn)), key=lambda each: each.strangeness
+        _candidates(lambda turn: levels.strangeness(powers, turn)), key=lambda each: each.strangeness
     )
     if not found or found[0].strangeness > 1.0:
         return ()
-    return tuple(each for each in found if each.strangeness <= found[0].strangeness + AS_GOOD)
+    return tuple(each for each in found if each.strangeness <= min(found[0].strangeness + AS_GOOD, 1.0))
 
 
 def strangeness_of(stretches: Sequence[Stretch], estimator: Estimator) -> float:
     """Measure how unlike what was learnt from stretches of three axes are by their levels, middle of them."""
     powers = np.stack([cross_powers(each) for each in stretches])
-    return _Wanted(estimator).strangeness(powers, np.eye(len(AXES)))
+    return _Levels(estimator).strangeness(powers, np.eye(len(AXES)))
 
 
 def cross_powers(stretch: Stretch) -> Float:
@@ -76,7 +76,7 @@ def cross_powers(stretch: Stretch) -> Float:
     return found
 
 
-class _Wanted:
+class _Levels:
     """Distance of levels from those that an estimator was learnt from."""
 
     def __init__(self, estimator: Estimator) -> None:
@@ -101,16 +101,16 @@ def _candidates(strangeness: Callable[[Float], float]) -> Iterator[Mounting]:
             restored = np.eye(len(AXES))[np.argsort(order)]
             yield Mounting(EXCHANGED, tuple(AXES[k] for k in order), 0.0, strangeness(restored))
     for about in range(len(AXES)):
-        undo = partial(_turned_back, about)
-        yield from _searched(TURNED, (AXES[about],), LEAST_TURN, FARTHEST_TURN, undo, strangeness)
+        undo = partial(undo_turn, about)
+        yield from _search_amount(TURNED, (AXES[about],), LEAST_TURN, FARTHEST_TURN, undo, strangeness)
     for which in (tuple(range(len(AXES))), *((k,) for k in range(len(AXES)))):
-        undo = partial(_amplified_back, which)
-        yield from _searched(
+        undo = partial(undo_gain, which)
+        yield from _search_amount(
             GAIN, tuple(AXES[k] for k in which), LEAST_GAIN, FARTHEST_GAIN, undo, strangeness
         )
 
 
-def _searched(
+def _search_amount(
     kind: str,
     axes: tuple[str, ...],
     least: float,
@@ -130,17 +130,20 @@ def _searched(
         yield Mounting(kind, axes, best, strangeness(undo(best)))
 
 
-def _turned_back(about: int, degrees: float) -> Float:
-    """Give the matrix that undoes a turn about an axis."""
+def undo_turn(about: int, degrees: float) -> Float:
+    """Give the matrix from what a sensor records that is turned about an axis to the axes stated.
+
+    By the rule of the right hand: turned by 90 degrees about x, its y axis points along z.
+    """
     one, two = (about + 1) % 3, (about + 2) % 3
     turn = np.eye(3)
     turn[one, one] = turn[two, two] = cos(radians(degrees))
-    turn[one, two], turn[two, one] = sin(radians(degrees)), -sin(radians(degrees))
+    turn[one, two], turn[two, one] = -sin(radians(degrees)), sin(radians(degrees))
     return turn
 
 
-def _amplified_back(which: Sequence[int], decibels: float) -> Float:
-    """Give the matrix that undoes a gain of some axes."""
+def undo_gain(which: Sequence[int], decibels: float) -> Float:
+    """Give the matrix from what a sensor records whose axes have a gain over the one stated to the truth."""
     gain = np.eye(3)
     for k in which:
         gain[k, k] = 10.0 ** (-decibels / 20.0)

@@ -72,10 +72,10 @@ def highest_wave(faults: FaultParams) -> float:
 def highest_points(faults: FaultParams, patches: Sequence[Patch]) -> float:
     """Bound how much nearer waves and rims bring cup and cone to each other over a roller, [m].
 
-    A roller has its own on both sides.
+    A roller has its own on both sides. Beside a soft edge on the other ring a rim counts up to twice.
     """
     waves = faults.cup_waves, faults.cone_waves, faults.roller_waves, faults.roller_waves
-    rims = sum(patch.rim_height * (2.0 if patch.on == "roller" else 1.0) for patch in patches)
+    rims = sum(2.0 * patch.rim_height * (2.0 if patch.on == "roller" else 1.0) for patch in patches)
     return float(sum(np.abs(each.table).max() for each in waves if each is not None)) + rims
 
 

@@ -140,7 +140,8 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         collect_diagnostic(run, "energy_residual"),
     )
     statuses = (each for _, told in run.diagnostics for each in told)
-    pace, late = kept_pace(statuses, namespace_in(name for name, _ in times))
+    space = namespace_in(name for name, _ in times)
+    pace, late = kept_pace(statuses, space)
     offset = StampOffset(run.source_time, earliest_stamp(run.truth))
     return Report(
         path=str(scan.path),
@@ -152,7 +153,7 @@ def _report(scan: McapScan | BagScan, run: Run, times: Mapping[tuple[str, str], 
         begin=min(map(min, own)) * 1e-9,
         end=max(map(max, own)) * 1e-9,
         topics=tuple(
-            TopicCount(name, its_type, len(each), _rate(each, offset))
+            TopicCount(name, its_type, len(each), _rate(each, offset if _is_of_twin(name, space) else None))
             for (name, its_type), each in sorted(times.items())
         ),
         attachments={name: len(data) for name, data in scan.attachments.items()},
@@ -198,9 +199,14 @@ def _missing(run: Run, times: Mapping[tuple[str, str], list[int]]) -> tuple[Miss
     return tuple(missing_messages(published, recorded, before))
 
 
-def _rate(times: list[int], offset: StampOffset) -> float | None:
+def _is_of_twin(name: str, namespace: str) -> bool:
+    """Tell a topic of the twin of a namespace, whose stamps leap with it, from one that goes on meanwhile."""
+    return name.startswith(f"{namespace}/") and not name.endswith(NOT_OF_THE_TWIN)
+
+
+def _rate(times: list[int], offset: StampOffset | None) -> float | None:
     begin, end = min(times), max(times)
-    span = end - begin - offset.leapt(begin, end)
+    span = end - begin - (0 if offset is None else offset.leapt(begin, end))
     return (len(times) - 1) * 1e9 / span if span > 0 else None
 
 

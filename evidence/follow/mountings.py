@@ -26,7 +26,7 @@ from beardyn_core.monitor.chain import Stretch
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.follow.boxes import NEXT as BEFORE
 from evidence.follow.boxes import PAGE, SHIPPED
-from evidence.pages import with_section
+from evidence.pages import write_section
 
 TITLE = "## A sensor that is not mounted as stated\n"
 FAMILIAR, UNEXPLAINED, RIGHT, AMONG, WRONG = "familiar", "unexplained", "right", "among others", "wrong"
@@ -46,8 +46,8 @@ named; *right*: the mistake alone is named, a turn within {{turn:g}}° and a gai
 |---{"|--:" * len(OUTCOMES)}|
 """
 TAIL = """A gain
-that is wrong by less than the levels of the population differ, as 6 dB of all axes are, is not noticed, and
-shifts what is estimated; a reversed axis has the same levels; two mistakes at once are not looked for.
+that is wrong by less than the levels of the population differ is not noticed; what it does to the estimates
+is not measured here. A reversed axis has the same levels; two mistakes at once are not looked for.
 
 """
 
@@ -83,11 +83,12 @@ def mistakes() -> tuple[Mistake, ...]:
 
 
 def _turned(about: int, degrees: float) -> Float:
+    """Give the axes, as rows, of a sensor that is turned by the rule of the right hand."""
     one, two = (about + 1) % 3, (about + 2) % 3
-    turn = np.eye(3)
-    turn[one, one] = turn[two, two] = cos(radians(degrees))
-    turn[one, two], turn[two, one] = -sin(radians(degrees)), sin(radians(degrees))
-    return turn
+    rows = np.eye(3)
+    rows[one, [one, two]] = cos(radians(degrees)), sin(radians(degrees))
+    rows[two, [one, two]] = -sin(radians(degrees)), cos(radians(degrees))
+    return rows
 
 
 def outcome(stretch: Stretch, mistake: Mistake, estimator: Estimator) -> str:
@@ -136,8 +137,7 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("own", type=Path, metavar="OWN", help="set of the sweep high_speed_axlebox")
     parser.add_argument("boxes", type=Path, metavar="BOXES", help="set of the sweep high_speed_boxes")
     args = parser.parse_args(words)
-    text = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(with_section(text, TITLE, section(args.own, args.boxes), BEFORE), encoding="utf-8")
+    write_section(PAGE, TITLE, section(args.own, args.boxes), BEFORE)
     return 0
 
 

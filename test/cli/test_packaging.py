@@ -23,6 +23,7 @@ FROM_PIP = {
     "gmsh",
     "mcap",
     "amqtt",
+    "colcon-package-information",
     "colcon-ros",
     "colcon-test-result",
     "foxglove-sdk",

@@ -12,7 +12,7 @@ from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.fault_location import PartEstimate
 from beardyn_core.follow.forecast import SOON, Forecast, forecast
-from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, drawn_between
+from beardyn_core.follow.growth import NORMAL_90, GrowthLaw, PowerLaw, drawn_between
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.follow.service import Service
 from beardyn_core.physics.statics.rating_life import LoadClass, rating_life
@@ -53,6 +53,28 @@ def test_area_grows_slowly_up_to_the_critical_one_and_linearly_beyond() -> None:
     np.testing.assert_allclose(
         law.distance(begin, end, np.full(3, 1e-10)), [150e-6 / 0.25e-10 + 200e-6 / 1e-10, 150e-6 / 1e-10, 0.0]
     )
+
+
+@pytest.mark.parametrize("exponent", [0.0, 0.3, 1.0, 1.7])
+def test_power_laws_cover_the_distance_in_which_small_steps_add_up(exponent: float) -> None:
+    law = PowerLaw(exponent, 250e-6, 1e-10)
+    area, steps = np.linspace(80e-6, 600e-6, 20_001), 1e-10
+    middles = 0.5 * (area[1:] + area[:-1])
+    naive = np.sum(np.diff(area) / (steps * (middles / 250e-6) ** exponent))
+    (found,) = law.distance(np.array([80e-6]), np.array([600e-6]), np.array([steps]))
+    assert found == pytest.approx(naive, rel=1e-6)
+    assert law.distance(np.array([3e-4]), np.array([2e-4]), np.array([steps])) == 0.0
+
+
+def test_other_laws_are_told_beside_the_one_that_is_assumed() -> None:
+    told = made()
+    assert list(told.other_laws) == ["linear", "root of the area", "exponential"]
+    middles = [each[1] for each in told.other_laws.values()]
+    # of 200 to 750 mm2: the larger it is, the faster it grows
+    assert middles == sorted(middles, reverse=True)
+    assert all(low < middle < high for low, middle, high in told.other_laws.values())
+    assert f"exponential {middles[-1] / 1e3:,.0f} km" in told.sentences[1]
+    assert made(condition="healthy").other_laws == made(40e-3).other_laws == {}
 
 
 def test_a_wider_spall_or_a_faster_growth_leaves_less() -> None:
