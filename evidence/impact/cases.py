@@ -52,6 +52,7 @@ class Case:
     shortest_wave: A[float, "where the waves of all surfaces end, [m]"] = SHORTEST_WAVE
     waves: A[bool, "raceways and rollers have waves"] = True
     steps: A[int, "a sample of 25.6 kHz"] = 8
+    bearing: A[int, "of the lot; 0 that of the scene"] = 0
 
     def scene(self) -> Scene:
         """Make the scene of the run, from `cup_spall` with its scatter of grade G1."""
@@ -68,6 +69,7 @@ class Case:
         )  # fmt: skip
         assert scene.scatter is not None
         scatter = replace(scene.scatter, shortest_wave=self.shortest_wave)
+        scatter = replace(scatter, seed=self.bearing or scatter.seed)
         if not self.waves:
             scatter = replace(scatter, raceway_waviness=0.0, roller_waviness=0.0)
         return replace(

@@ -18,6 +18,8 @@ class Anchor:
     says why ours is known to lie outside; `slow` rows are dynamic runs, and what warms
     slowly like another row. `beside`: ours is a formula of the
     literature that stands in `evidence` alone, or what the twin's sensors do not read; it does not count.
+    `by_chance`: what ours may change by with any other draw; nearer to the limit no verdict is held against
+    the page.
     `measured`: the reference comes from an instrument, not from a formula, a catalogue or another model.
     """
 
@@ -33,6 +35,7 @@ class Anchor:
     slow: bool = False
     beside: bool = False
     measured: bool = False
+    by_chance: float = 0.0
 
     @property
     def allowed(self) -> float:
@@ -42,6 +45,10 @@ class Anchor:
     def agrees(self, ours: float) -> bool:
         """Return whether our number is within the tolerance."""
         return bool(abs(ours - self.reference) <= self.allowed)
+
+    def is_certain(self, ours: float) -> bool:
+        """Return whether another draw would leave the verdict as it is."""
+        return bool(abs(abs(ours - self.reference) - self.allowed) >= self.by_chance)
 
 
 @dataclass(frozen=True)

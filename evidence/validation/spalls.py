@@ -114,9 +114,12 @@ def sound_ringing(speed: float, shortest_wave: float = SHORTEST_WAVE) -> float:
 
 
 def sound_crest(speed: float) -> float:
-    """Return the crest factor of a healthy bearing at a speed [km/h]."""
-    signal = run(healthy(speed)).signal
-    return float(np.abs(signal).max() / np.sqrt(np.mean(signal**2)))
+    """Return the crest factor of healthy bearings at a speed [km/h], median of nine of a lot.
+
+    The largest value of one run is a matter of chance.
+    """
+    signals = [run(replace(healthy(speed), bearing=bearing)).signal for bearing in range(1, 10)]
+    return float(np.median([np.abs(each).max() / np.sqrt(np.mean(each**2)) for each in signals]))
 
 
 def shown(values: Sequence[float], form: str = ".3g") -> str:
@@ -292,7 +295,7 @@ ANCHORS = (
     *(
         Anchor(
             TOPIC,
-            f"crest factor of a healthy bearing, {speed:g} km/h",
+            f"crest factor of healthy bearings, {speed:g} km/h",
             4.9,
             "",
             CREST,
@@ -301,6 +304,7 @@ ANCHORS = (
             misses=STILL,
             slow=True,
             measured=True,
+            by_chance=0.08,  # of a median of nine that scatter by 0.2
         )
         for speed in BOTH
     ),
