@@ -4,7 +4,8 @@ A scene with ``axleboxes`` says which there are, which are faulty and how far ap
 twins of all in one process, and one recorder writes one file. Any other scene is that of every box of a car,
 each a twin in a process of its own, and a file each. Namespaces are ``/car/axle_1_left`` and so on; right
 boxes are mirrored, each has another bearing of the lot. Whatever ends first ends the others in order:
-after the load the twins finish what they have, after the twins the recorder closes its files. A node that
+after the load the twins finish what they have, after the twins the recorder closes its files, and the
+monitors and followers of the boxes, where they are asked for, say their last words. A node that
 fails, or goes before it is done, is told, load and twins are stopped, and the recorder closes its files after
 them; the launch then ends with 1.
 """
@@ -33,7 +34,7 @@ from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.axleboxes import Box
 from beardyn_ros.launching import failure_of
-from beardyn_ros.rig import CAR, boxes_named, place_of
+from beardyn_ros.rig import CAR, axleboxes_of, boxes_named, place_of
 
 PATIENCE_S, GRACE_S = 20.0, 5.0
 
@@ -65,6 +66,9 @@ ARGUMENTS = (
     ),
     ("publish_clock", "true", "publish /clock; one car of several"),
     ("use_sim_time", "false", "clocks of the nodes follow /clock; the results do not depend on it"),
+    ("monitor", "false", "start a monitor of every box"),
+    ("follower", "false", "start a follower of every box"),
+    ("bearing", "HS130x230", "bearing data that monitors and followers read"),
     ("recorder", "true", "record every box"),
     (
         "output",
@@ -133,6 +137,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     # the nodes check the scene; this looks only whether axleboxes are there
     if read_file(find("scenes", given["scene"])).get("axleboxes") is not None:
         twins = twins_of_the_scene(car, given, publish_clock=clock, **of_all)
+        boxes = boxes_named(given["boxes"], axleboxes_of(given["scene"]) or CAR)
     else:
         distances = {name: float(given[name]) for name in ("axle_distance", "bogie_distance") if given[name]}
         boxes = boxes_named(given["boxes"])
@@ -142,8 +147,14 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     load = process("car_load", "load", car, **words, **of_load)
     recorder = process("car_recorder", "recorder", car, **words, **clocks, output=given["output"])
     recorders = [recorder] if given["recorder"] == "true" else []
+    judges = [
+        process(name, name, f"{car}/{box.name}", bearing=given["bearing"], **clocks)
+        for name in ("monitor", "follower")
+        if given[name] == "true"
+        for box in boxes
+    ]
     running = [*twins, load]
-    everything = [*running, *recorders]
+    everything = [*running, *recorders, *judges]
     ended: set[Node] = set()
     timers: list[TimerAction] = []
 
@@ -180,7 +191,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     handlers = [
         RegisterEventHandler(OnProcessExit(target_action=node, on_exit=on_exit)) for node in everything
     ]
-    return [*failure_of(everything), *handlers, *twins, *recorders, load]
+    return [*failure_of(everything), *handlers, *twins, *recorders, *judges, load]
 
 
 def generate_launch_description() -> LaunchDescription:

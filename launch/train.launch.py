@@ -29,6 +29,9 @@ ARGUMENTS = (
     ("duration", "0.0", "simulated time, s; 0: the scene's own"),
     ("speed_factor", "1.0", "simulated seconds per wall second, 0 is as fast as it goes"),
     ("use_sim_time", "false", "clocks of the nodes follow /clock"),
+    ("monitor", "false", "start a monitor of every box"),
+    ("follower", "false", "start a follower of every box"),
+    ("bearing", "HS130x230", "bearing data that monitors and followers read"),
     ("recorder", "true", "record every box"),
     ("output", "train.mcap", "file of the recorders; car 1 has train_car_1.mcap, or a file a box"),
 )
@@ -42,6 +45,9 @@ SAME = (
     "duration",
     "speed_factor",
     "use_sim_time",
+    "monitor",
+    "follower",
+    "bearing",
 )
 
 

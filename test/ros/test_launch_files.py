@@ -146,6 +146,20 @@ def test_cars_of_a_train_have_namespaces_and_files_of_their_own_and_one_clock(gr
     assert "somebody else publishes /clock" not in launch.log
 
 
+def test_every_box_of_a_car_has_a_monitor_and_a_follower_whose_words_are_recorded(graph: Graph) -> None:
+    boxes = ("axle_1_left", "axle_2_right")
+    launch = Launch(
+        graph, "car.launch.py", f"boxes:={' '.join(boxes)}", "monitor:=true", "follower:=true",
+        "duration:=2.0", "speed_factor:=2.0", f"output:={graph.folder / 'car.mcap'}",
+    )  # fmt: skip
+    wanted = {f"car/{box}/{name}" for box in boxes for name in ("twin", "monitor", "follower")}
+    assert launch.exits() == dict.fromkeys(wanted | {"car/load", "car/recorder"}, 0)
+    for box in boxes:
+        found = report(graph.folder / f"car_{box}.mcap")
+        topics = {each.name for each in found.topics}
+        assert {f"/car/{box}/monitor/result", f"/car/{box}/follower/estimate"} <= topics
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
