@@ -159,8 +159,9 @@ otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a
 `box`: right ones are mirrored. Every box has a file of its own, `car_<box>.mcap`. `car_twin` has these in
 one process, too, the defects of the scene in those of `faulty`; beside it go `car_load` and `car_recorder`:
 `ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`. The first
-twin publishes `/clock`. `monitor:=true` and `follower:=true` start a monitor and a follower of every box beside its
-twin, each in its namespace, with `bearing:=` as their bearing data; the recorder keeps what they say.
+twin publishes `/clock`. `monitor:=true` and `follower:=true` start a monitor and a follower of every box
+beside its twin, each in its namespace, with `bearing:=` as their bearing data; the recorder keeps what they
+say.
 
 `ros2 launch beardyn train.launch.py cars:=2` starts several such cars, `/train/car_1` and so on, each with a
 load and recordings of its own (`train_car_1.mcap`, or `train_car_1_<box>.mcap`) and at the pace of the clock;
