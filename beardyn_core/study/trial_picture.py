@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from beardyn_core.monitor.chain import FAULTS as PARTS
-from beardyn_core.scene.trial import HEALTHY
+from beardyn_core.scene.trial import CAGE, HEALTHY
 from beardyn_core.study.trial_report import rate_text
 from beardyn_core.study.trial_result import FOUND_AT, TrialResult, own_score
 
 WIDTH_PX, HEIGHT_PX, DPI = 1200, 520, 100
-_COLOURS = {"cup": "#4C72B0", "cone": "#DD8452", "roller": "#55A868"}
+_COLOURS = {"cup": "#4C72B0", "cone": "#DD8452", "roller": "#55A868", CAGE: "#8172B3"}
 _APART = 1.03  # by which neighbours are moved, so that their bars do not cover each other
 
 
@@ -46,7 +46,7 @@ def _draw_rates(axes: Axes, result: TrialResult) -> None:
         value = [row.found.value for row in own]
         below = [max(0.0, row.found.value - row.found.low) for row in own]
         above = [max(0.0, row.found.high - row.found.value) for row in own]
-        label = f"spall on {fault}"
+        label = "worn pocket of the cage" if fault == CAGE else f"spall on {fault}"
         axes.errorbar(width, value, (below, above), marker="o", capsize=3, color=_COLOURS[fault], label=label)
     axes.axhline(FOUND_AT, color="0.6", linewidth=0.8, linestyle="--")
     axes.set(ylim=(-0.03, 1.03), ylabel="found and named right, with 95 % interval")
@@ -78,5 +78,5 @@ def _size_axis(axes: Axes, result: TrialResult) -> None:
     axes.set_xticks([1e3 * size for size in result.trial.sizes])
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("width of the spall, mm")
+    axes.set_xlabel("width of the spall, mm" if result.trial.faults != (CAGE,) else "wear of the pocket, mm")
     axes.grid(alpha=0.3)

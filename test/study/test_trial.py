@@ -20,6 +20,7 @@ from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.trial import FAULTS, HEALTHY, Cell, Trial
 from beardyn_core.study import trial as trial_module
 from beardyn_core.study.trial import RUNS_FILE, TrialRun, conduct, conduct_run, plan_of, read_runs, run_digest
+from beardyn_core.study.trial_picture import trial_picture
 from beardyn_core.study.trial_report import json_object, slices, table
 from beardyn_core.study.trial_result import Rate, TrialResult
 
@@ -146,7 +147,7 @@ def test_a_monitor_that_fails_costs_no_other_run(monkeypatch: pytest.MonkeyPatch
     assert f"  {one.key}: {failed.status}" in table(result).splitlines()
 
 
-def test_five_hundred_sound_bearings_and_worn_pockets_can_be_put_on_trial() -> None:
+def test_five_hundred_healthy_bearings_and_worn_pockets_can_be_put_on_trial(tmp_path: Path) -> None:
     cells = load_trial("healthy_500").cells()
     assert {cell.fault for cell in cells} == {HEALTHY}
     assert len(cells) >= 500
@@ -157,6 +158,8 @@ def test_five_hundred_sound_bearings_and_worn_pockets_can_be_put_on_trial() -> N
     assert result.detection().count == 0
     assert result.detection().total == 1
     assert "cage" in table(result)
+    trial_picture(result, tmp_path / "trial.png")
+    assert (tmp_path / "trial.png").stat().st_size > 10_000
 
 
 BAD = """trial: bad
