@@ -166,7 +166,7 @@ class MonitorSettings:
     faint_sharpest: A[
         tuple[float, float],
         "and strikes so much in one of `strike_bands`: cup and turns of the cage, cone and roller, [-]",
-    ] = (0.45, 0.2)
+    ] = (0.45, 0.25)
     foreign_strikes: A[
         float,
         "and what those of a comb that no part explains at any speed must make, for it may come from a "
