@@ -15,8 +15,10 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.follow.descriptors import AXES, describe, names_of
+from beardyn_core.follow.estimate_json import mounting_object
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.inference import estimates_of, stretches_of
+from beardyn_core.follow.mounting import TURNED, Mounting
 from beardyn_core.follow.windowing import StretchIntake
 from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
@@ -191,7 +193,8 @@ def test_command_tells_what_the_function_finds(
     told = json.loads(capsys.readouterr().out)
     assert command.main([*words, "--load-kn", "70:3", "--temperature-c", "50:60"]) == 0
     known = json.loads(capsys.readouterr().out)
-    check("estimate", told, known)
+    mounted = {**told, "mountings": [mounting_object(Mounting(TURNED, ("x",), 20.0, 0.9))]}
+    check("estimate", told, known, mounted)
     assert known["known_load"]["value_N"] == known["estimates"]["vertical_load_N"]["value"]
     assert known["forecast"]["rating"]["temperature_is_stated"]
     assert known["forecast"]["rating"]["temperature_K"] == [323.15, 333.15]

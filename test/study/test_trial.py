@@ -93,11 +93,11 @@ def test_the_shipped_trials_have_flats_and_polygons_with_every_fault_and_without
         }
 
 
-def test_a_trial_of_sound_bearings_has_no_fault_and_a_sensor_of_its_own() -> None:
+def test_a_trial_of_healthy_bearings_has_no_fault_and_a_sensor_of_its_own() -> None:
     trial = load_trial("healthy")
     cells = trial.cells()
     assert {cell.fault for cell in cells} == {HEALTHY}
-    assert sorted(cell.tier for cell in cells) == ["full"] * 30 + ["quasistatic"] * 30
+    assert sorted(cell.tier for cell in cells) == ["full"] * 45 + ["quasistatic"] * 90
     assert [sensor.noise_density for sensor in trial_scene(trial, cells[0]).sensors] == [3e-4]
     alarm = TrialRun(
         cells[0].key, "", "cup", 2, 1, (7.0, 0.0, 0.0), 6.0, 7.7, "complete", 1.0, ("cup fault: 56 Hz",)
