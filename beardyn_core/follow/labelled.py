@@ -64,9 +64,9 @@ def stretches_of_set(runs: LabelledSet, part: str | None, axes: tuple[str, ...] 
     kept, rate = [AXES.index(axis) for axis in axes], sampling_of(runs).rate
     time, turned = np.asarray(runs.signals.time_vibration), np.asarray(runs.signals.time_shaft)
     for run in runs.runs_of(part):
-        heard = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
+        vibration = np.asarray(runs.arrays["vibration"][int(run)], np.float64)[:, kept]
         angle = np.interp(time, turned, np.asarray(runs.arrays["shaft_angle"][int(run)], np.float64))
-        yield Stretch(rate, heard, angle, np.nan, 0)
+        yield Stretch(rate, vibration, angle, np.nan, 0)
 
 
 def plate_of(runs: LabelledSet) -> NamePlate:

@@ -67,10 +67,12 @@ def strangeness_of(stretches: Sequence[Stretch], estimator: Estimator) -> float:
 
 def cross_powers(stretch: Stretch) -> Float:
     """Measure powers and cross powers of the axes in twelfths of an octave, shape [band, axis, axis]."""
-    heard = stretch.acceleration - stretch.acceleration.mean(axis=0)
-    lines = rfft(heard * np.hanning(len(heard))[:, None], axis=0) / len(heard) * np.sqrt(2.0 * 8.0 / 3.0)
+    centred = stretch.acceleration - stretch.acceleration.mean(axis=0)
+    lines = (
+        rfft(centred * np.hanning(len(centred))[:, None], axis=0) / len(centred) * np.sqrt(2.0 * 8.0 / 3.0)
+    )
     found = np.full((len(FINE), len(AXES), len(AXES)), np.nan)
-    for k, band in enumerate(bands_of(FINE, 12, stretch.rate, len(heard))):
+    for k, band in enumerate(bands_of(FINE, 12, stretch.rate, len(centred))):
         if band is not None:
             found[k] = np.real(np.conj(lines[band]).T @ lines[band])
     return found

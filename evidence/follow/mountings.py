@@ -93,10 +93,10 @@ def _turned(about: int, degrees: float) -> Float:
 
 def outcome(stretch: Stretch, mistake: Mistake, estimator: Estimator) -> str:
     """Judge what is made of a run with a mistake."""
-    heard = replace(stretch, acceleration=stretch.acceleration @ mistake.matrix.T)
-    if strangeness_of([heard], estimator) <= 1.0:
+    recorded = replace(stretch, acceleration=stretch.acceleration @ mistake.matrix.T)
+    if strangeness_of([recorded], estimator) <= 1.0:
         return FAMILIAR
-    found = mountings_of([heard], estimator)
+    found = mountings_of([recorded], estimator)
     if not found:
         return UNEXPLAINED
     right = [
