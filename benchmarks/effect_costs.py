@@ -131,6 +131,10 @@ def _coupled(scene: Scene) -> Scene:
     return replace(scene, effects=replace(scene.effects, lamina_coupling=LaminaCoupling()))
 
 
+def _without_creep(scene: Scene) -> Scene:
+    return replace(scene, effects=replace(scene.effects, traction=None))
+
+
 CHANGES: dict[str, Callable[[Scene], Scene]] = {
     "+ structure modes": _in_box,
     "+ faults": _with_faults,
@@ -140,6 +144,7 @@ CHANGES: dict[str, Callable[[Scene], Scene]] = {
     "tier lumped": _in_tier("lumped"),
     "tier quasistatic": _in_tier("quasistatic"),
     "tier quasistatic, laminae 20": _in_tier("quasistatic", 20),
+    "tier quasistatic, no creep": lambda scene: _in_tier("quasistatic")(_without_creep(scene)),
     "tier quasistatic, coupled": lambda scene: _in_tier("quasistatic")(_coupled(scene)),
 }
 

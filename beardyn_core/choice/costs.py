@@ -32,6 +32,8 @@ _FAST_BENDING, _FAST_REST = 0.25, 0.001
 _LOOSE_SHARE = 0.15
 # what coupled laminae add to one: `python benchmarks/effect_costs.py --only quasistatic`
 _COUPLED_SHARE = 0.44
+# what rollers that creep along the cup add to one: `python benchmarks/effect_costs.py --only quasistatic`
+_CREEP_SHARE = 0.05
 # effects computed for every lamina: their cost grows with the count
 _PER_LAMINA = frozenset({"traction", "lamina_coupling"})
 
@@ -103,6 +105,8 @@ class Costs:
         """Scale the cost of an effect, measured in the full tier at 6 laminae, to another tier and count."""
         if tier == "quasistatic" and effect == "lamina_coupling" and share > 0.0:
             return _COUPLED_SHARE * self.ratios["tier quasistatic"] * laminae / _REFERENCE_LAMINAE
+        if tier == "quasistatic" and effect == "traction" and share > 0.0:
+            return _CREEP_SHARE * self.ratios["tier quasistatic"]
         if tier != "full":
             return _FAST_BENDING * share if effect == "structure" else min(share, _FAST_REST)
         return share * laminae / _REFERENCE_LAMINAE if effect in _PER_LAMINA else share

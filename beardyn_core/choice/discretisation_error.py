@@ -39,12 +39,13 @@ _LONGEST_STEP = 1.0 / 25_600.0  # of rollers that move in their pockets [s]
 # Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
 # every effect: see evidence/automatic/torque.py.
 POCKETS = {"quasistatic": 0.8, "lumped": 2.0}
-# What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz of a healthy bearing, to
-# 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
+# What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz and to 1 kHz of a healthy
+# bearing, to 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
 QUIET_BAND, IN_QUIET_BAND = 400.0, 1.1
+LOW_BAND, IN_LOW_BAND = 1000.0, 2.0
 MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 6.0, "lumped": 12.0}
-BEYOND = {"quasistatic": 8.5, "lumped": 21.0}
-COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND = 6.0, 8.5  # of `quasistatic` with coupled laminae
+BEYOND = {"quasistatic": 9.0, "lumped": 22.0}
+COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND = 6.0, 9.0  # of `quasistatic` with coupled laminae
 
 
 def laminae(evidence: Evidence, count: int) -> Verdict:
@@ -206,7 +207,7 @@ def third_octaves_found(choice: Choice) -> str:
     low, high = IN_MIDDLE_BAND[choice.tier], BEYOND[choice.tier]
     if is_coupled(choice):
         low, high = COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND
-    if choice.vibration_to <= QUIET_BAND:
+    if choice.vibration_to <= LOW_BAND:
         low = min(low, choice.expected["vibration"])
     above = f", {high:g} dB above" if choice.vibration_to > MIDDLE_BAND else ""
     return f"up to {low:.2g} dB to {1e-3 * min(choice.vibration_to, MIDDLE_BAND):g} kHz{above}"
@@ -238,8 +239,8 @@ def _without_roller_inertia(evidence: Evidence, name: str) -> tuple[dict[str, fl
     reason = f"its rollers do not bounce, which they do at {bounce / 1e3:.3g} kHz"
     pockets = evidence.torque_share(POCKETS[name] * _thicker_film(evidence, name) * evidence.losses.pocket)
     rings = IN_MIDDLE_BAND[name] if evidence.band <= MIDDLE_BAND else BEYOND[name]
-    if evidence.band <= QUIET_BAND and not evidence.patches:
-        rings = IN_QUIET_BAND
+    if evidence.band <= LOW_BAND and not evidence.patches:
+        rings = IN_QUIET_BAND if evidence.band <= QUIET_BAND else IN_LOW_BAND
     influence = {
         "vibration": max(decibels(ratio), rings),
         "roller_load": _QUASISTATIC_SHARE,

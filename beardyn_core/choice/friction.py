@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from beardyn_core.choice.discretisation_error import QUIET_BAND
 from beardyn_core.choice.losses import LOST_GRIP, Drive
 from beardyn_core.choice.reference_solution import Evidence
 from beardyn_core.choice.rule import FAST, FRICTION_DB, FULL, Alternative, Rule, absent, on_or_off, percent
@@ -28,6 +29,9 @@ _VISCOSITY_POWER = 0.66
 # What raceways lose by the creep of skewed rollers over what the ribs lose: twice what the audit of `full`
 # finds with films and without, see evidence/automatic/torque.py.
 _CREEP, _DRY_CREEP = 0.05, 0.07
+# What the fast tiers add to the third octaves around the resonance along the axle, all axes together, where
+# no creep along the cup damps it, [dB]: docs/effects_auto.md, rows without creep.
+_UNDAMPED_DB, _UNDAMPED_QUIET_DB = 8.5, 2.0
 # Torque that the fast tiers miss besides where the box bends in modes: 4 to 6 % with every effect
 # (docs/ladder.md, service_high_speed and its cup), 1 % where it bends in rings (wheel_flat).
 _BY_MODES = 0.05
@@ -74,9 +78,24 @@ def traction(evidence: Evidence) -> Rule:
     tiers = FAST if effects.traction is not None else FAST | FULL
     rolling = f"the tier's rollers roll without slip; {reason}"
     without = _without_slip(evidence, reference)
+    creeps = effects.traction is not None and effects.film is not None
+    undamped = _UNDAMPED_DB if evidence.band > QUIET_BAND else _UNDAMPED_QUIET_DB
     # a film stays: it is what starves the rolling resistance
-    off = Alternative({"traction": None, "film": effects.film}, rolling, without, 0.0, tiers, "off")
-    return Rule("traction", (*found, off))
+    found.append(
+        Alternative(
+            {"traction": None, "film": effects.film},
+            rolling,
+            {**without, "vibration": undamped if creeps else 0.0},
+            0.0,
+            tiers,
+            "off",
+        )
+    )
+    if creeps:
+        creeping = f"the tier's rollers creep along the cup and roll without slip; {reason}"
+        members = {"traction": effects.traction, "film": effects.film}
+        found.append(Alternative(members, creeping, without, mixed_cost, FAST, word))
+    return Rule("traction", tuple(found))
 
 
 def _other_law(

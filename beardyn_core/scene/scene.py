@@ -196,7 +196,13 @@ class Scene:
         rib = self.effects.rib
         # the contact beyond the rim of a roller end; film and drilling are in the torque of every tier
         beyond_rim = ("rib.roller_end",) if rib is not None and rib.roller_end else ()
-        return missing_effects(self.tier, (*self.effect_names, *beyond_rim))
+        asked = (*self.effect_names, *beyond_rim)
+        found = missing_effects(self.tier, asked)
+        if (
+            self.tier != "full" and self.effects.film is None
+        ):  # what a fast tier has of traction is the creep of films
+            found = tuple(name for name in asked if name in {"traction", *found})
+        return found
 
 
 @dataclass(frozen=True)

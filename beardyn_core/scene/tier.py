@@ -33,7 +33,7 @@ class TierLimits:
 
 _FAST = frozenset(
     {
-        *("contact_damping", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
+        *("contact_damping", "traction", "film", "rib", "rolling_resistance", "drag", "seal", "gravity"),
         *("faults", "waviness", "scatter", "structure", "cage", "thermal"),
     }
 )

@@ -19,18 +19,23 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.study.measures import NOMINAL_BANDS, third_octave_levels
 from evidence.pages import DOCS, write_section
 
-SCENES = ("smooth_run", "healthy_80", "healthy_140", "healthy_300", "freight_100", "wheel_flat", "cup_spall")
+SCENES = (
+    *("smooth_run", "healthy_80", "healthy_140", "healthy_300", "freight_100", "wheel_flat", "cup_spall"),
+    *("service_high_speed", "service_freight"),
+)
 TIERS = {"quasistatic": 5000.0, "lumped": 1000.0}  # and to which frequency vibration is asked for [Hz]
 SECONDS, SETTLING = 2.3, 0.3
 RANGES = ((31.5, 250), (315, 400), (500, 1000), (1250, 5000))  # bands from, to [Hz]
 BEYOND = (6300, 10_000)
 COUPLED = "`quasistatic`, coupled laminae"
+UNDAMPED = "`quasistatic`, no creep"
 PAGE = DOCS / "effects_auto.md"
 TITLE, NEXT = "## Third octaves of the fast tiers\n", "## How good the estimates are\n"
 HEAD = """
 Written by `python -m evidence.automatic.bands`: {seconds:g} s of shipped scenes without noise of the sensor,
 in `full` as chosen by default and in the fast tiers as chosen for 5 kHz (`quasistatic`) and 1 kHz (`lumped`),
-last column and rows with coupled laminae: for 10 kHz; the third octave in each range that is farthest off
+last column and rows with coupled laminae: for 10 kHz; *no creep*: what is chosen for 5 kHz, but without
+`traction`; the third octave in each range that is farthest off
 that of `full`, all axes together, in dB.
 
 | scene | tier | {ranges} |
@@ -73,6 +78,10 @@ def main() -> None:
             apart = levels(load_scene(name, tier=tier, effects="auto", vibration_to=to)) - reference
             beyond = levels(load_scene(name, tier=tier, effects="auto", vibration_to=BEYOND[1])) - reference
             rows.append(row(name, f"`{tier}`", worst(apart) + worst(beyond, (BEYOND,))))
+        there = load_scene(name, tier="quasistatic", effects="auto", vibration_to=TIERS["quasistatic"])
+        undamped = replace(there, effects=replace(there.effects, traction=None))
+        apart = levels(undamped) - reference
+        rows.append(row(name, UNDAMPED, [*worst(apart), ""]))
         coupled = with_coupled_laminae(read_scene(name, {("tier",): "quasistatic", ("effects",): "auto"}))
         assert coupled is not None
         apart = levels(complete_scene(coupled)) - reference

@@ -3,7 +3,8 @@
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder; what a band leaves open runs once more, six times as long and
 more often. Finished scenes are kept in ``--keep``, so that a run that was cut off goes on; an edit of the
-package begins anew, one of the rules only where they choose otherwise. Two hours or three:
+package begins anew, one of the rules only where they choose otherwise. The page is written after every
+scene and keeps the rows of scenes that are not asked for. Two hours or three for all:
 ``python -m evidence.automatic.page [SCENE ...] [--keep FOLDER] [--to FILE]``.
 """
 
@@ -15,6 +16,7 @@ import json
 import logging
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from datetime import date
 from pathlib import Path
 from typing import Annotated as A
 from typing import Any
@@ -134,6 +136,7 @@ def _case(ladder: Ladder, row: LevelResult, case: Case, choice: Choice) -> dict[
         "reference_seconds": ladder.reference.cost.median,
         "verdict": row.verdict(asked, case.accuracy),
         "doubt": {name: _doubt(row.of(name)) for name in asked},
+        "day": date.today().isoformat(),
     }
 
 
@@ -185,7 +188,17 @@ def row(case: dict[str, Any]) -> str:
     longer = f", {case['longer']} times as long" if case["longer"] > 1 else ""
     if case["verdict"] == "open":
         longer += f" ({'; '.join(case['doubt'][name] for name in case['asked'] if UNITS[name] == 'dB')})"
-    return f"| `{case['scene']}` | {asked} | {chosen} | {found}{status} | {case['verdict']}{longer} |"
+    verdict = f"{case['verdict']}{longer}"
+    return f"| `{case['scene']}` | {asked} | {chosen} | {found}{status} | {verdict} | {case['day']} |"
+
+
+def merged(page: str, name: str, rows: Sequence[str]) -> list[str]:
+    """Put the rows of a scene among those that a page has of the others, in the order of the cases."""
+    there: dict[str, list[str]] = {each: [] for each in CASES}
+    for line in page.splitlines():
+        if line.startswith("| `") and (scene := line.split("`")[1]) in there:
+            there[scene].append(line)
+    return [line for each, kept in there.items() for line in (rows if each == name else kept)]
 
 
 class Kept:
@@ -242,19 +255,19 @@ def main() -> None:
     logging.getLogger("beardyn").setLevel(logging.WARNING)
     kept = Kept(arguments.keep)
     for name in arguments.scenes:
-        for case in kept.cases(name):
-            print(row(case), flush=True)
-    rows = [row(case) for name in arguments.scenes for case in kept.cases(name, LONGER)]
-    values = {
-        "laminae": REFERENCE_LAMINAE,
-        "steps": REFERENCE_STEPS,
-        "runs": REFERENCE_RUNS,
-        "longer": LONGER,
-        "more": MORE_RUNS,
-        "references": MORE_REFERENCE_RUNS,
-        "rows": rows,
-    }
-    write_page(__file__, arguments.to, values)
+        rows = [row(case) for case in kept.cases(name, LONGER)]
+        print("\n".join(rows), flush=True)
+        page = arguments.to.read_text(encoding="utf-8") if arguments.to.exists() else ""
+        values = {
+            "laminae": REFERENCE_LAMINAE,
+            "steps": REFERENCE_STEPS,
+            "runs": REFERENCE_RUNS,
+            "longer": LONGER,
+            "more": MORE_RUNS,
+            "references": MORE_REFERENCE_RUNS,
+            "rows": merged(page, name, rows),
+        }
+        write_page(__file__, arguments.to, values)
 
 
 if __name__ == "__main__":

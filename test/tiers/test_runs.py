@@ -12,6 +12,7 @@ import pytest
 from beardyn_core.bearing.kinematics import cage_speed, fault_frequencies
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
+from beardyn_core.effects import CoulombTraction
 from beardyn_core.monitor.chain import MonitorResult
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, run_monitor
 from beardyn_core.rail.build import load_history
@@ -125,13 +126,21 @@ def test_mirrored_rollers_carry_mirrored_loads(tier: str) -> None:
 def test_effects_beyond_a_tier_are_listed_and_not_ignored(tier: str) -> None:
     scene = replace(scene_of("static_80kN", tier), duration=0.1)
     summary = run(scene)
-    assert summary.not_in_tier == ("traction", "audit", "rib.roller_end")
-    assert set(summary.effects) == {"contact_damping", "film", "rib", "cage", "gravity"}
+    assert summary.not_in_tier == ("audit", "rib.roller_end")
+    assert set(summary.effects) == {"contact_damping", "traction", "film", "rib", "cage", "gravity"}
     assert summary.energy_residual is None
     truth = Twin(scene).truth()
     assert truth["tier"] == tier
     assert truth["not_in_this_tier"]["effects"] == list(summary.not_in_tier)
     assert "energy audit" in truth["not_in_this_tier"]["channels"]
+
+
+@pytest.mark.parametrize("tier", FAST)
+def test_traction_without_a_film_is_beyond_a_fast_tier(tier: str) -> None:
+    scene = scene_of("static_80kN", tier)
+    dry = replace(scene, effects=replace(scene.effects, traction=CoulombTraction(), film=None))
+    assert "traction" in dry.missing_effects
+    assert "traction" not in scene.missing_effects
 
 
 def test_the_full_tier_misses_nothing() -> None:
