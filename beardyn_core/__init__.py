@@ -71,9 +71,11 @@ if TYPE_CHECKING:
     )
     from beardyn_core.api.sweeping import open_set, sweep
     from beardyn_core.base.errors import InputError, ValidityError
+    from beardyn_core.bearing.cylindrical import CylindricalBearing
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.bearing.spherical import SphericalBearing
     from beardyn_core.calibration.calibration_result import Calibration
     from beardyn_core.effects import EffectSet
     from beardyn_core.follow.estimator import Estimates, Estimator
@@ -94,8 +96,8 @@ if TYPE_CHECKING:
 else:
     from beardyn_core import bearing, fleet, follow, monitor, scene
 
-__all__ = ["Bearing", "Block", "Calibration", "Chain", "EffectSet", "Estimates", "Estimator", "Fleet"]
-__all__ += ["Following"]
+__all__ = ["Bearing", "Block", "Calibration", "Chain", "CylindricalBearing", "EffectSet"]
+__all__ += ["Estimates", "Estimator", "Fleet", "Following"]
 __all__ += [
     "Forecast",
     "GrowthLaw",
@@ -113,6 +115,7 @@ __all__ += [
     "RunSummary",
     "Scene",
     "Service",
+    "SphericalBearing",
     "Twin",
     "ValidityError",
     "bearing",
@@ -154,9 +157,11 @@ _MODULES = {
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
     ),
     "api.sweeping": ("open_set", "sweep"),
+    "bearing.cylindrical": ("CylindricalBearing",),
     "bearing.geometry": ("Bearing",),
     "bearing.lubricant": ("Lubricant",),
     "bearing.name_plate": ("NamePlate",),
+    "bearing.spherical": ("SphericalBearing",),
     "calibration.calibration_result": ("Calibration",),
     "effects": ("EffectSet",),
     "follow.forecast": ("Forecast",),

@@ -36,6 +36,8 @@ bearing, lubricant, vehicle, sensor, background or set of bearing data has a num
 TITLES = {
     "scene": "Scene",
     "bearing": "Bearing",
+    "cylindrical_bearing": "Cylindrical bearing",
+    "spherical_bearing": "Spherical bearing",
     "lubricant": "Lubricant",
     "vehicle": "Vehicle",
     "effects": "Effects",

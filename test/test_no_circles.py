@@ -13,7 +13,6 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ("beardyn_core", "beardyn_ros")
 # (from, to): a method of a noun that asks what is built on it; none at import
 ASKED = {
-    ("beardyn_core.bearing.geometry", "beardyn_core.bearing.kinematics"),
     ("beardyn_core.population.torch_data", "beardyn_core.population.labelled_set"),
 }
 

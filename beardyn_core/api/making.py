@@ -11,9 +11,9 @@ from typing import Any
 
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.config.automatic import AUTO, names_a_box
 from beardyn_core.config.folders import find
@@ -31,13 +31,15 @@ _STEEL_DENSITY = 7830.0  # [kg/m^3]
 _NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
 
 
-def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = None, **keys: Any) -> Bearing:
+def bearing(
+    name: str | Path | RollerBearing | None = None, *, rollers: int | None = None, **keys: Any
+) -> Any:
     """Give a shipped bearing, one of a file, or one made in code, with changes.
 
     Parameters
     ----------
-    name : str, Path or Bearing, optional
-        Shipped bearing, YAML file, or a bearing. Without it the bearing is made of ``rollers``,
+    name : str, Path or bearing, optional
+        Shipped bearing, YAML file, or a bearing. Without it a tapered bearing is made of ``rollers``,
         ``pitch_diameter_mm``, ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every
         other number is derived from them as docs/python.md says, and marked so in ``bearing.sources``.
     rollers : int, optional
@@ -48,7 +50,8 @@ def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = N
 
     Returns
     -------
-    Bearing
+    Bearing, CylindricalBearing or SphericalBearing
+        By the key ``kind`` of its file: ``tapered`` where there is none.
 
     Raises
     ------
@@ -63,7 +66,7 @@ def bearing(name: str | Path | Bearing | None = None, *, rollers: int | None = N
     if rollers is not None:
         keys = {"roller_count": rollers, **keys}
     keys = _plain(keys)
-    if isinstance(name, Bearing):
+    if isinstance(name, RollerBearing):
         made = bearing_from_mapping({**write_noun(name), **keys}, f"bearing {name.name}")
         kept = (
             (key, source) for key, source in made.sources if getattr(made, key, 0) == getattr(name, key, 0)
@@ -193,7 +196,7 @@ def lubricant(name: str | Path) -> Lubricant:
 def scene(
     source: str | Path | Mapping[str, Any] | Scene | None = None,
     *,
-    bearing: str | Bearing | Mapping[str, Any] | None = None,
+    bearing: str | RollerBearing | Mapping[str, Any] | None = None,
     lubricant: str | Lubricant | Mapping[str, Any] | None = None,
     load_kN: float | Sequence[float] | None = None,
     speed_rpm: float | None = None,
@@ -243,7 +246,7 @@ def scene(
     if isinstance(source, Scene) and effects is None:
         data |= _left_open(source)
     changes: dict[str, Any] = {
-        "bearing": write_noun(bearing) if isinstance(bearing, Bearing) else bearing,
+        "bearing": write_noun(bearing) if isinstance(bearing, RollerBearing) else bearing,
         "lubricant": write_noun(lubricant) if isinstance(lubricant, Lubricant) else lubricant,
         "tier": tier,
         "effects": None if isinstance(effects, EffectSet) else effects,

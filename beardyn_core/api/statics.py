@@ -1,8 +1,9 @@
 """Answers that need no run: stiffness, torque, life, film, load distribution, fault frequencies.
 
-Every function takes the bearing as a `Bearing` or by name, a load in kN upwards on the journal or along x, y,
+Every function takes a bearing of any kind or its name, a load in kN upwards on the journal or along x, y,
 z, and a scalar or a sequence of what it is asked over. Rings bend unless ``rings="rigid"``: the cup in a
-housing with a wall of 25 mm, as the effect ``structure`` of kind ``rings`` has it in runs.
+housing with a wall of 25 mm, as the effect ``structure`` of kind ``rings`` has it in runs. Torque and film
+are those of tapered bearings.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.effects import LineFilm
     from beardyn_core.physics.statics.rating_life import RatingLife
     from beardyn_core.physics.statics.static import StaticSolution
@@ -33,13 +35,14 @@ LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": 
 
 
 def equilibrium(
-    bearing: Bearing | str,
+    bearing: RollerBearing | str,
     load_kN: Load = 80.0,
     *,
     end_play_mm: float | None = None,
+    radial_clearance_mm: float | None = None,
     speed_rpm: float = 0.0,
     tilt: Literal["locked", "free"] = "locked",
-    laminae: int = 1,
+    laminae: int | None = None,
     rings: Literal["elastic", "rigid"] = "elastic",
 ) -> StaticSolution:
     """Solve the static equilibrium of a bearing: displacement, roller loads, stiffness.
@@ -47,18 +50,23 @@ def equilibrium(
     Parameters
     ----------
     bearing : Bearing or str
-        Name of a shipped bearing or path of a YAML file.
+        Name of a shipped bearing or path of a YAML file, or a bearing of any kind.
     load_kN : float or 3 floats
         Force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80. A
         number alone is upwards.
     end_play_mm : float, optional
-        Total axial travel, mm, negative: preload; default that of the bearing file.
+        Total axial travel, mm, negative: preload; default that of the bearing file. Spherical roller bearings
+        have none.
+    radial_clearance_mm : float, optional
+        Total radial travel of cylindrical and spherical roller bearings, mm; default that of the bearing
+        file.
     speed_rpm : float
         Shaft speed, rpm. It gives the inertia forces of the rollers.
     tilt : str
         Tilt of the cone against the cup. ``locked`` or ``free``.
     laminae : int
-        Laminae of each raceway contact. With 1 the rollers do not tilt.
+        Laminae of each raceway contact; default 1 of tapered bearings, 30 of others. With 1 the rollers do
+        not tilt.
     rings : str
         ``elastic``: the cup bends in a housing with a wall of 25 mm, as in runs with the effect structure;
         ``rigid``: only the contacts yield, as in catalogues. Elastic rings spread the load over more rollers;
@@ -77,33 +85,34 @@ def equilibrium(
     from beardyn_core.physics.modal_body import bending_rings
     from beardyn_core.physics.statics.static import solve
 
-    chosen = _bearing(bearing)
+    chosen, end_play = _played(bearing, end_play_mm, radial_clearance_mm)
     return solve(
         chosen,
         _force(chosen, load_kN),
-        end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
+        end_play=end_play,
         tilt=tilt,
-        laminae=laminae,
+        laminae=chosen.usual_laminae if laminae is None else laminae,
         speed=_shaft_speed(speed_rpm),
         body=bending_rings(chosen, rings),
     )
 
 
-def load_distribution(bearing: Bearing | str, load_kN: Load = 80.0, **options: Any) -> Float:
+def load_distribution(bearing: RollerBearing | str, load_kN: Load = 80.0, **options: Any) -> Float:
     """Give the load of every roller on the cup, shape [row, roller], [N]; options as of `equilibrium`."""
     return equilibrium(bearing, load_kN, **options).cup_load
 
 
 def stiffness(
-    bearing: Bearing | str,
+    bearing: RollerBearing | str,
     load_kN: Load = 80.0,
     *,
     end_play_mm: float | Sequence[float] | None = None,
+    radial_clearance_mm: float | Sequence[float] | None = None,
     tilt: Literal["locked", "free"] = "locked",
-    laminae: int = 1,
+    laminae: int | None = None,
     rings: Literal["elastic", "rigid"] = "elastic",
 ) -> Float:
-    """Give the stiffness of a bearing against its end play or preload.
+    """Give the stiffness of a bearing against its end play, preload or radial clearance.
 
     Parameters
     ----------
@@ -111,6 +120,8 @@ def stiffness(
         See `equilibrium`; with ``tilt="free"`` the tilt follows the displacement.
     end_play_mm : float or sequence, optional
         Negative for preload; by default the bearing's own.
+    radial_clearance_mm : float or sequence, optional
+        Of cylindrical and spherical roller bearings; by default the bearing's own.
 
     Returns
     -------
@@ -118,15 +129,25 @@ def stiffness(
         Change of the load along x, y, z with the displacement along x, y, z, [N/m].
     """
 
-    def one(play: float | None) -> Float:
-        found = equilibrium(bearing, load_kN, end_play_mm=play, tilt=tilt, laminae=laminae, rings=rings)
+    def one(**play: Any) -> Float:
+        found = equilibrium(bearing, load_kN, **play, tilt=tilt, laminae=laminae, rings=rings)
         return found.stiffness_tilt_free if tilt == "free" else found.stiffness_tilt_held
 
-    return one(None) if end_play_mm is None else _each("end_play_mm", end_play_mm, one)
+    if end_play_mm is None and radial_clearance_mm is None:
+        return one()
+    if radial_clearance_mm is None:
+        return _each("end_play_mm", end_play_mm, lambda play: one(end_play_mm=play))
+    if end_play_mm is not None and not isinstance(end_play_mm, Real):
+        raise InputError("end_play_mm is a sequence beside radial_clearance_mm; one of them can be one")
+    return _each(
+        "radial_clearance_mm",
+        radial_clearance_mm,
+        lambda play: one(radial_clearance_mm=play, end_play_mm=end_play_mm),
+    )
 
 
 def torque(
-    bearing: Bearing | str,
+    bearing: RollerBearing | str,
     speed_rpm: float | Sequence[float],
     load_kN: Load = 80.0,
     *,
@@ -166,7 +187,8 @@ def torque(
     from beardyn_core.physics.rolling_resistance import oil_supply
     from beardyn_core.physics.statics.torque import running_torque
 
-    chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
+    chosen = _tapered(bearing, "torques")
+    oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
     rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
     # no step needs the corner of friction at rest rounded
@@ -190,7 +212,7 @@ def torque(
 
 
 def life(
-    bearing: Bearing | str,
+    bearing: RollerBearing | str,
     load_kN: Load = 80.0,
     speed_rpm: float = 1000.0,
     *,
@@ -198,6 +220,7 @@ def life(
     temperature_C: float = 70.0,
     contamination: float | None = None,
     end_play_mm: float | None = None,
+    radial_clearance_mm: float | None = None,
     tilt: Literal["locked", "free"] = "locked",
     rings: Literal["elastic", "rigid"] = "rigid",
 ) -> RatingLife:
@@ -205,7 +228,7 @@ def life(
 
     Parameters
     ----------
-    bearing, load_kN, end_play_mm, tilt
+    bearing, load_kN, end_play_mm, radial_clearance_mm, tilt
         See `equilibrium`.
     speed_rpm : float
         Of the shaft; it sets the film and with it the modified lives.
@@ -235,14 +258,14 @@ def life(
     cleanliness = USUAL_CONTAMINATION if contamination is None else contamination
     if problem := limit_problem("contamination", cleanliness):
         raise InputError(problem)
-    chosen = _bearing(bearing)
+    chosen, end_play = _played(bearing, end_play_mm, radial_clearance_mm)
     x, y, z = _force(chosen, load_kN)
     rated = rating_life(
         chosen,
         (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(_shaft_speed(speed_rpm))),),
         _lubricant(lubricant),
         _kelvin(temperature_C),
-        end_play=chosen.end_play if end_play_mm is None else end_play_mm / _MM,
+        end_play=end_play,
         tilt=tilt,
         contamination=cleanliness,
         rings=rings,
@@ -252,7 +275,7 @@ def life(
 
 
 def film(
-    bearing: Bearing | str,
+    bearing: RollerBearing | str,
     speed_rpm: float,
     load_kN: Load = 80.0,
     *,
@@ -293,7 +316,8 @@ def film(
     from beardyn_core.physics.lamina_table import equivalent_radius
     from beardyn_core.physics.statics.torque import entrainment_speeds
 
-    chosen, oil, kelvin = _bearing(bearing), _lubricant(lubricant), _kelvin(temperature_C)
+    chosen = _tapered(bearing, "films")
+    oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
     oil_layer = _film(supply).oil_layer
@@ -313,7 +337,7 @@ def film(
     return found
 
 
-def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) -> dict[str, float]:
+def fault_frequencies(bearing: RollerBearing | str, speed_rpm: float | None = None) -> dict[str, float]:
     """Give FTF, BPFO, BPFI and BSF of one row.
 
     Parameters
@@ -333,11 +357,28 @@ def fault_frequencies(bearing: Bearing | str, speed_rpm: float | None = None) ->
     return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
 
 
-def _bearing(bearing: Bearing | str) -> Bearing:
-    from beardyn_core.bearing.geometry import Bearing
-    from beardyn_core.config import load_bearing
+def _bearing(bearing: RollerBearing | str) -> RollerBearing:
+    from beardyn_core.bearing.roller_bearing import RollerBearing
+    from beardyn_core.config import load_any_bearing
 
-    return bearing if isinstance(bearing, Bearing) else load_bearing(bearing)
+    return bearing if isinstance(bearing, RollerBearing) else load_any_bearing(bearing)
+
+
+def _tapered(bearing: RollerBearing | str, what: str) -> Bearing:
+    from beardyn_core.bearing.any_bearing import require_tapered
+
+    return require_tapered(_bearing(bearing), what)
+
+
+def _played(
+    bearing: RollerBearing | str, end_play_mm: float | None, radial_clearance_mm: float | None
+) -> tuple[RollerBearing, float | None]:
+    """Find the bearing with the radial clearance, and the end play in metres, that are asked for."""
+    from beardyn_core.bearing.any_bearing import change_play
+
+    end_play = None if end_play_mm is None else end_play_mm / _MM
+    clearance = None if radial_clearance_mm is None else radial_clearance_mm / _MM
+    return change_play(_bearing(bearing), end_play, clearance)
 
 
 def _lubricant(lubricant: Lubricant | str) -> Lubricant:
@@ -347,7 +388,7 @@ def _lubricant(lubricant: Lubricant | str) -> Lubricant:
     return lubricant if isinstance(lubricant, Lubricant) else load_lubricant(lubricant)
 
 
-def _force(bearing: Bearing, load_kN: Any) -> tuple[float, float, float]:
+def _force(bearing: RollerBearing, load_kN: Any) -> tuple[float, float, float]:
     """Turn a load into newtons; refuse what no bearing can be meant to carry, warn of what is unusual."""
     from beardyn_core.bearing.life import load_doubts
 

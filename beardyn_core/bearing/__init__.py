@@ -4,7 +4,13 @@
 module             responsibility
 ================== =================================================================
 profile            drop of the roller generator along its length
-geometry           `Bearing`: numbers of its file, material, apex closure, rib, roller inertia
+roller_bearing     `RollerBearing`: what bearings of every kind of roller have in common
+geometry           `Bearing`, tapered: numbers of its file, material, apex closure, rib, roller inertia
+rib_face           faces of rings that guide roller ends
+radial_bearing     `RadialBearing`: rollers with two like ends, radial clearance
+cylindrical        `CylindricalBearing`: pair of single rows with ribs, such as WJ and WJP
+spherical          `SphericalBearing`: two rows of barrels on a spherical raceway
+any_bearing        bearings of any kind as one type; what only tapered ones have, refused for others
 consistency        `check`: refuses numbers that contradict each other
 kinematics         speeds of cage and roller, fault frequencies
 name_plate         `NamePlate`: what the fault frequencies of any rolling bearing need

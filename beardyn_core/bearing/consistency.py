@@ -8,10 +8,13 @@ from collections.abc import Iterator
 from beardyn_core.base.edge import outside
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.contact_law import rib_curvature_radius
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.radial_bearing import RadialBearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 
-def check(bearing: Bearing) -> list[str]:
+def check(bearing: RollerBearing) -> list[str]:
     """List the contradictions of `bearing`, one sentence each; empty when there is none.
 
     Each names the quantity, its value, what it contradicts and what is allowed.
@@ -20,11 +23,14 @@ def check(bearing: Bearing) -> list[str]:
     if problems:
         # The closure cannot be computed from numbers that are not numbers or have the wrong sign.
         return problems
+    if isinstance(bearing, RadialBearing):
+        return [*_check_roller(bearing), *_check_radial_envelope(bearing), *_check_radial_ribs(bearing)]
+    assert isinstance(bearing, Bearing)
     checks = (_check_roller, _check_ribs, _check_envelope, _check_angles)
     return [*_check_closure(bearing)] or [problem for found in checks for problem in found(bearing)]
 
 
-def require_sound(bearing: Bearing) -> None:
+def require_sound(bearing: RollerBearing) -> None:
     """Raise `InputError` with every contradiction of `bearing`, unless the bearing is forced."""
     problems = [] if bearing.forced else check(bearing)
     if problems:
@@ -39,10 +45,10 @@ def _deg(angle: float) -> str:
     return f"{math.degrees(angle):.4g} deg"
 
 
-def _check_numbers(bearing: Bearing) -> list[str]:
+def _check_numbers(bearing: RollerBearing) -> list[str]:
     """Find numbers beyond the limits of the fields of the bearing and its parts."""
     problems = [f"{' '.join(map(str, found.place))} {found.text}.".lstrip() for found in outside(bearing)]
-    if not bearing.sphere_ratio < 1.0:
+    if isinstance(bearing, Bearing) and not bearing.sphere_ratio < 1.0:
         problems.append(
             f"sphere_ratio is {bearing.sphere_ratio:g}; it must lie between 0 and 1, for at 1 the sphere is "
             "centred on the apex and its contact runs off a conical rib."
@@ -83,7 +89,7 @@ def _check_closure(bearing: Bearing) -> Iterator[str]:
         )
 
 
-def _check_roller(bearing: Bearing) -> Iterator[str]:
+def _check_roller(bearing: RollerBearing) -> Iterator[str]:
     if bearing.effective_length > bearing.roller_length:
         yield (
             f"effective_length {_mm(bearing.effective_length)} exceeds "
@@ -183,3 +189,63 @@ def _check_angles(bearing: Bearing) -> Iterator[str]:
                 f"contact_angle {_deg(bearing.contact_angle)}; "
                 f"angle_tolerance is {_deg(bearing.angle_tolerance)}."
             )
+
+
+def _check_radial_envelope(bearing: RadialBearing) -> Iterator[str]:
+    """Check that rings are left inside and outside of the rollers, and that there is room for both rows."""
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    half, radius = 0.5 * bearing.roller_length, 0.5 * bearing.roller_diameter
+    lowest = 0.5 * bearing.pitch_diameter - radius * cosine - half * sine
+    if lowest <= 0.5 * bearing.bore:
+        yield (
+            f"the inner raceway's smallest radius {_mm(lowest)}, from pitch_diameter "
+            f"{_mm(bearing.pitch_diameter)}, is not above half the bore, {_mm(0.5 * bearing.bore)}."
+        )
+    highest = bearing.centre_distance + radius
+    if highest >= 0.5 * bearing.outer_diameter:
+        yield (
+            f"the outer raceway's radius {_mm(highest)}, from pitch_diameter "
+            f"{_mm(bearing.pitch_diameter)} and roller_diameter {_mm(bearing.roller_diameter)}, is not below "
+            f"half the outer_diameter, {_mm(0.5 * bearing.outer_diameter)}."
+        )
+    # inner ends of barrels lie farther from the axis and nearer to each other above their middle
+    inner = 0.5 * bearing.row_spacing - half * cosine
+    if inner <= 0.0:
+        yield (
+            f"rows of rollers of roller_length {_mm(bearing.roller_length)} run into each other at a row "
+            f"spacing of {_mm(bearing.row_spacing)}."
+        )
+    span = bearing.row_spacing + bearing.roller_length * cosine
+    if span >= bearing.width:
+        yield (
+            f"both rows span {_mm(span)} along the axle, not less than the width {_mm(bearing.width)}; "
+            f"the row spacing is {_mm(bearing.row_spacing)}."
+        )
+
+
+def _check_radial_ribs(bearing: RadialBearing) -> Iterator[str]:
+    """Check that cylinders touch their ribs between undercut and corner, and have room between them."""
+    if not isinstance(bearing, CylindricalBearing):
+        return
+    height, radius = bearing.rib_contact_height, 0.5 * bearing.roller_diameter
+    if not height < radius:
+        yield (
+            f"rib_contact_height {_mm(height)} is not below the radius of the rollers, {_mm(radius)}; the "
+            "roller end would touch on its other half."
+        )
+    if not height > bearing.rib_undercut:
+        yield (
+            f"rib_contact_height {_mm(height)} is not above rib_undercut {_mm(bearing.rib_undercut)}; the "
+            "roller end would bear on the edge of the undercut."
+        )
+    for key, ribs in (("cup_rib_height", bearing.cup_ribs), ("cone_rib_height", bearing.cone_ribs)):
+        if ribs != "none" and not height < getattr(bearing, key):
+            yield (
+                f"rib_contact_height {_mm(height)} is not below {key} {_mm(getattr(bearing, key))}; the "
+                "roller end would bear on the corner of the rib."
+            )
+    if bearing.end_play < bearing.roller_play:
+        yield (
+            f"end_play {_mm(bearing.end_play)} is less than roller_play {_mm(bearing.roller_play)}: ribs of "
+            "both rings would press the rollers together before the axle has used its travel."
+        )

@@ -8,9 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 from beardyn_core.bearing.geometry import Bearing, Material
+
+if TYPE_CHECKING:
+    from beardyn_core.bearing.spherical import SphericalBearing
 
 LINE_EXPONENT = 10.0 / 9.0
 POINT_EXPONENT = 1.5
@@ -188,6 +193,33 @@ def _log_radius_ratio(ellipticity: float) -> float:
         return 0.0
     first, second = complete_elliptic(1.0 - ellipticity**-2)
     return math.log((ellipticity**2 * second - first) / (first - second))
+
+
+@dataclass(frozen=True)
+class SlicedEllipse:
+    """Hertz's elliptical contact as slices that do not know each other.
+
+    With the approach delta at its middle, a slice at x from there has the load per length
+    k (delta - (x/A)^2). Over the whole ellipse that is Hertz's load at Hertz's approach, spread along its
+    long axis as he has it, at every load. At the end of a roller the ellipse is cut off.
+
+    References
+    ----------
+    Johnson, K. L. (1985), Contact Mechanics, 4.2 and 4.3: Q = K delta^1.5, long semi-axis a = A delta^0.5 and
+    q(x) = 3 Q/(4 a) (1 - (x/a)^2), which gives k = 3 K/(4 A).
+    """
+
+    stiffness: A[float, "k, of a slice per length, [N/m^2]"]
+    reach: A[float, "A, long semi-axis over the root of the approach, [m^0.5]"]
+
+
+@cache
+def barrel_ellipse(bearing: SphericalBearing, ring: str) -> SlicedEllipse:
+    """Compute the contact of a barrel with the raceway of ``cup`` or ``cone``."""
+    radii = bearing.rolling_radius(ring), bearing.profile_radius(ring)
+    contact = ExactPointContact(*radii, bearing.material.contact_modulus)
+    reach = contact.semi_axes(1.0)[0] * contact.factor ** (1.0 / 3.0)
+    return SlicedEllipse(0.75 * contact.factor / reach, reach)
 
 
 def exact_rib_contact(bearing: Bearing) -> ExactPointContact:

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 from typing import Annotated as A
 
+from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import INTERNAL, At, Vector
 from beardyn_core.bearing.profile import Profile
-
-if TYPE_CHECKING:
-    from beardyn_core.bearing.kinematics import FaultFrequencies
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 MOST_END_PLAY = 5.0e-3  # either way, [m]; rollers keep their raceways and ribs within it
 
@@ -49,7 +47,7 @@ class CageData:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bearing:
+class Bearing(RollerBearing):
     """A double-row tapered roller bearing, O arrangement.
 
     The large roller ends are on the outer sides. Heights above the cone raceway are measured square to the
@@ -113,13 +111,6 @@ class Bearing:
         )
 
     @property
-    def frequencies(self) -> FaultFrequencies:
-        """Fault frequencies of one row per shaft revolution."""
-        from beardyn_core.bearing.kinematics import fault_frequencies
-
-        return fault_frequencies(self)
-
-    @property
     def apex_distance(self) -> float:
         """A: from the common apex to the roller mid-length along the roller axis, [m]."""
         return self.pitch_diameter / (2.0 * math.sin(self.contact_angle))
@@ -158,6 +149,21 @@ class Bearing:
     def roller_orbit_radius(self) -> float:
         """Radius on which the centres of mass of the rollers orbit, [m]."""
         return 0.5 * self.pitch_diameter + self.roller_mass_offset * math.sin(self.contact_angle)
+
+    @property
+    def cone_line(self) -> tuple[float, float]:
+        """Radius and axial place of a point of the cone raceway's generator: its apex, [m]."""
+        return 0.0, self.apex_place
+
+    def radius_at(self, place: Float) -> Float:
+        """Compute the radius of the rollers at places along them from mid-length, [m]."""
+        return (self.apex_distance + place) * math.tan(self.half_angle)
+
+    def lamina_drop(self, count: int) -> Float:
+        """Compute the drop of each of `count` equal laminae of the generator, [m]."""
+        return self.profile.lamina_drop(
+            count, self.effective_length, self.roller_diameter, self.material.contact_modulus
+        )
 
     def normal_gap(self, end_play: float) -> float:
         """Compute the gap between roller and cup along the cup's normal, all parts in the middle, [m].
@@ -230,19 +236,25 @@ class Bearing:
         return 0.5 * self.row_spacing - self.apex_distance * math.cos(self.contact_angle)
 
     @property
-    def gamma(self) -> float:
-        """Dm cos(alpha_m) / Dpw, [-]."""
-        return self.roller_diameter * math.cos(self.contact_angle) / self.pitch_diameter
-
-    @property
     def pressure_centre_spread(self) -> float:
         """Distance of the two pressure centres along the bearing axis, [m]."""
         return self.row_spacing + self.pitch_diameter * math.tan(self.cup_angle)
 
     @property
-    def roller_web(self) -> float:
-        """Free distance between neighbouring rollers on the pitch circle, [m]."""
-        return self.pitch_diameter * math.sin(math.pi / self.roller_count) - self.roller_diameter
+    def tilt_lever(self) -> float:
+        """Lever by which statics measure a tilt as a motion: that of the pressure centres, [m]."""
+        return 0.5 * self.pressure_centre_spread
+
+    @property
+    def cage_ratio(self) -> float:
+        """Speed of the cage over that of the shaft in pure rolling, sin(ai)/(sin(ai) + sin(ao)), [-]."""
+        cone, cup = math.sin(self.cone_angle), math.sin(self.cup_angle)
+        return cone / (cone + cup)
+
+    @property
+    def rolling_radii(self) -> tuple[float, float]:
+        """Radii of cup and roller that roll on each other, over their distance from the apex, [-]."""
+        return math.sin(self.cup_angle), math.sin(self.half_angle)
 
     @property
     def roller_mass(self) -> float:

@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
-from beardyn_core.bearing.geometry import Bearing
+if TYPE_CHECKING:
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,7 @@ def frequencies(
     )
 
 
-def fault_frequencies(bearing: Bearing) -> FaultFrequencies:
+def fault_frequencies(bearing: RollerBearing) -> FaultFrequencies:
     """Compute the fault frequencies of one row of `bearing` per shaft revolution.
 
     References
@@ -58,26 +61,26 @@ def fault_frequencies(bearing: Bearing) -> FaultFrequencies:
     )
 
 
-def cage_speed_ratio(bearing: Bearing) -> float:
-    """Compute the cage speed over shaft speed in pure rolling, sin(ai)/(sin(ai) + sin(ao)), [-]."""
-    cone, cup = math.sin(bearing.cone_angle), math.sin(bearing.cup_angle)
-    return cone / (cone + cup)
+def cage_speed_ratio(bearing: RollerBearing) -> float:
+    """Compute the cage speed over shaft speed in pure rolling, [-]."""
+    return bearing.cage_ratio
 
 
-def cage_speed(bearing: Bearing, shaft_speed: float) -> float:
+def cage_speed(bearing: RollerBearing, shaft_speed: float) -> float:
     """Compute the speed of cage and roller centres about the bearing axis in pure rolling, [rad/s]."""
     return cage_speed_ratio(bearing) * shaft_speed
 
 
-def roller_spin(bearing: Bearing, shaft_speed: float) -> float:
+def roller_spin(bearing: RollerBearing, shaft_speed: float) -> float:
     """Compute the spin of a roller about its own axis relative to the cage, [rad/s].
 
-    Positive when opposite to the sense in which the shaft turns: w_c sin(ao)/sin(phi).
+    Positive when opposite to the sense in which the shaft turns.
     """
-    return cage_speed(bearing, shaft_speed) * math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    cup, roller = bearing.rolling_radii
+    return cage_speed(bearing, shaft_speed) * cup / roller
 
 
-def centrifugal_force(bearing: Bearing, shaft_speed: float) -> float:
+def centrifugal_force(bearing: RollerBearing, shaft_speed: float) -> float:
     """Compute the centrifugal force of a roller in pure rolling, [N]."""
     return bearing.roller_mass * cage_speed(bearing, shaft_speed) ** 2 * bearing.roller_orbit_radius
 

@@ -10,19 +10,16 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
 
 # of C_0r and of C_r: beyond these a force is refused, or doubted
 LARGEST_SHARE, SMALLEST_SHARE = 4.0, 1e-3
 _MILLIMETRES = 1.0e3
 _SQUARE_MILLIMETRES_PER_SECOND = 1.0e6
-# Rating factor for present-day tapered roller bearings, ISO 281 table.
-_MATERIAL_FACTOR = 1.1
 # lambda nu of Lundberg and Palmgren: what edges and uneven stress cost a line contact.
 LINE_CONTACT_REDUCTION = 0.83
 LIFE_EXPONENT = 10.0 / 3.0
 MILLION = 1.0e6
-_ROWS = 2
 # Above this size ISO 281 lowers the fatigue load limit, [mm].
 _LARGE_PITCH_DIAMETER = 100.0
 _LARGEST_MODIFICATION = 50.0
@@ -46,7 +43,7 @@ class DynamicRating:
     def equivalent_load(self, radial: float, axial: float) -> float:
         """Compute the dynamic equivalent radial load P of a radial and an axial force, [N]."""
         axial = abs(axial)
-        if axial <= self.thrust_limit * radial:
+        if self.thrust_low == 0.0 or axial <= self.thrust_limit * radial:
             return radial + self.thrust_low * axial
         return 0.67 * radial + self.thrust_high * axial
 
@@ -65,23 +62,30 @@ def rating_factor(gamma: float) -> float:
     return LINE_CONTACT_REDUCTION * 207.9 * shape * (1.0 + rings**4.5) ** (-2.0 / 9.0)
 
 
-def rating_gamma(bearing: Bearing) -> float:
+def rating_gamma(bearing: RollerBearing) -> float:
     """Compute Dwe cos(alpha) / Dpw with the cup angle, the contact angle of the standards, [-]."""
     return bearing.roller_diameter * math.cos(bearing.cup_angle) / bearing.pitch_diameter
 
 
-def dynamic_rating(bearing: Bearing) -> DynamicRating:
-    """Compute the dynamic load rating of the double row; the contact angle of ISO 281 is the cup angle."""
+def dynamic_rating(bearing: RollerBearing) -> DynamicRating:
+    """Compute the dynamic load rating of the double row; the contact angle of ISO 281 is the cup angle.
+
+    Notes
+    -----
+    A cylindrical roller bearing has no axial factor: for the contact angle 0 the standard takes P = F_r.
+    """
     angle = bearing.cup_angle
     diameter = bearing.roller_diameter * _MILLIMETRES
     length = bearing.effective_length * _MILLIMETRES
     radial = (
-        _MATERIAL_FACTOR
+        bearing.steel_factor
         * rating_factor(rating_gamma(bearing))
-        * (_ROWS * length * math.cos(angle)) ** (7.0 / 9.0)
+        * (ROW_COUNT * length * math.cos(angle)) ** (7.0 / 9.0)
         * bearing.roller_count**0.75
         * diameter ** (29.0 / 27.0)
     )
+    if angle == 0.0:
+        return DynamicRating(radial, thrust_limit=math.inf, thrust_low=0.0, thrust_high=0.0)
     return DynamicRating(
         radial=radial,
         thrust_limit=1.5 * math.tan(angle),
@@ -90,7 +94,7 @@ def dynamic_rating(bearing: Bearing) -> DynamicRating:
     )
 
 
-def static_rating(bearing: Bearing) -> float:
+def static_rating(bearing: RollerBearing) -> float:
     """Compute the static radial load rating C_0r of the double row, [N].
 
     References
@@ -99,11 +103,11 @@ def static_rating(bearing: Bearing) -> float:
     """
     length = bearing.effective_length * _MILLIMETRES
     diameter = bearing.roller_diameter * _MILLIMETRES
-    count = _ROWS * bearing.roller_count
+    count = ROW_COUNT * bearing.roller_count
     return 44.0 * (1.0 - rating_gamma(bearing)) * count * length * diameter * math.cos(bearing.cup_angle)
 
 
-def load_doubts(bearing: Bearing, force: Sequence[float]) -> tuple[str, str]:
+def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, str]:
     """Say why a force of three components [N] is implausible for a bearing.
 
     Returns
@@ -139,7 +143,7 @@ def load_doubts(bearing: Bearing, force: Sequence[float]) -> tuple[str, str]:
     return "", ""
 
 
-def fatigue_load_limit(bearing: Bearing) -> float:
+def fatigue_load_limit(bearing: RollerBearing) -> float:
     """Compute the fatigue load limit C_u of the double row, [N].
 
     References
@@ -151,7 +155,7 @@ def fatigue_load_limit(bearing: Bearing) -> float:
     return static_rating(bearing) / 8.2 * min(1.0, (_LARGE_PITCH_DIAMETER / pitch) ** 0.3)
 
 
-def reference_viscosity(bearing: Bearing, speed: float) -> float:
+def reference_viscosity(bearing: RollerBearing, speed: float) -> float:
     """Compute the kinematic viscosity nu_1 that gives an adequate film at a shaft speed [rad/s], [m^2/s].
 
     References
@@ -243,7 +247,7 @@ class ReferenceLife:
     ]
 
 
-def contact_ratings(bearing: Bearing) -> tuple[float, float]:
+def contact_ratings(bearing: RollerBearing) -> tuple[float, float]:
     """Compute the dynamic load ratings Q_ci and Q_ce of one roller on cone and cup, [N].
 
     References
@@ -253,14 +257,14 @@ def contact_ratings(bearing: Bearing) -> tuple[float, float]:
     gamma = rating_gamma(bearing)
     rings = (1.038 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)) ** 4.5
     radial = dynamic_rating(bearing).radial / LINE_CONTACT_REDUCTION
-    share = radial / (bearing.roller_count * _ROWS ** (7.0 / 9.0) * math.cos(bearing.cup_angle))
+    share = radial / (bearing.roller_count * ROW_COUNT ** (7.0 / 9.0) * math.cos(bearing.cup_angle))
     cone = share / 0.378 * (1.0 + rings) ** (2.0 / 9.0)
     cup = share / 0.364 * (1.0 + 1.0 / rings) ** (2.0 / 9.0)
     return cone, cup
 
 
 def reference_life(
-    bearing: Bearing, cup_load: Float, cone_load: Float, viscosity_ratio: float, contamination: float
+    bearing: RollerBearing, cup_load: Float, cone_load: Float, viscosity_ratio: float, contamination: float
 ) -> ReferenceLife:
     """Compute the basic and modified reference rating life; the cone turns, the load direction is fixed.
 
@@ -292,7 +296,7 @@ def reference_life(
     rating = dynamic_rating(bearing).radial
     with np.errstate(divide="ignore"):
         lamina_life = MILLION * damage ** (-1.0 / _WEIBULL)
-        alike = (_ROWS * lamina_count * damage) ** (0.25 / _WEIBULL) * rating / LINE_CONTACT_REDUCTION
+        alike = (ROW_COUNT * lamina_count * damage) ** (0.25 / _WEIBULL) * rating / LINE_CONTACT_REDUCTION
     limit = fatigue_load_limit(bearing)
     modification = np.array(
         [

@@ -13,8 +13,8 @@ from beardyn_core.base.edge import At, refuse
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.factors import Derived, Factors
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
+    from beardyn_core.bearing.roller_bearing import RollerBearing
 
 _INNER = ("roller_count", "roller_diameter_mm", "pitch_diameter_mm")
 
@@ -100,7 +100,7 @@ class NamePlate:
             )
 
     @classmethod
-    def of(cls, bearing: Bearing) -> NamePlate:
+    def of(cls, bearing: RollerBearing) -> NamePlate:
         """Take from a whole bearing what its fault frequencies need."""
         return cls(
             name=bearing.name,

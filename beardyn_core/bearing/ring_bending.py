@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated as A
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,14 @@ def rectangular_ring(inner: float, wall: float, width: float, modulus: float, ma
     return ThinRing(inner + 0.5 * wall, modulus * width * wall**3 / 12.0, mass)
 
 
-def cup_ring(bearing: Bearing) -> ThinRing:
+def cup_ring(bearing: RollerBearing) -> ThinRing:
     """Make the ring that stands for the cup, its wall taken at the mid-length of the rollers."""
     raceway = bearing.cup_radius
     wall = 0.5 * bearing.outer_diameter - raceway
     return rectangular_ring(raceway, wall, bearing.width, bearing.material.youngs_modulus, bearing.cup_mass)
 
 
-def housing_ring(bearing: Bearing, wall: float, modulus: float, density: float) -> ThinRing:
+def housing_ring(bearing: RollerBearing, wall: float, modulus: float, density: float) -> ThinRing:
     """Make the ring that stands for the housing wall around the cup, as wide as the bearing."""
     inner = 0.5 * bearing.outer_diameter
     mass = density * bearing.width * math.pi * ((inner + wall) ** 2 - inner**2)

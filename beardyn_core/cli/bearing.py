@@ -22,6 +22,7 @@ from beardyn_core.cli.quantities import NEGATIVE_QUANTITY
 if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import FaultFrequencies
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.physics.statics.rating_life import RatingLife
     from beardyn_core.physics.statics.static import StaticSolution
 
@@ -31,6 +32,7 @@ _RINGS = {
 }
 _TEMPERATURE = parameters_of(life)["temperature_C"].default  # of the lubricant, [degrees Celsius]
 _BAR_WIDTH = 28
+_ENDS = ("from its inner to its outer end", "from its small to its large end")
 _RPM = 2.0 * math.pi / 60.0
 
 
@@ -49,6 +51,7 @@ def add_parser(subparsers: Any) -> None:
     force = ("FX_KN", "FY_KN", "FZ_KN")
     add_parameter(parser, equilibrium, "load_kN", "--load", metavar=force, nargs=3, type=str, default=None)
     add_parameter(parser, equilibrium, "end_play_mm", "--end-play", metavar="MM", type=str)
+    add_parameter(parser, equilibrium, "radial_clearance_mm", "--radial-clearance", metavar="MM", type=str)
     add_parameter(parser, equilibrium, "tilt")
     add_parameter(parser, equilibrium, "speed_rpm", "--speed", metavar="RPM", type=str, default="0")
     add_parameter(parser, equilibrium, "laminae", metavar="N")
@@ -79,35 +82,45 @@ class _Case:
     """A bearing and what it is solved for, from the options."""
 
     args: argparse.Namespace
-    bearing: Bearing
+    bearing: A[RollerBearing, "with the radial clearance of the options"]
     load: A[tuple[float, float, float], "on the cone, [N]"]
-    end_play: A[float, "[m]"]
+    end_play: A[float | None, "``None`` where the bearing has none, [m]"]
     speed: A[float, "of the shaft, [rad/s]"]
+    laminae: int
+
+    @property
+    def radial_clearance(self) -> float | None:
+        """``None`` where the bearing has none, [m]."""
+        clearance: float | None = getattr(self.bearing, "radial_clearance", None)
+        return clearance
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.bearing.any_bearing import change_play
     from beardyn_core.bearing.life import load_doubts
-    from beardyn_core.config import load_bearing
+    from beardyn_core.config import load_any_bearing
     from beardyn_core.effects import LaminaCoupling
     from beardyn_core.physics.modal_body import bending_rings
     from beardyn_core.physics.statics.rating_life import life_lines, life_object
     from beardyn_core.physics.statics.static import solve
 
-    load, end_play, speed = operation_of(args)
-    bearing = load_bearing(args.bearing)
+    load, end_play, clearance, speed = operation_of(args)
+    bearing, end_play = change_play(load_any_bearing(args.bearing), end_play, clearance)
     problem, doubt = load_doubts(bearing, load)
     if problem:
         raise InputError(f"--load: {problem}")
     if doubt:
         print(f"beardyn: warning: --load: {doubt}", file=sys.stderr)
-    case = _Case(args, bearing, load, bearing.end_play if end_play is None else end_play, speed)
+    end_play = getattr(bearing, "end_play", None) if end_play is None else end_play
+    laminae = bearing.usual_laminae if args.laminae is None else args.laminae
+    case = _Case(args, bearing, load, end_play, speed, laminae)
     solution = solve(
         bearing,
         load,
         end_play=case.end_play,
         tilt=args.tilt,
-        laminae=args.laminae,
+        laminae=laminae,
         speed=speed,
         coupling=LaminaCoupling() if args.coupled_laminae else None,
         body=bending_rings(bearing, args.rings),
@@ -153,9 +166,10 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
         "static": {
             "applied_force_N": case.load,
             "end_play_m": case.end_play,
+            "radial_clearance_m": case.radial_clearance,
             "tilt": case.args.tilt,
             "shaft_speed_rad_per_s": case.speed,
-            "laminae": case.args.laminae,
+            "laminae": case.laminae,
             "rings": case.args.rings,
             "coupled_laminae": case.args.coupled_laminae,
             "displacement_m": solution.displacement,
@@ -164,6 +178,7 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
             "loaded_roller_count": sum(solution.loaded_roller_count),
             "loaded_roller_count_per_row": list(solution.loaded_roller_count),
             "largest_roller_load_N": solution.largest_roller_load,
+            "rib_load_N": solution.rib_load,
             "most_loaded_roller": _most_loaded_roller(case.bearing, solution),
             "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held,
             "stiffness_tilt_free_N_per_m": solution.stiffness_tilt_free,
@@ -171,8 +186,8 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
     }
 
 
-def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str, Any]:
-    """Compute load and Hertz pressure along the most loaded roller, from its small to its large end."""
+def _most_loaded_roller(bearing: RollerBearing, solution: StaticSolution) -> dict[str, Any]:
+    """Compute load and Hertz pressure along the most loaded roller, to its large or outer end."""
     from beardyn_core.physics.lamina_table import lamina_places, lamina_pressure
 
     row, roller = divmod(int(solution.cup_load.argmax()), solution.cup_load.shape[1])
@@ -185,10 +200,10 @@ def _most_loaded_roller(bearing: Bearing, solution: StaticSolution) -> dict[str,
     return report
 
 
-def _line_lines(roller: dict[str, Any]) -> list[str]:
+def _line_lines(roller: dict[str, Any], ends: str) -> list[str]:
     lines = [
         "",
-        f"  along roller {roller['roller']} of row {roller['row']}, from its small to its large end",
+        f"  along roller {roller['roller']} of row {roller['row']}, {ends}",
         "  place mm    cup N/mm    cup MPa   cone N/mm   cone MPa",
     ]
     columns = [
@@ -202,6 +217,26 @@ def _line_lines(roller: dict[str, Any]) -> list[str]:
 
 
 # properties of a bearing with their unit, in the order of the JSON object
+_SHARED = (
+    *(("m", name) for name in ("bore", "outer_diameter", "width", "row_spacing", "pitch_diameter")),
+    *(("m", name) for name in ("roller_diameter", "effective_length", "roller_length")),
+    *(("rad", "contact_angle"), ("m", "cup_radius"), ("m", "cone_radius"), ("m", "radial_clearance")),
+)
+_GEOMETRY_OF_OTHERS = {
+    "cylindrical": (
+        *_SHARED,
+        *(("m", name) for name in ("end_play", "roller_play", "cup_rib_height", "cone_rib_height")),
+        *(("m", "rib_contact_height"), ("rad", "rib_opening"), ("m", "end_radius")),
+    ),
+    "spherical": (
+        *_SHARED,
+        *(("m", name) for name in ("sphere_radius", "roller_profile_radius", "cone_profile_radius")),
+    ),
+}
+_MASSES = (
+    ("m", "roller_web"),
+    *(("kg", "roller_mass"), ("kg_m2", "roller_axial_inertia"), ("kg_m2", "roller_transverse_inertia")),
+)
 _GEOMETRY = (
     *(("m", name) for name in ("bore", "outer_diameter", "width", "row_spacing", "pitch_diameter")),
     *(("m", name) for name in ("roller_diameter", "effective_length", "roller_length")),
@@ -218,13 +253,18 @@ _GEOMETRY = (
 )
 
 
-def _geometry(bearing: Bearing) -> dict[str, float | int]:
+def _geometry(bearing: RollerBearing) -> dict[str, Any]:
     from beardyn_core.bearing.life import dynamic_rating
 
+    others = _GEOMETRY_OF_OTHERS.get(bearing.kind)
     return {
+        "kind": bearing.kind,
         "roller_count": bearing.roller_count,
         "row_count": 2,
-        **{f"{name}_{unit}": getattr(bearing, name) for unit, name in _GEOMETRY},
+        **{
+            f"{name}_{unit}": getattr(bearing, name)
+            for unit, name in (_GEOMETRY if others is None else (*others, *_MASSES))
+        },
         "gamma": bearing.gamma,
         "dynamic_load_rating_N": dynamic_rating(bearing).radial,
     }
@@ -241,24 +281,35 @@ def _table(case: _Case, solution: StaticSolution) -> str:
         [
             f"{bearing.name}   {bearing.description}".rstrip(),
             "",
-            "Geometry (closed on a common apex)",
             *_geometry_lines(bearing),
             "",
             "Frequencies per shaft revolution",
             *_frequency_lines(fault_frequencies(bearing), rpm),
             "",
             f"Static equilibrium under ({force}) kN on the cone{chosen}",
-            f"  end play {case.end_play * 1e3:g} mm, tilt {args.tilt}, {rpm:g} rpm, laminae {args.laminae}",
+            f"  {_play_words(case)}, tilt {args.tilt}, {rpm:g} rpm, laminae {case.laminae}",
             f"  {_RINGS[args.rings]}",
             *_static_lines(solution),
-            *_rib_lines(bearing, float(solution.rib_load.max()), rpm),
-            *(_line_lines(_most_loaded_roller(bearing, solution)) if args.laminae > 1 else []),
+            *_rib_lines(bearing, solution, rpm),
+            *(
+                _line_lines(_most_loaded_roller(bearing, solution), _ENDS[bearing.kind == "tapered"])
+                if case.laminae > 1
+                else []
+            ),
         ]
     )
 
 
-def _geometry_lines(bearing: Bearing) -> list[str]:
-    from beardyn_core.bearing.life import dynamic_rating
+def _play_words(case: _Case) -> str:
+    plays = (("radial clearance", case.radial_clearance), ("end play", case.end_play))
+    return ", ".join(f"{name} {play * 1e3:g} mm" for name, play in plays if play is not None)
+
+
+def _geometry_lines(bearing: RollerBearing) -> list[str]:
+    from beardyn_core.bearing.cylindrical import CylindricalBearing
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.life import dynamic_rating, static_rating
+    from beardyn_core.bearing.spherical import SphericalBearing
 
     rating = dynamic_rating(bearing)
     entries = [
@@ -266,12 +317,46 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
             "envelope",
             f"{bearing.bore * 1e3:g} x {bearing.outer_diameter * 1e3:g} x {bearing.width * 1e3:g} mm",
         ),
-        ("rollers", f"2 x {bearing.roller_count}, row spacing {bearing.row_spacing * 1e3:g} mm"),
+        ("rollers", f"2 x {bearing.roller_count}, row spacing {bearing.row_spacing * 1e3:.4g} mm"),
         (
             "roller",
             f"{bearing.roller_diameter * 1e3:g} mm mean diameter on {bearing.pitch_diameter * 1e3:g} mm, "
             f"contact length {bearing.effective_length * 1e3:g} mm, {bearing.roller_mass * 1e3:.1f} g",
         ),
+    ]
+    title, ratings = f"Geometry ({bearing.words})", f"C_r {rating.radial / 1e3:.0f} kN"
+    if isinstance(bearing, Bearing):
+        title = "Geometry (closed on a common apex)"
+        entries += _tapered_entries(bearing)
+    else:
+        ratings += f", C_0r {static_rating(bearing) / 1e3:.0f} kN"
+    if isinstance(bearing, CylindricalBearing):
+        entries += [
+            (
+                "ribs",
+                f"outer ring {bearing.cup_ribs}, inner ring {bearing.cone_ribs}, loose rib "
+                f"{bearing.loose_rib}; contact {bearing.rib_contact_height * 1e3:g} mm above the raceways",
+            ),
+            ("play", f"roller {bearing.roller_play * 1e3:g} mm between its ribs"),
+        ]
+    if isinstance(bearing, SphericalBearing):
+        entries.append(
+            (
+                "raceways",
+                f"contact angle {math.degrees(bearing.contact_angle):.2f} deg, sphere "
+                f"{bearing.sphere_radius * 1e3:.2f} mm, osculation {bearing.cup_osculation:g} and "
+                f"{bearing.cone_osculation:g}",
+            )
+        )
+    if math.isfinite(rating.thrust_limit):
+        ratings += f", e {rating.thrust_limit:.3f}"
+    entries.append(("rating", f"{ratings} (ISO 281)"))
+    return [title, *(f"  {name:<10} {text}" for name, text in entries)]
+
+
+def _tapered_entries(bearing: Bearing) -> list[tuple[str, str]]:
+    """Describe angles, apex and large end."""
+    return [
         (
             "angles",
             f"cup {math.degrees(bearing.cup_angle):.3f}, cone {math.degrees(bearing.cone_angle):.3f}, "
@@ -288,18 +373,25 @@ def _geometry_lines(bearing: Bearing) -> list[str]:
             f"radius {bearing.large_end_radius * 1e3:.3f} mm, sphere {bearing.sphere_radius * 1e3:.1f} mm, "
             f"rib contact {bearing.rib_contact_height * 1e3:g} mm above the raceway",
         ),
-        ("rating", f"C_r {rating.radial / 1e3:.0f} kN, e {rating.thrust_limit:.3f} (ISO 281)"),
     ]
-    return [f"  {name:<10} {text}" for name, text in entries]
 
 
-def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
+def _rib_lines(bearing: RollerBearing, solution: StaticSolution, speed: float) -> list[str]:
     """Describe the contact of the heaviest rib: ellipse, pressure, sliding speed, and its limits."""
     from beardyn_core.bearing.contact_law import rib_ellipse, rib_truncation
+    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import roller_cone_spin
 
+    load = float(solution.rib_load.max())
     if load <= 0.0:
         return []
+    if not isinstance(bearing, Bearing):
+        pressed = (solution.rib_load > 0.0).sum(axis=1)
+        return [
+            "",
+            f"  ribs of the inner ring carry {solution.rib_load.sum():,.1f} N along the axle on "
+            f"{pressed[0]} rollers inboard, {pressed[1]} outboard; heaviest rib {load:,.1f} N",
+        ]
     ellipse = rib_ellipse(bearing, load)
     sliding = abs(roller_cone_spin(bearing, speed * math.pi / 30.0)) * bearing.rib_contact_height
     product = 2.0 / 3.0 * ellipse.largest_pressure * sliding

@@ -174,16 +174,18 @@ def _group(scene: Scene) -> str:
 
 def _bearing(name: str) -> dict[str, Any]:
     from beardyn_core.bearing.life import dynamic_rating
-    from beardyn_core.config import load_bearing
+    from beardyn_core.config import load_any_bearing
 
-    bearing = load_bearing(name)
+    bearing = load_any_bearing(name)
     return {
         "purpose": bearing.description,
+        "kind": bearing.kind,
         "bore_m": bearing.bore,
         "outer_diameter_m": bearing.outer_diameter,
         "width_m": bearing.width,
         "roller_count": bearing.roller_count,
-        "end_play_m": bearing.end_play,
+        "end_play_m": getattr(bearing, "end_play", None),
+        "radial_clearance_m": getattr(bearing, "radial_clearance", None),
         "dynamic_load_rating_N": dynamic_rating(bearing).radial,
     }
 
@@ -331,7 +333,8 @@ def _scene_figures(entry: dict[str, Any]) -> list[str]:
 def _bearing_figures(entry: dict[str, Any]) -> list[str]:
     envelope = " x ".join(f"{entry[key] * 1e3:g}" for key in ("bore_m", "outer_diameter_m", "width_m"))
     rating = f"C {entry['dynamic_load_rating_N'] / 1e3:.0f} kN"
-    return [f"{envelope} mm", f"2 x {entry['roller_count']} rollers", rating]
+    kind = "" if entry["kind"] == "tapered" else f"{entry['kind']} "
+    return [f"{envelope} mm", f"2 x {entry['roller_count']} {kind}rollers", rating]
 
 
 def _lubricant_figures(entry: dict[str, Any]) -> list[str]:

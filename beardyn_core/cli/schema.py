@@ -8,6 +8,8 @@ import json
 KINDS = (
     "scene",
     "bearing",
+    "cylindrical_bearing",
+    "spherical_bearing",
     "lubricant",
     "vehicle",
     "effects",

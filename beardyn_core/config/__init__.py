@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from beardyn_core.config.folders import config_folder, shipped_names
     from beardyn_core.config.load import OpenScene, read_scene, read_scene_mapping, read_scene_text
     from beardyn_core.config.nouns import (
+        load_any_bearing,
         load_background,
         load_bearing,
         load_box,
@@ -49,7 +50,8 @@ if TYPE_CHECKING:
     from beardyn_core.config.schema import SCHEMA_KINDS, json_schema
     from beardyn_core.config.yaml_text import scene_text
 
-__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_background", "load_bearing"]
+__all__ = ["SCHEMA_KINDS", "OpenScene", "config_folder", "json_schema", "load_any_bearing"]
+__all__ += ["load_background", "load_bearing"]
 __all__ += ["load_box", "load_effects", "load_lubricant", "load_plate", "load_sensor", "load_vehicle"]
 __all__ += [
     "read_scene",

@@ -17,7 +17,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.catalogue_entry import KINDS, CatalogueEntry
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.folders import shipped_names
-from beardyn_core.config.nouns import load_bearing, read_noun
+from beardyn_core.config.nouns import load_any_bearing, read_noun
 from beardyn_core.config.yaml_text import read_file
 
 SAME_SIZE = 0.05e-3  # [m]: dimensions that differ by less are one
@@ -27,6 +27,12 @@ _NUMBERS = (
 )
 _SIZES = ("bore_mm", "outside_mm", "width_mm")
 _SHOWN = 6
+_KINDS_OF_WHOLE = {
+    "tapered": "tapered unit",
+    "cylindrical": "cylindrical roller",
+    "spherical": "spherical roller",
+}
+_ABOUT_WHOLE = {"tapered": "which can be simulated"}
 # Endings that change no inner design: seals and shields, clearance and tolerance, grease and grooves.
 _SEALS = "RS1|RSH|RSR|RS|RZ|ZR|ZZ|Z|LLU|LLB|LLH|DDU|VV"
 _NEUTRAL = f"{_SEALS}|C[1-5]|CN|P[0456]|QE6|JEM|W33|W20|NR|N"
@@ -60,11 +66,11 @@ def catalogue() -> tuple[CatalogueEntry, ...]:
 
 @cache
 def _whole(name: str) -> CatalogueEntry:
-    bearing = load_bearing(name)
+    bearing = load_any_bearing(name)
     sources = dict(bearing.sources)
     return CatalogueEntry(
         NamePlate.of(bearing),
-        kind="tapered unit",
+        kind=_KINDS_OF_WHOLE[bearing.kind],
         rows=2,
         maker="",
         source=sources.get("roller_diameter", "see the file"),
@@ -73,7 +79,7 @@ def _whole(name: str) -> CatalogueEntry:
         outer_diameter=bearing.outer_diameter,
         width=bearing.width,
         size_source=sources.get("bore", "see the file"),
-        about="whole bearing, which can be simulated",
+        about=f"whole bearing, {_ABOUT_WHOLE.get(bearing.kind, 'with static answers')}",
     )
 
 

@@ -15,6 +15,7 @@ from pydantic import ValidationError
 from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS, stem_of
+from beardyn_core.bearing.any_bearing import BEARING_OF_KIND, refuse_kind
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
@@ -109,6 +110,7 @@ class _Reading:
         for place, value in overrides.items():
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
+        self._require_tapered()
         self._inline(self.data, "lubricant", "lubricants", ())
         self._inline(self.data, "background", "backgrounds", ())
         free = take_auto(self.data)
@@ -130,6 +132,16 @@ class _Reading:
             raise InputError(list(dict.fromkeys(self.problems)))
         given = "steps_per_sample" in self.data.get("numerics", {})
         return OpenScene(self_contained(scene), free, given, self.data)
+
+    def _require_tapered(self) -> None:
+        """Refuse a bearing of another kind at once: no other key of the scene is about it."""
+        bearing = self.data.get("bearing")
+        if not isinstance(bearing, dict) or bearing.get("kind") not in BEARING_OF_KIND:
+            return
+        if bearing["kind"] != Bearing.kind:
+            label = f"{self.origins[0].label}: bearing"
+            refuse_kind(str(bearing.get("name", "the bearing")), bearing["kind"], "runs", label)
+        self.data["bearing"] = {key: value for key, value in bearing.items() if key != "kind"}
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = locate(place, self.origins)

@@ -12,6 +12,7 @@ import beardyn_core.config.part_files
 import beardyn_core.config.scene_file  # noqa: F401  both say what the files of nouns may have besides
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
+from beardyn_core.bearing.any_bearing import BEARING_OF_KIND, AnyBearing, require_tapered
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
@@ -32,14 +33,30 @@ from beardyn_core.structure.imported import ModeFile
 
 
 def load_bearing(name: str | Path) -> Bearing:
-    """Load a shipped bearing or that of a file; raises `InputError` with every mistake and contradiction."""
+    """Load a shipped tapered bearing or that of a file, for what only tapered ones have.
+
+    Raises
+    ------
+    InputError
+        With every mistake and contradiction, or for a bearing of another kind with what that one can do.
+    """
+    return require_tapered(load_any_bearing(name), "runs, boxes, estimates and what is made of them")
+
+
+def load_any_bearing(name: str | Path) -> AnyBearing:
+    """Load a shipped bearing of any kind or that of a file; raises `InputError` with every mistake."""
     path = find("bearings", str(name))
     return bearing_from_mapping(read_file(path), str(path))
 
 
-def bearing_from_mapping(data: dict[str, Any], label: str) -> Bearing:
-    """Make a bearing of the mapping in a bearing file; see `load_bearing`."""
-    bearing: Bearing = read_noun(Bearing, data, label)
+def bearing_from_mapping(data: dict[str, Any], label: str) -> AnyBearing:
+    """Make a bearing of the mapping in its file, tapered where it names no kind; see `load_any_bearing`."""
+    kind = data.get("kind", Bearing.kind)
+    if kind not in BEARING_OF_KIND:
+        raise InputError(f"{label}: kind is {kind!r}; allowed are {', '.join(BEARING_OF_KIND)}")
+    if kind == Bearing.kind:
+        data = {key: value for key, value in data.items() if key != "kind"}
+    bearing: AnyBearing = read_noun(BEARING_OF_KIND[kind], data, label)
     if problems := check(bearing):
         raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
     return bearing

@@ -9,7 +9,7 @@ from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config.catalogue import find_bearing
 from beardyn_core.config.folders import find, shipped_names
-from beardyn_core.config.nouns import bearing_from_mapping, load_bearing, read_noun
+from beardyn_core.config.nouns import bearing_from_mapping, load_any_bearing, read_noun
 from beardyn_core.config.yaml_text import read_file
 
 
@@ -23,12 +23,12 @@ def load_plate(name: str | Path) -> NamePlate:
     """
     text = str(name)
     if text in shipped_names("bearings"):
-        return NamePlate.of(load_bearing(text))
+        return NamePlate.of(load_any_bearing(text))
     if _is_name(text):
         return find_bearing(text).plate
     path = find("plates", text)
     data = read_file(path)
-    if "row_spacing_mm" in data or "cage" in data:
+    if "cage" in data or "row_spacing_mm" in data or "kind" in data:
         return NamePlate.of(bearing_from_mapping(data, str(path)))
     plate: NamePlate = read_noun(NamePlate, data, str(path))
     return plate

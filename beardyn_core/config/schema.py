@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.config.keys import in_order, keys_of
 from beardyn_core.config.scene_file import EffectSet, Scene
 from beardyn_core.scene.background import Background
@@ -21,6 +23,8 @@ from beardyn_core.structure.imported import ModeFile
 _NOUNS: dict[str, type] = {
     "scene": Scene,
     "bearing": Bearing,
+    "cylindrical_bearing": CylindricalBearing,
+    "spherical_bearing": SphericalBearing,
     "lubricant": Lubricant,
     "vehicle": Vehicle,
     "effects": EffectSet,

@@ -7,8 +7,8 @@ from typing import Annotated as A
 from typing import ClassVar
 
 from beardyn_core.base.edge import SHARE, At
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, lamina_root
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects.about import About
 
 
@@ -33,7 +33,7 @@ class LaminaCoupling:
     strength: A[float, SHARE, "share of the influence between different laminae"] = 1.0
 
 
-def bearing_lamina_root(bearing: Bearing, coupling: LaminaCoupling, count: int) -> LaminaRoot:
+def bearing_lamina_root(bearing: RollerBearing, coupling: LaminaCoupling, count: int) -> LaminaRoot:
     """Compute the matrices of the raceway contacts, with one width for both, by the roller's radius."""
     return lamina_root(
         count,

@@ -8,6 +8,7 @@ from beardyn_core.base.config_folder import config_folder
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_bearing, shipped_names
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.inference import doubt_of
 
@@ -23,8 +24,10 @@ def shipped_for(bearing: Bearing | NamePlate) -> Estimator:
     Raises
     ------
     InputError
-        There is none, with those that there are.
+        There is none, with those that there are, or the bearing is of a kind that has none.
     """
+    if bearing.name in shipped_names("bearings"):
+        load_bearing(bearing.name)
     known = [read_estimator(path) for path in list_shipped()]
     for each in known:
         if not doubt_of(each, bearing):

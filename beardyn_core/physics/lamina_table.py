@@ -11,6 +11,8 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.radial_bearing import RadialBearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import LineFilm
 from beardyn_core.physics.bodies import layout
 from beardyn_core.scene.scene import Scene
@@ -21,13 +23,16 @@ def for_springs(table: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.ascontiguousarray(np.concatenate([table, table], axis=-1))
 
 
-def lamina_places(bearing: Bearing, count: int) -> NDArray[np.float64]:
+def lamina_places(bearing: RollerBearing, count: int) -> NDArray[np.float64]:
     """Work out the abscissae of the laminae from mid-length, towards the large end, shape [lamina], [m]."""
     return ((np.arange(count) + 0.5) / count - 0.5) * bearing.effective_length
 
 
-def equivalent_radius(bearing: Bearing, place: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
+def equivalent_radius(bearing: RollerBearing, place: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
     """Work out the equivalent cylinder's radius in rolling direction, roller against ring, [lamina], [m]."""
+    if isinstance(bearing, RadialBearing):
+        return np.full(np.shape(place), bearing.rolling_radius(ring))
+    assert isinstance(bearing, Bearing)
     cone_distance = bearing.apex_distance + place
     roller = cone_distance * math.tan(bearing.half_angle) / math.cos(bearing.half_angle)
     angle = bearing.cup_angle if ring == "cup" else bearing.cone_angle
@@ -53,7 +58,7 @@ def surface_radius(bearing: Bearing, on: str) -> float:
     return radii[on]
 
 
-def lamina_pressure(bearing: Bearing, lamina_load: NDArray[np.float64], ring: str) -> NDArray[np.float64]:
+def lamina_pressure(bearing: RollerBearing, lamina_load: Float, ring: str) -> Float:
     """Work out the Hertz pressure of the laminae of raceway contacts with ``cup`` or ``cone``.
 
     Parameters

@@ -18,6 +18,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import RingStructure, Structure
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.scene import Scene
@@ -99,7 +100,7 @@ def _body(
     )
 
 
-def bending_rings(bearing: Bearing, how: str) -> ModalBody | None:
+def bending_rings(bearing: RollerBearing, how: str) -> ModalBody | None:
     """Make the rings of a bearing that is asked about without a scene.
 
     Parameters
@@ -122,7 +123,7 @@ def bending_rings(bearing: Bearing, how: str) -> ModalBody | None:
     return rings(bearing, RingStructure(), _ROWS) if how == "elastic" else None
 
 
-def rings(bearing: Bearing, structure: RingStructure, rows: int) -> ModalBody:
+def rings(bearing: RollerBearing, structure: RingStructure, rows: int) -> ModalBody:
     """Make the modal body of the cup and the housing wall around it: both directions of each wave."""
     parts = [cup_ring(bearing)]
     if structure.housing_wall > 0.0:

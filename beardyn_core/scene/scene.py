@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from beardyn_core.base.edge import INTERNAL, SEED, At
 from beardyn_core.base.units import UNITS
+from beardyn_core.bearing.any_bearing import require_tapered
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
@@ -109,6 +110,9 @@ class Scene:
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
     # what it was chosen from, so that a changed scene is chosen for anew
     left_open: A[LeftOpen | None, INTERNAL] = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        require_tapered(self.bearing, "runs", f"scene {self.name}")
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
         """Write the end play as mounted, before temperatures change it."""

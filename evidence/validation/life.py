@@ -7,15 +7,15 @@ import math
 import numpy as np
 
 from beardyn_core.bearing.life import contact_ratings, dynamic_rating
-from beardyn_core.config import load_bearing
+from beardyn_core.config import load_any_bearing
 from evidence.validation.anchor import Anchor
 
 LUNDBERG = "Lundberg and Palmgren 1952: the rating is the load of a life of one million revolutions"
 
 
-def rated_life_of_half_loaded_ring() -> float:
+def rated_life_of_half_loaded_ring(name: str = "HS130x230") -> float:
     """Compute the life of a row under its own rating, half the ring loaded by the 10/9 law, no edges."""
-    bearing = load_bearing("HS130x230")
+    bearing = load_any_bearing(name)
     cone, cup = contact_ratings(bearing)
     angle = 2.0 * math.pi * np.arange(3600) / 3600
     shape = np.maximum(np.cos(angle), 0.0) ** (10.0 / 9.0)

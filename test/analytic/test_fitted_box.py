@@ -10,7 +10,7 @@ import pytest
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
-from beardyn_core.config.folders import find, shipped_names
+from beardyn_core.config.folders import find
 from beardyn_core.config.load import read_scene_mapping
 from beardyn_core.config.nouns import box_for, load_bearing, load_box
 from beardyn_core.config.yaml_text import read_file
@@ -20,6 +20,7 @@ from beardyn_core.structure.build import modes_of
 from beardyn_core.structure.fitting import fit_box
 from beardyn_core.structure.mounted_box import mounting_of, require_cup, table_path
 from beardyn_core.structure.table import read_table
+from test.bearings import TAPERED
 from test.finite_elements import need_finite_elements
 
 FREIGHT = "high_speed_FR130x230x150"
@@ -94,7 +95,7 @@ def test_a_scene_of_the_bearing_takes_the_fitted_box_by_its_name() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", shipped_names("bearings"))
+@pytest.mark.parametrize("name", TAPERED)
 def test_every_shipped_bearing_fits_in_the_box(name: str) -> None:
     """Of one mesh and up to 3 kHz: mass and inertia as the size of the cup, first modes against it."""
     need_finite_elements()

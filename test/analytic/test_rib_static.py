@@ -27,7 +27,7 @@ from beardyn_core.bearing.contact_law import (
 from beardyn_core.bearing.film_thickness import rib_film_thickness
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, roller_cone_spin
-from beardyn_core.config import load_bearing, load_lubricant, shipped_names
+from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.effects import Rib, RibMixedFilm, RibShearedFilm
 from beardyn_core.effects.rib import RibLubrication
 from beardyn_core.physics.rib import rib_params
@@ -35,6 +35,7 @@ from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import roller_forces
 from beardyn_core.physics.statics.static import _rotation, solve
 from beardyn_core.physics.statics.torque import rib_torque
+from test.bearings import TAPERED
 
 HS = load_bearing("HS130x230")
 
@@ -119,7 +120,7 @@ def test_static_rib_leaves_the_cone_beyond_the_edges_only() -> None:
         assert lost == pytest.approx((moved - room) ** 2 / (2.0 * HS.sphere_radius), rel=0.02)
 
 
-@pytest.mark.parametrize("name", shipped_names("bearings"))
+@pytest.mark.parametrize("name", TAPERED)
 @pytest.mark.parametrize("force", [(0.0, 0.0, 8e4), (0.0, 18e3, 8e4), (0.0, 6e4, 6e4)])
 def test_static_rib_contacts_of_shipped_bearings_stay_on_the_face(
     name: str, force: tuple[float, float, float]

@@ -12,11 +12,12 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.config import shipped_names
 from beardyn_core.scene.scene import QUANTITIES
 from beardyn_core.scene.tier import TIER_NAMES
+from test.bearings import TAPERED
 from test.choice.scenes import SPALL, constant, variant
 
 FORCES = st.floats(-90.0, 90.0)
 SCENES = {
-    "bearing": st.sampled_from(shipped_names("bearings")),
+    "bearing": st.sampled_from(TAPERED),
     "lubricant": st.sampled_from(shipped_names("lubricants")),
     "force": st.tuples(FORCES, st.floats(-30.0, 30.0), FORCES),
     "speed": st.sampled_from([-2000.0, -100.0, 0.0, 1.0, 600.0, 3000.0]),

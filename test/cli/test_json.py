@@ -113,7 +113,8 @@ def test_numbers_become_strict_json() -> None:
 
 def test_bearing(capsys: pytest.CaptureFixture[str]) -> None:
     words = ("bearing", "HS130x230", "--laminae", "3", "--lubricant", "L055", "--speed", "1000")
-    check("bearing", printed(capsys, *words), printed(capsys, "bearing", "HS130x230"))
+    others = (printed(capsys, "bearing", name) for name in ("HS130x230", "WJ130x240", "SRB120x260"))
+    check("bearing", printed(capsys, *words), *others)
 
 
 def test_explain(capsys: pytest.CaptureFixture[str]) -> None:

@@ -17,8 +17,8 @@ from beardyn_core.cli.new import POSSIBLE
 from beardyn_core.cli.scenes import KINDS
 from beardyn_core.config import (
     config_folder,
+    load_any_bearing,
     load_background,
-    load_bearing,
     load_box,
     load_effects,
     load_lubricant,
@@ -30,7 +30,7 @@ from beardyn_core.config import (
 
 LOADERS: dict[str, Any] = {
     "scenes": load_scene,
-    "bearings": load_bearing,
+    "bearings": load_any_bearing,
     "lubricants": load_lubricant,
     "vehicles": load_vehicle,
     "effects": load_effects,

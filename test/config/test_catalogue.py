@@ -198,7 +198,10 @@ def test_bearings_are_found_by_dimensions_kind_and_maker() -> None:
         "NU2205E",
     }
     assert all("NSK" in (each.maker, *each.also_in) for each in bd.catalogue(kind="spherical", maker="nsk"))
-    assert [each.name for each in bd.catalogue(bore_mm=130, width_mm=160)] == ["HS130x230"]
+    assert [each.name for each in bd.catalogue(bore_mm=130, width_mm=160)] == [
+        "HS130x230",
+        "WJ130x240",
+    ]
     assert bd.catalogue(bore_mm=25, outside_mm=53) == ()
     assert len(bd.catalogue()) == len(ENTRIES)
 

@@ -18,6 +18,7 @@ from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import (
     SCHEMA_KINDS,
     json_schema,
+    load_any_bearing,
     load_bearing,
     load_box,
     load_effects,
@@ -38,7 +39,7 @@ from beardyn_core.scene.scene import Numerics
 from beardyn_core.scene.sensor import Accelerometer
 
 LOADERS: dict[str, Callable[[str], Any]] = {
-    "bearings": load_bearing,
+    "bearings": load_any_bearing,
     "lubricants": load_lubricant,
     "vehicles": load_vehicle,
     "structures": load_box,
@@ -132,10 +133,17 @@ def test_numbers_keep_their_sources() -> None:
 
 
 def shipped_mappings(kind: str) -> list[dict[str, Any]]:
-    """Read the shipped files of a kind; boxes are in figures or like another one."""
-    folder = kind if kind == "effects" else f"{kind}s"
+    """Read the shipped files of a kind; boxes are in figures or like another one, bearings of three kinds."""
+    folder = kind if kind == "effects" else f"{kind.removeprefix(f'{_roller(kind)}_')}s"
     read = [read_file(find(folder, name)) for name in shipped_names(folder)]
+    if folder == "bearings":
+        return [each for each in read if each.get("kind", "") == _roller(kind)]
     return [each for each in read if kind != "structure" or "like" not in each]
+
+
+def _roller(kind: str) -> str:
+    """The kind that the files of a schema name; tapered bearings name none."""
+    return kind.removesuffix("_bearing") if kind.endswith("_bearing") else ""
 
 
 @pytest.mark.parametrize("kind", SCHEMA_KINDS)

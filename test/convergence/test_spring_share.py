@@ -10,11 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.config import load_bearing, shipped_names
+from beardyn_core.config import load_bearing
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.physics.tiers.build import highest_bounce, implicit_spring_share
 from beardyn_core.physics.tiers.step_choice import bounce_frequency
+from test.bearings import TAPERED
 from test.kernels.rig import Float
 
 
@@ -59,7 +60,7 @@ def test_usual_step_resolves_the_bounce() -> None:
     assert 0.25 > shares[0] > shares[1] > 1.0 / 12.0
 
 
-@pytest.mark.parametrize("name", shipped_names("bearings"))
+@pytest.mark.parametrize("name", TAPERED)
 def test_highest_bounce_is_above_that_of_heavy_loads(name: str) -> None:
     bearing = load_bearing(name)
     static = solve(bearing, (0.0, 0.0, 1.5e5), end_play=0.0, laminae=6, speed=60.0)

@@ -18,7 +18,7 @@ from beardyn_core.bearing.thermal import (
 )
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
-from beardyn_core.config import load_bearing, scene_text, shipped_names
+from beardyn_core.config import load_bearing, scene_text
 from beardyn_core.effects import EffectSet, LineFilm, Thermal
 from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.physics.thermal import BOX_NODE, NODES, heat_shares, moving_air, thermal_network
@@ -30,6 +30,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from beardyn_core.study import desk_run
 from test.analytic.test_symmetries_of_effects import scene_of
+from test.bearings import TAPERED
 from test.kernels.rig import Float
 from test.runs import assert_same, constant_load, started
 from test.scenes import LOAD_80_KN, scene_with, standard_scene
@@ -38,7 +39,7 @@ FILM = 7  # of the contact fields
 QUICK = Thermal(time_scale=2e3)
 
 
-@pytest.mark.parametrize("name", shipped_names("bearings"))
+@pytest.mark.parametrize("name", TAPERED)
 def test_hot_inside_closes_the_end_play_as_in_the_engineering_manual(name: str) -> None:
     """Timken, Engineering manual, indirect mounting: alpha dT [(D1 cot a1 + D2 cot a2)/2 - L]."""
     bearing = load_bearing(name)

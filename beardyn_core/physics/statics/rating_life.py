@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import (
     LIFE_EXPONENT,
     SMALLEST_LAMINA_COUNT,
@@ -22,6 +21,7 @@ from beardyn_core.bearing.life import (
     reference_viscosity,
 )
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.modal_body import bending_rings
 from beardyn_core.physics.statics.static import solve
 from beardyn_core.scene.load import LoadHistory
@@ -125,12 +125,12 @@ def load_classes(load: LoadHistory) -> tuple[LoadClass, ...]:
 
 
 def rating_life(
-    bearing: Bearing,
+    bearing: RollerBearing,
     classes: tuple[LoadClass, ...],
     lubricant: Lubricant,
     temperature: float,
     *,
-    end_play: float,
+    end_play: float | None,
     tilt: str,
     contamination: float = USUAL_CONTAMINATION,
     laminae: int = SMALLEST_LAMINA_COUNT,
@@ -142,8 +142,8 @@ def rating_life(
     ----------
     temperature : float
         Of lubricant and bearing, [K].
-    end_play : float
-        Total axial travel, [m].
+    end_play : float or None
+        Total axial travel, [m]; ``None``: that of the bearing.
     tilt : str
         ``locked`` or ``free``, as in the static solution.
     contamination : float

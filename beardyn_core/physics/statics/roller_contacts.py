@@ -1,15 +1,16 @@
-"""Raceway and rib contacts of every roller for a given pose of cone and rollers.
+"""Raceway and rib contacts of cones and cylinders for a given pose of cone and rollers.
 
 Every roller moves in its own meridian plane: radially, axially (outwards, along its row) and in tilt.
 The cup is at rest. The gaps are exact signed distances: to the cup cone in the meridian plane, to the
-displaced and tilted cone in space, of the end sphere to the conical rib.
+displaced and tilted cone in space, of the end spheres to the conical ribs. A cylinder is a cone of angle 0.
+Barrels: see `barrel_contacts`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,16 +20,15 @@ from beardyn_core.bearing.contact_law import (
     LINE_EXPONENT,
     POINT_EXPONENT,
     line_contact_factor,
-    rib_contact_factor,
 )
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed, centrifugal_force, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
+from beardyn_core.bearing.rib_face import RibFace, rib_faces
+from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.modal_body import ModalBody
 
-ROW_COUNT = 2
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
 # there says nothing, is pushed along its roller's meridian [m].
 _ON_AXIS = 1.0e-3
@@ -39,7 +39,7 @@ _NOT_ASKED = np.empty(0)
 class ContactModel:
     """Constants of the contacts of both rows."""
 
-    bearing: Bearing
+    bearing: RollerBearing
     radial: Float  # [row, roller, 3], unit vectors of each meridian plane: radially outwards,
     axial: Float  # axially outwards along the row,
     tilt_axis: Float  # and the axis about which a positive tilt turns the large end radially outwards
@@ -50,7 +50,7 @@ class ContactModel:
     drop: Float  # [lamina], or with errors of the profiles [row, roller, lamina]: of the profile [m]
     clearance: float  # normal gap at the cup raceway with the cone centred [m]
     lamina_factor: float  # stiffness factor of one lamina contact [N/m^(10/9)]
-    rib_factor: float  # [N/m^1.5]
+    rib_factors: tuple[float, ...]  # of each of `rib_faces` [N/m^1.5]
     inertia_load: Float  # [3], radial, axial and tilting, of the orbiting roller at mid-length [N, N, N m]
     bending: Float  # [row, roller, mode], how far the raceway opens per amplitude of a mode [1/sqrt(kg)]
     missing: NDArray[np.bool_]  # [row, roller], rollers that are not there
@@ -81,7 +81,7 @@ class ContactSet:
 
 
 def contact_model(
-    bearing: Bearing,
+    bearing: RollerBearing,
     end_play: float,
     laminae: int,
     speed: float,
@@ -104,9 +104,7 @@ def contact_model(
     for row, roller in missing:
         not_there[row, roller] = True
     abscissa = ((np.arange(laminae) + 0.5) / laminae - 0.5) * bearing.effective_length
-    drop = bearing.profile.lamina_drop(
-        laminae, bearing.effective_length, bearing.roller_diameter, bearing.material.contact_modulus
-    )
+    drop = bearing.lamina_drop(laminae)
     if crown is not None:
         drop = drop + np.asarray(crown)[:rows, :, None] * abscissa**2
     return ContactModel(
@@ -116,12 +114,12 @@ def contact_model(
         tilt_axis=np.cross(axial, radial),
         centre=0.5 * bearing.row_spacing * axial + 0.5 * bearing.pitch_diameter * radial,
         abscissa=abscissa,
-        radius=(bearing.apex_distance + abscissa) * math.tan(bearing.half_angle) + error[:, :, None],
+        radius=bearing.radius_at(abscissa) + error[:, :, None],
         oversize=error[:, :, None],
         drop=drop,
         clearance=bearing.normal_gap(end_play),
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
-        rib_factor=rib_contact_factor(bearing),
+        rib_factors=tuple(face.contact.factor for face in rib_faces(bearing)),
         inertia_load=_inertia_load(bearing, speed),
         coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
         bending=np.zeros((*radial.shape[:2], 0)) if body is None else body.openings(azimuth),
@@ -129,13 +127,18 @@ def contact_model(
     )
 
 
-def _inertia_load(bearing: Bearing, speed: float) -> Float:
+def _inertia_load(bearing: RollerBearing, speed: float) -> Float:
     """Work out centrifugal force and gyroscopic moment of a roller at epicyclic speed, about mid-length.
 
     With the cage at w_c and the roller spinning w_r against it, the rate of change of the angular momentum
     needs the moment w_c sin(am) [Jx w_r - (Jx - Jy) w_c cos(am)] that pushes the large end inwards; the
-    roller answers with the opposite one.
+    roller answers with the opposite one. What drives a barrel along its raceways and turns it, cage and guide
+    ring take; what is left of its centrifugal force presses it on the sphere.
     """
+    if bearing.self_aligning:
+        sine, cosine = math.sin(bearing.cup_angle), math.cos(bearing.cup_angle)
+        pressed = centrifugal_force(bearing, speed) * cosine
+        return np.array([pressed * cosine, pressed * sine, 0.0])
     cage, spin = cage_speed(bearing, speed), roller_spin(bearing, speed)
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     centrifugal = centrifugal_force(bearing, speed)
@@ -218,34 +221,72 @@ def cone_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: b
     facing = (normal - along * axis[:, :, None, :]) / np.sqrt(1.0 - along**2)
     point = lamina_centre + model.radius[..., None] * facing
     distance = np.hypot(point[..., 0], point[..., 2])
-    gap = cosine * distance - sine * (outwards * point[..., 1] - bearing.apex_place) + model.drop
+    radius, place = bearing.cone_line
+    gap = cosine * (distance - radius) - sine * (outwards * point[..., 1] - place) + model.drop
     normal = _cone_normal(point, outwards, sine, cosine)
     force, stiffness, energy = line_law(model, -gap)
     return _assemble_contacts(model, pose, -gap, force, stiffness, energy, centre, point, normal, by_cone)
 
 
 def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bool = True) -> ContactSet:
-    """Work out contacts of the spherical large ends with the conical rib; one "lamina" per roller.
+    """Work out contacts of the spherical roller ends with the ribs of the cone; one "lamina" a rib.
 
-    The nearest point of the rib lies on its face between undercut and corner; the edges are sharp.
+    The nearest point of a rib lies on its face between undercut and corner; the edges are sharp.
     """
-    bearing = model.bearing
-    sine, cosine = math.sin(bearing.rib_lean), math.cos(bearing.rib_lean)
-    outwards = model.axial[:, :, 1]
+    return _faces_of("cone", model, roller, pose, by_cone)
+
+
+def cup_rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bool = True) -> ContactSet:
+    """Work out contacts of the roller ends with the ribs of the cup, which is at rest, as `rib_contacts`."""
+    at_rest = ConePose(np.zeros(3), np.eye(3), pose.bending)
+    found = _faces_of("cup", model, roller, at_rest, by_cone)
+    return replace(found, by_cone=np.zeros_like(found.by_cone)) if by_cone else found
+
+
+def _faces_of(ring: str, model: ContactModel, roller: Float, pose: ConePose, by_cone: bool) -> ContactSet:
+    """Work out the contacts with every rib of a ring, one behind the other; none is a set without laminae."""
+    faces = zip(rib_faces(model.bearing), model.rib_factors, strict=True)
+    sets = [
+        _face_contacts(model, roller, pose, face, factor, by_cone)
+        for face, factor in faces
+        if face.ring == ring
+    ]
+    if len(sets) == 1:
+        return sets[0]
+    if not sets:
+        nothing = np.zeros((*roller.shape[:2], 0))
+        following = np.zeros((*nothing.shape, 5 + model.bending.shape[-1])) if by_cone else _NOT_ASKED
+        return ContactSet(nothing, nothing, nothing, nothing, np.zeros((*nothing.shape, 3)), following)
+    alone = {"by_cone"} if not by_cone else set()
+    joined = {
+        name: getattr(sets[0], name)
+        if name in alone
+        else np.concatenate([getattr(each, name) for each in sets], axis=2)
+        for name in vars(sets[0])
+    }
+    return ContactSet(**joined)
+
+
+def _face_contacts(
+    model: ContactModel, roller: Float, pose: ConePose, face: RibFace, factor: float, by_cone: bool
+) -> ContactSet:
+    """Work out contacts of the roller ends with one rib of every row."""
+    sine, cosine = math.sin(face.lean), math.cos(face.lean)
+    outwards = face.side * model.axial[:, :, 1]
     centre, axis = _roller_line(model, roller, pose)
-    sphere = centre + bearing.sphere_centre * axis
+    sphere = centre + face.sphere_centre * axis
     # a sphere that a forced bearing makes too large is centred on the bearing axis or beyond it
     size = np.hypot(sphere[..., 0], sphere[..., 2])
     outside = np.sum(sphere * model.radial, axis=-1)
     centred = size < _ON_AXIS
     distance = np.where(centred, outside, np.where(outside < 0.0, -size, size))
     inverse = 1.0 / np.where(centred, 1.0, distance)
-    nominal_distance, nominal_axial = bearing.end_sphere
-    outward = outwards * sphere[..., 1] - nominal_axial
-    approach = cosine * outward + sine * (distance - nominal_distance)
+    nominal_distance, nominal_axial = face.sphere_place
+    outward = outwards * sphere[..., 1] - face.side * nominal_axial
+    approach = cosine * outward + sine * (distance - nominal_distance) - face.gap
     height = cosine * (distance - nominal_distance) - sine * outward
-    beyond = height - np.clip(height, *bearing.rib_face)
-    ahead = bearing.sphere_radius - approach
+    beyond = height - np.clip(height, *face.edges)
+    ahead = face.sphere_radius - approach
     reach = np.hypot(ahead, beyond)
     approach = approach - beyond**2 / (reach + ahead)
     normal_axial = (ahead * cosine + beyond * sine) / reach
@@ -255,8 +296,8 @@ def rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone: bo
         direction = np.where(centred, model.radial[..., k], sphere[..., k] * inverse)
         normal[..., k] = normal_radial * direction
     normal[..., 1] = normal_axial * outwards
-    point = sphere + bearing.sphere_radius * normal
-    force, stiffness, energy = power_law(approach, model.rib_factor, POINT_EXPONENT)
+    point = sphere + face.sphere_radius * normal
+    force, stiffness, energy = power_law(approach, factor, POINT_EXPONENT)
     return _assemble_contacts(
         model,
         pose,

@@ -3,7 +3,7 @@
 The contact energy of a roller is convex in its position as long as it stays before its rib, so damped Newton
 steps that are short and only accept a lower energy (or a smaller residual force) find the one equilibrium. A
 roller that the rings leave free is put where a turning bearing would carry it: against cup and rib, just
-touching.
+touching; one with two like ends against the cup.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.rib_face import rib_faces
 from beardyn_core.physics.roller_spring import SpringParams, lever_of_cup
+from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import (
     ConePose,
     ContactModel,
@@ -27,11 +29,12 @@ from beardyn_core.physics.statics.roller_contacts import (
     cone_contacts,
     contact_model,
     cup_contacts,
+    cup_rib_contacts,
     rib_contacts,
 )
 
-Contacts = tuple[ContactSet, ContactSet, ContactSet]
-"""Of the rollers with cup, cone and rib."""
+Contacts = tuple[ContactSet, ...]
+"""Of the rollers with cup, cone, ribs of the cone and, where it has any, ribs of the cup."""
 TERMS = 8
 _SAMPLES = 31
 # below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
@@ -152,6 +155,7 @@ class RollerState:
     cup: ContactSet
     cone: ContactSet
     rib: ContactSet
+    cup_rib: ContactSet | None  # where the cup has ribs
     residual: float  # largest force that is left on a roller [N]
     # [5 + 2 x mode], force of the rollers on the cone, its moment about x and z, [N, N m], and their force on
     # the amplitudes of the cup's bending [N]
@@ -167,10 +171,14 @@ def solve_rollers(model: ContactModel, pose: ConePose, guess: Float | None) -> R
     Positions of a ``guess`` [row, roller, 3] are where those start that have a lower energy there than free.
     """
     solver = _Rollers(model, pose)
-    touching = _on_cup_and_rib(model, pose)
+    tapered = isinstance(model.bearing, Bearing)
+    touching = _on_cup_and_rib(model, pose) if tapered else _on_cup(solver)
     contacts = solver.contacts(touching, by_cone=False)
     start = solver.at(touching, contacts)
     free = (contacts[1].approach.max(axis=-1) <= _ROUNDING_GAP) & (not np.any(model.inertia_load))
+    if not tapered:  # a tapered roller touches its rib by where it has been put
+        for ribs in contacts[2:]:
+            free &= ribs.approach.max(axis=-1, initial=-np.inf) <= _ROUNDING_GAP
     free |= model.missing  # what is not there touches nothing either
     if guess is not None:
         warm = solver.at(guess)
@@ -203,11 +211,22 @@ class _Rollers:
         self.scale = np.array([1.0, 1.0, lever])
 
     def contacts(self, position: Float, by_cone: bool) -> Contacts:
-        return (
-            cup_contacts(self.model, position, self.pose, by_cone),
-            cone_contacts(self.model, position, self.pose, by_cone),
-            rib_contacts(self.model, position, self.pose, by_cone),
+        model, pose = self.model, self.pose
+        ribs = rib_contacts(model, position, pose, by_cone)
+        if model.bearing.self_aligning:
+            return (
+                barrel_contacts.cup_contacts(model, position, pose, by_cone),
+                barrel_contacts.cone_contacts(model, position, by_cone),
+                ribs,
+            )
+        found = (
+            cup_contacts(model, position, pose, by_cone),
+            cone_contacts(model, position, pose, by_cone),
+            ribs,
         )
+        if any(face.ring == "cup" for face in rib_faces(model.bearing)):
+            return (*found, cup_rib_contacts(model, position, pose, by_cone))
+        return found
 
     def at(self, position: Float, contacts: Contacts | None = None) -> _Trial:
         """Work out energy and its derivatives, tilt measured as lever times angle."""
@@ -255,6 +274,7 @@ class _Rollers:
             cup=contacts[0],
             cone=contacts[1],
             rib=contacts[2],
+            cup_rib=contacts[3] if len(contacts) > 3 else None,
             residual=float(left.max()) if left.size else 0.0,
             cone_force=cone_force,
             cone_stiffness=0.5 * (stiffness + stiffness.T),
@@ -320,9 +340,26 @@ def _without(contact: ContactSet, free: NDArray[np.bool_]) -> ContactSet:
     )
 
 
+def _on_cup(solver: _Rollers) -> Float:
+    """Place the rollers along their contact line where the cup alone carries the inertia load, or touches."""
+    model = solver.model
+    angle = model.bearing.contact_angle
+    line = np.array([math.cos(angle), math.sin(angle), 0.0])
+    wanted = 0.0
+    if np.any(model.inertia_load):
+        law = model.lamina_factor * model.abscissa.size
+        wanted = float((model.inertia_load @ line / law) ** (1.0 / LINE_EXPONENT))
+    position = np.zeros_like(model.centre)
+    for _ in range(4):
+        cup = solver.contacts(position, by_cone=False)[0]
+        position += (wanted - cup.approach.max(axis=-1))[..., None] * line
+    return position
+
+
 def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
     """Place the rollers without tilt where cup and rib alone carry the inertia load, or just touch."""
     bearing = model.bearing
+    assert isinstance(bearing, Bearing)
     centrifugal = float(model.inertia_load[0])
     cup_load = centrifugal_cup_load(centrifugal, bearing.cup_angle, bearing.rib_angle)
     _, rib_load = roller_forces(
@@ -331,7 +368,7 @@ def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
     wanted = np.array(
         [
             (cup_load / (model.lamina_factor * model.abscissa.size)) ** (1.0 / LINE_EXPONENT),
-            (rib_load / model.rib_factor) ** (1.0 / POINT_EXPONENT),
+            (rib_load / model.rib_factors[0]) ** (1.0 / POINT_EXPONENT),
         ]
     )
     position = np.zeros_like(model.centre)

@@ -1,7 +1,8 @@
-"""Static equilibrium of both rows, or of one: every roller between cup, cone and rib.
+"""Static equilibrium of both rows, or of one: every roller between cup, cone and ribs.
 
 Unknown are the displacement of the cone relative to the cup and, when it is free, its tilt about x and z,
-and the amplitudes of the modes of the box when it is not rigid. The rollers follow (`roller_equilibrium`);
+and the amplitudes of the modes of the box when it is not rigid. A spherical roller bearing leaves the tilt
+open: nothing depends on it. The rollers follow (`roller_equilibrium`);
 what is left is a nearly convex problem in three or five unknowns and one for each mode.
 """
 
@@ -9,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,10 +18,12 @@ from numpy.typing import ArrayLike
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.consistency import require_sound
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
+from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.modal_body import ModalBody
-from beardyn_core.physics.statics.roller_contacts import ROW_COUNT, ConePose, ContactModel, contact_model
+from beardyn_core.physics.statics.roller_contacts import ConePose, ContactModel, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 
 TILT_MODES = ("locked", "free")
@@ -40,6 +43,7 @@ _MOST_YIELD = 0.5
 # place in; a search that meets more of them than this, one after the other, finds none.
 _OUT_OF_BALANCE = 1.0e-3
 _MOST_OUT_OF_BALANCE = 10
+_FEWEST_OF_ELLIPSE = 10
 # Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
 # one that is farther off drives away, into poses that no contact law is for and that cost the most.
 _FARTHEST = 0.03
@@ -56,22 +60,26 @@ class StaticSolution:
     tilt : float64 array, shape [2]
         Rotation of the cone about x and z, [rad].
     cup_load, cone_load, rib_load : float64 arrays, shape [row, roller]
-        Contact forces of each roller, laminae summed, [N].
+        Contact forces of each roller, laminae summed; the last with the ribs of the cone, [N].
     cup_lamina_load, cone_lamina_load : float64 arrays, shape [row, roller, lamina]
         Contact forces of the laminae, from the small to the large end, [N].
     roller_radial, roller_axial : float64 arrays, shape [row, roller]
         Displacement of the roller's mid-length from its nominal place, where it touches both raceways
-        and the rib without end play: radial outwards, axial outwards along its row, [m].
+        and the rib without end play (a cylinder the cone, half-way between its ribs): radial outwards, axial
+        outwards along its row, [m]; of barrels against the cone.
     roller_tilt : float64 array, shape [row, roller]
         Rotation of the roller axis in its meridian plane, + when the large end moves outwards, [rad].
     stiffness_tilt_held, stiffness_tilt_free : float64 arrays, shape [3, 3]
-        Change of the load with the displacement, tilt of the cone held or following, [N/m].
+        Change of the load with the displacement, tilt of the cone held or following, [N/m]; one and the same
+        for spherical roller bearings, whose tilt the axle alone holds.
     iterations : int
         Newton steps of the cone.
     residual : float
         What is left of the load, [N].
     bending : float64 array, shape [mode]
         Amplitudes of the modes of the box, [m sqrt(kg)].
+    cup_rib_load : float64 array, shape [row, roller]
+        Contact forces of the roller ends with ribs of the cup, [N]; empty where it has none.
 
     Notes
     -----
@@ -94,6 +102,7 @@ class StaticSolution:
     iterations: int
     residual: float
     bending: Float = field(default_factory=lambda: np.zeros(0))
+    cup_rib_load: Float = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def loaded_roller_count(self) -> tuple[int, ...]:
@@ -116,11 +125,11 @@ class StaticSolution:
 
 
 def solve(
-    bearing: Bearing,
+    bearing: RollerBearing,
     force: ArrayLike,
     moment: ArrayLike = (0.0, 0.0, 0.0),
     *,
-    end_play: float,
+    end_play: float | None,
     tilt: str = "locked",
     laminae: int = 1,
     speed: float = 0.0,
@@ -142,13 +151,14 @@ def solve(
     force, moment : array_like, shape [3]
         On the cone at the bearing centre, axlebox frame, [N], [N m]. The component of the moment about
         the axle is the shaft's and must be 0; the others matter only when tilt is free.
-    end_play : float
-        Total axial travel, negative for preload, [m]. With the cone centred each row has the normal gap
-        end_play/2 sin(cup angle), which lies between roller and cup.
+    end_play : float or None
+        Total axial travel, negative for preload, [m]; ``None``: that of the bearing. With the cone centred
+        each row of tapered rollers has the normal gap end_play/2 sin(cup angle), which lies between roller
+        and cup; cylinders have it at their ribs, and barrels have none of their own.
     tilt : str
         ``locked`` or ``free``: tilt of the cone against the cup.
     laminae : int
-        Laminae of each raceway contact. With 1 the rollers do not tilt.
+        Laminae of each raceway contact. With 1 the rollers do not tilt; barrels need some.
     speed : float
         Shaft speed for centrifugal force and gyroscopic moment of the rollers at epicyclic speed, [rad/s].
     roller_phase : float
@@ -185,8 +195,13 @@ def solve(
     cone is off centre (1e-4 of the roller load) is not part of the balance of the rollers. The tangent
     stiffness leaves out the turning of the normals, which is smaller by the same order.
     """
+    if isinstance(bearing, CylindricalBearing) and end_play is not None:
+        bearing = replace(bearing, end_play=end_play)
+    if end_play is None or not isinstance(bearing, Bearing):
+        end_play = bearing.end_play if isinstance(bearing, Bearing) else 0.0
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
+    _require_possible(bearing, load, laminae, coupling)
     modal = np.zeros(0) if body is None else body.stiffness
     springs = np.concatenate(
         [[0.0, axial_stiffness, 0.0], np.asarray(tilt_stiffness, dtype=np.float64), modal]
@@ -196,8 +211,9 @@ def solve(
         crown,
     )  # fmt: skip
     _require_held(model, load, axial_stiffness)
+    moving = 5 if tilt == "free" and not bearing.self_aligning else 3
     load = np.concatenate([load, np.asarray(modal_load, dtype=np.float64)])
-    cone = _Cone(model, load, 5 if tilt == "free" else 3, springs)
+    cone = _Cone(model, load, moving, springs)
     farthest = np.full(5, _FARTHEST * bearing.pitch_diameter + abs(end_play))
     if axial_stiffness > 0.0:  # a prop gives way under load and thrust, which opens the rows across, too
         backed = float(np.abs(load[:3]).sum()) / axial_stiffness
@@ -205,6 +221,7 @@ def solve(
     state, unknowns, iterations = _equilibrium(cone, farthest)
     residual = cone.residual(unknowns, state)
     held, free = _stiffness(_bending_follows(state.cone_stiffness + np.diag(springs)))
+    free = held.copy() if bearing.self_aligning else free
     return StaticSolution(
         displacement=unknowns[:3].copy(),
         tilt=unknowns[3:5].copy(),
@@ -221,6 +238,7 @@ def solve(
         iterations=iterations,
         residual=float(np.abs(residual).max()),
         bending=unknowns[5:].copy(),
+        cup_rib_load=np.zeros((0, 0)) if state.cup_rib is None else state.cup_rib.force.sum(axis=-1),
     )
 
 
@@ -232,7 +250,7 @@ class _Cone:
         self.load = np.concatenate([load, np.zeros(springs.size - load.size)])
         self.springs = springs
         self.active = np.concatenate([np.arange(moving), np.arange(5, springs.size)])
-        lever = 0.5 * model.bearing.pressure_centre_spread
+        lever = model.bearing.tilt_lever
         # modes count as far as they open a raceway, so that steps and residuals are metres and newtons
         modal = np.sqrt((model.bending**2).mean(axis=(0, 1)))
         self.scale = np.concatenate([[1.0, 1.0, 1.0, lever, lever], np.maximum(modal, 1e-3)])
@@ -311,6 +329,35 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
         "rows in contact; a single row needs an axial load or a prop against its own thrust "
         "(mounting.axial_prop_stiffness_MN_per_m)."
     )
+
+
+def _require_possible(
+    bearing: RollerBearing, load: Float, laminae: int, coupling: LaminaCoupling | None
+) -> None:
+    """Refuse what a kind of bearing cannot carry, and what its contacts are not made for."""
+    problems = []
+    if isinstance(bearing, CylindricalBearing) and load[1] != 0.0 and not bearing.carries_thrust:
+        problems.append(
+            f"{bearing.name} carries no axial load, and {load[1]:g} N are given: no row has a rib of the "
+            "inner ring with one of the outer ring at the other end of its rollers (cone_ribs, cup_ribs)."
+        )
+    if bearing.self_aligning:
+        if load[3] or load[4]:
+            problems.append(
+                f"moment is {load[3]:g}, {load[4]:g} N m; {bearing.name} is self-aligning and carries none."
+            )
+        if laminae < _FEWEST_OF_ELLIPSE:
+            problems.append(
+                f"laminae is {laminae}; a spherical roller bearing needs at least {_FEWEST_OF_ELLIPSE}, of "
+                "which its contact ellipses are made."
+            )
+        if coupling is not None:
+            problems.append(
+                "laminae of a spherical roller bearing cannot be coupled: its slices are those of Hertz's "
+                "ellipse as they are."
+            )
+    if problems:
+        raise InputError(problems)
 
 
 def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> None:

@@ -1,0 +1,350 @@
+"""Cylindrical and spherical roller bearings: independent solutions, catalogue values, kinematics.
+
+The solutions share no code with the equilibrium: springs of whole rollers for barrels and for the standard's
+slices, small motions for rollers between ribs.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq, fsolve, root
+
+from beardyn_core.base.arrays import Float
+from beardyn_core.bearing.contact_law import ExactPointContact, barrel_ellipse
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.bearing.life import dynamic_rating, static_rating
+from beardyn_core.bearing.profile import Profile
+from beardyn_core.bearing.rib_face import rib_faces
+from beardyn_core.bearing.spherical import SphericalBearing
+from beardyn_core.config import load_any_bearing
+from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
+from beardyn_core.physics.statics.roller_equilibrium import solve_rollers
+from beardyn_core.physics.statics.static import StaticSolution, solve
+from evidence.validation.anchor import Anchor
+from evidence.validation.life import LUNDBERG, rated_life_of_half_loaded_ring
+from test.kernels.naive_half_space import HalfSpace
+
+LAMINAE = 30
+ISO_ROLLER = 35948.0  # c_L of a roller between both raceways, N/mm^(10/9)/mm^(8/9)
+TOPIC = "kinds of rollers"
+MAR = "text copy in github.com/ArtemFilin1990/Mar, commit 7b871a58"
+KRW = f"KRW, catalogue, wheelset cylindrical roller bearings; {MAR}. The rollers are derived from C and C_0"
+KINEX = f"KINEX, catalogue, axlebox pair of this size; {MAR}"
+KOYO = f"Koyo, general catalogue; {MAR}. The rollers are derived from C and C_0"
+KRW_EA = f"KRW, catalogue, bearing of this size; {MAR}"
+FACTORS = "maker's factor of SKF, FAG, NSK and RHP (catalogue of bearings); contact angle from Y_1 of Koyo"
+STANDARD = "ISO/TS 16281 (2008), solved apart from this code with its constant and its profile; as a ratio"
+HERTZ = "two Hertz contacts in series along each contact line, rigid rings, solved apart; as a ratio"
+HALF_SPACE = "pressures on a grid of the elastic half-space (Polonsky and Keer 1999), as a ratio"
+SMALL = "small motions of roller and ribs, solved apart from this code; as a ratio"
+HARRIS = "Harris, Rolling Bearing Analysis: Q_max = 4.08 F/Z for line contact without clearance, Z endless"
+
+
+@lru_cache
+def cylindrical(name: str = "WJ130x240") -> CylindricalBearing:
+    """Load a shipped cylindrical roller bearing."""
+    bearing = load_any_bearing(name)
+    assert isinstance(bearing, CylindricalBearing)
+    return bearing
+
+
+@lru_cache
+def spherical(name: str = "SRB120x260") -> SphericalBearing:
+    """Load a shipped spherical roller bearing."""
+    bearing = load_any_bearing(name)
+    assert isinstance(bearing, SphericalBearing)
+    return bearing
+
+
+def rest(bearing: CylindricalBearing | SphericalBearing, *force: float, **conditions: Any) -> StaticSolution:
+    """Solve the static equilibrium with rigid rings."""
+    return solve(bearing, force, **{"end_play": None, "laminae": LAMINAE, **conditions})
+
+
+def standard_loads(bearing: CylindricalBearing, radial: float) -> Float:
+    """Compute the loads of one row by ISO/TS 16281: slices of a roller between both raceways."""
+    place = (np.arange(LAMINAE) + 0.5) / LAMINAE - 0.5
+    drop = 0.00035 * bearing.roller_diameter * -np.log(1.0 - (2.0 * place) ** 2)
+    factor = ISO_ROLLER * (1e3 * bearing.effective_length) ** (8.0 / 9.0) / LAMINAE
+    cosine = np.cos(2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count)
+
+    def loads(shift: float) -> Float:
+        approach = shift * cosine - 0.5 * bearing.radial_clearance
+        pressed = np.maximum(approach[:, None] - 2.0 * drop, 0.0)
+        return np.asarray(factor * ((1e3 * pressed) ** (10.0 / 9.0)).sum(axis=1))
+
+    def lacking(shift: float) -> float:
+        return float(loads(shift) @ cosine) - 0.5 * radial
+
+    return loads(brentq(lacking, 0.0, 1e-3, xtol=1e-15))
+
+
+def hertz_of(bearing: SphericalBearing, ring: str) -> ExactPointContact:
+    """Give Hertz's contact of a barrel with ``cup`` or ``cone``."""
+    radii = bearing.rolling_radius(ring), bearing.profile_radius(ring)
+    return ExactPointContact(*radii, bearing.material.contact_modulus)
+
+
+def hertz_rows(bearing: SphericalBearing, force: Float) -> Float:
+    """Compute the loads [row, roller] of rigid rings on springs: two Hertz contacts in series."""
+    factors = np.array([hertz_of(bearing, ring).factor for ring in ("cup", "cone")])
+    series = float((factors ** (-2.0 / 3.0)).sum() ** -1.5)
+    azimuth = 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
+    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    along = np.ones(azimuth.size)
+    rows = [[cosine * np.sin(azimuth), side * sine * along, cosine * np.cos(azimuth)] for side in (-1.0, 1.0)]
+    lines = np.array(rows)
+
+    def loads(shift: Float) -> Float:
+        approach = np.einsum("rxk,x->rk", lines, 1e-6 * shift) - bearing.normal_gap()
+        return np.asarray(series * np.maximum(approach, 0.0) ** 1.5)
+
+    def lacking(shift: Float) -> Float:
+        return np.asarray(np.einsum("rxk,rk->x", lines, loads(shift)) - force) / 1e3
+
+    start = 1e6 * (bearing.normal_gap() + 5e-5) * np.array(force) / np.linalg.norm(force)
+    return loads(fsolve(lacking, start, xtol=1e-11))
+
+
+def thrust_by_small_motions(
+    bearing: CylindricalBearing, radial: float, axial: float, start: tuple[float, float]
+) -> tuple[Float, Float]:
+    """Solve one row under radial load and thrust [N] by small motions: raceway and rib load of every roller.
+
+    Unknown are shift of the cone across and along [m], which ``start`` guesses, and of every roller its place
+    across and along and its tilt; ribs are points at their contact height.
+    """
+    place = ((np.arange(LAMINAE) + 0.5) / LAMINAE - 0.5) * bearing.effective_length
+    drop, gap = bearing.lamina_drop(LAMINAE), 0.5 * bearing.radial_clearance
+    law = 0.356 * bearing.material.contact_modulus * bearing.effective_length ** (8.0 / 9.0) / LAMINAE
+    cone_rib, cup_rib = (
+        next(face for face in rib_faces(bearing) if (face.ring, face.side) == which)
+        for which in (("cone", 1.0), ("cup", -1.0))
+    )
+    stiff = cone_rib.contact.factor, cup_rib.contact.factor
+    lever = 0.5 * bearing.roller_diameter - bearing.rib_contact_height
+    count = bearing.roller_count
+    cosine = np.cos(2.0 * math.pi * np.arange(count) / count)
+    places = [np.array([1e6 * gap + 10.0, -80.0, -5.0])] * count
+    loads, ribs = np.zeros(count), np.zeros(count)
+
+    def forces(shift: float, along: float, roller: Float) -> tuple[Float, Float, float, float]:
+        across, way, tilt = roller * np.array([1e-6, 1e-6, 1e-5])
+        cup = law * np.maximum(across + place * tilt - drop - gap, 0.0) ** (10.0 / 9.0)
+        cone = law * np.maximum(shift - across - place * tilt - drop, 0.0) ** (10.0 / 9.0)
+        # outwards along the row; the cone pushes inwards at the bottom, the cup outwards at the top
+        push = max(along + way - lever * tilt - cone_rib.gap, 0.0) ** 1.5 * stiff[0]
+        hold = max(-way - lever * tilt - cup_rib.gap, 0.0) ** 1.5 * stiff[1]
+        return cup, cone, push, hold
+
+    def lacking(unknown: Float) -> Float:
+        across, along = 1e-6 * unknown
+
+        def left(shift: float, roller: Float) -> Float:
+            cup, cone, push, hold = forces(shift, along, roller)
+            couple = ((cone - cup) @ place) / lever + push + hold
+            return np.array([cone.sum() - cup.sum(), hold - push, couple]) - 1e-4 * roller
+
+        for k in range(count):
+            shift = across * cosine[k]
+            loads[k] = ribs[k] = 0.0
+            if shift > gap:
+                places[k] = root(partial(left, shift), places[k], method="lm", options={"xtol": 1e-13}).x
+                _, cone, push, _ = forces(shift, along, places[k])
+                loads[k], ribs[k] = cone.sum(), push
+        return np.array([loads @ cosine - radial, ribs.sum() - axial])
+
+    fsolve(lacking, 1e6 * np.array(start), xtol=1e-9)
+    return loads.copy(), ribs.copy()
+
+
+def sliced_load(bearing: SphericalBearing, ring: str, approach: float) -> float:
+    """Add up the slices of a barrel at an approach [m], [N]."""
+    law, length = barrel_ellipse(bearing, ring), bearing.effective_length
+    place = ((np.arange(LAMINAE) + 0.5) / LAMINAE - 0.5) * length
+    pressed = np.maximum(approach - (place / law.reach) ** 2, 0.0)
+    return float(law.stiffness * pressed.sum() * length / LAMINAE)
+
+
+def half_space_load(bearing: SphericalBearing, ring: str, load: float, approach: float) -> float:
+    """Press a barrel on the half-space, a grid wide enough for a load [N]; gives its own load, [N]."""
+    width = 1.6 * hertz_of(bearing, ring).semi_axes(load)[1]
+    modulus, length = bearing.material.contact_modulus, bearing.effective_length
+    grid = HalfSpace(bearing.rolling_radius(ring), length, modulus, width, (40, 80))
+    crown = np.asarray(grid.y[None, :] ** 2 / (2.0 * bearing.profile_radius(ring)), dtype=np.float64)
+    return grid.load(grid.pressure(approach, crown))
+
+
+def largest_over_standard(name: str, radial: float) -> float:
+    """Compare the largest roller load of a cylindrical bearing with that of the standard."""
+    bearing = replace(cylindrical(name), profile=Profile("iso_16281"))
+    return rest(bearing, 0.0, 0.0, radial).largest_roller_load / float(standard_loads(bearing, radial).max())
+
+
+def largest_over_hertz(name: str, *force: float) -> float:
+    """Compare the largest roller load of a spherical bearing with that of springs."""
+    bearing = spherical(name)
+    return rest(bearing, *force).largest_roller_load / float(hertz_rows(bearing, np.array(force)).max())
+
+
+def slices_over_half_space(ring: str, load: float) -> float:
+    """Compare slices and half-space at Hertz's approach of a load [N]."""
+    bearing = spherical()
+    approach = (load / hertz_of(bearing, ring).factor) ** (2.0 / 3.0)
+    return sliced_load(bearing, ring, approach) / half_space_load(bearing, ring, load, approach)
+
+
+@lru_cache
+def thrust_ratios() -> tuple[float, float]:
+    """Compare raceway and rib load of the heaviest roller under 80 kN across and 12 kN along with `SMALL`."""
+    bearing = cylindrical()
+    found = rest(bearing, 0.0, 12e3, 80e3)
+    cosine = np.cos(2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count)
+    start = float(found.displacement[2]), float(found.displacement[1])
+    radial, axial = float(found.cone_load[0] @ cosine), float(found.rib_load[0].sum())
+    loads, ribs = thrust_by_small_motions(bearing, radial, axial, start)
+    return float(found.cone_load[0].max() / loads.max()), float(found.rib_load[0].max() / ribs.max())
+
+
+def rib_share() -> float:
+    """Give the part of 12 kN that the ribs of one row carry along the axle."""
+    bearing = cylindrical()
+    ribs = rest(bearing, 0.0, 12e3, 80e3).rib_load[0].sum()
+    return float(ribs) * math.cos(bearing.rib_opening) / 12e3
+
+
+def moment_under_tilt() -> float:
+    """Give the moment about the sphere's middle of a cone that is shifted and tilted by 20 mrad, [N m]."""
+    model = contact_model(spherical(), 0.0, LAMINAE, 0.0, 0.1)
+    sine, cosine = math.sin(0.02), math.cos(0.02)
+    turned = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+    pose = ConePose(np.array([2e-5, 9e-5, 11e-5]), turned)
+    state = solve_rollers(model, pose, None)
+    about_cone = np.array([state.cone_force[3], 0.0, state.cone_force[4]])
+    moment = about_cone + np.cross(pose.displacement, state.cone_force[:3])
+    return float(np.hypot(moment[0], moment[2]))
+
+
+def stribeck() -> float:
+    """Give Q_max Z / F of one row of straight rollers without clearance."""
+    bearing = replace(cylindrical(), radial_clearance=0.0, profile=Profile())
+    return rest(bearing, 0.0, 0.0, 50e3).largest_roller_load * bearing.roller_count / 25e3
+
+
+def rating_kN(name: str, static: bool) -> float:
+    """Give a rating of a shipped bearing, of one row of a pair of cylindrical bearings, [kN]."""
+    bearing = load_any_bearing(name)
+    alone = 1.0 if bearing.self_aligning else 2.0 if static else 2.0 ** (7.0 / 9.0)
+    rating = static_rating(bearing) if static else dynamic_rating(bearing).radial
+    return rating / alone / 1e3
+
+
+def spin_factor(name: str) -> float:
+    """Give BSF of a shipped bearing."""
+    return fault_frequencies(load_any_bearing(name)).bsf
+
+
+_RATINGS = (
+    ("WJ130x240", "WJ 130 x 240", 550.0, 780.0, KRW, 0.01),
+    ("WJ120x240", "WJ 120 x 240", 560.0, 760.0, KRW, 0.01),
+    ("WJ130x240", "PLC 410-33, 130 x 240", 539.6, 775.4, KINEX, 0.03),
+    ("WJ120x240", "PLC 410-13, 120 x 240", 553.8, 742.5, KINEX, 0.03),
+    ("SRB120x260", "22324RHR", 896.0, 1130.0, KOYO, 0.01),
+    ("SRB130x280", "22326RHR", 1040.0, 1340.0, KOYO, 0.01),
+    ("SRB120x260", "22324EA", 868.0, 1120.0, KRW_EA, 0.035),
+    ("SRB130x280", "22326EA", 1015.0, 1328.0, KRW_EA, 0.035),
+)
+
+ANCHORS: tuple[Anchor, ...] = (
+    *(
+        Anchor(
+            TOPIC,
+            f"{'static' if static else 'dynamic'} rating of {written}",
+            value,
+            "kN",
+            source,
+            partial(rating_kN, name, static),
+            tolerance=tolerance,
+        )
+        for name, written, dynamic, at_rest, source, tolerance in _RATINGS
+        for static, value in ((False, dynamic), (True, at_rest))
+    ),
+    *(
+        Anchor(TOPIC, f"BSF of {written}", value, "", FACTORS, partial(spin_factor, name), tolerance=0.002)
+        for name, written, value in (("SRB120x260", "22324", 2.4075), ("SRB130x280", "22326", 2.4005))
+    ),
+    Anchor(TOPIC, "cylinders: largest roller load times Z / F", 4.08, "", HARRIS, stribeck, tolerance=0.01),
+    *(
+        Anchor(
+            TOPIC,
+            f"cylinders: largest roller load, {name}, {radial / 1e3:g} kN",
+            1.0,
+            "",
+            STANDARD,
+            partial(largest_over_standard, name, radial),
+            tolerance=0.03,
+        )
+        for name in ("WJ130x240", "WJ120x240")
+        for radial in (20e3, 80e3, 200e3)
+    ),
+    Anchor(
+        TOPIC, "cylinders: heaviest raceway with 12 kN of thrust", 1.0, "", SMALL, lambda: thrust_ratios()[0],
+        tolerance=0.03,
+    ),
+    Anchor(
+        TOPIC, "cylinders: heaviest rib with 12 kN of thrust", 1.0, "", SMALL, lambda: thrust_ratios()[1],
+        tolerance=0.03,
+    ),
+    Anchor(
+        TOPIC, "cylinders: part of the thrust on ribs of one row", 1.0, "", "balance of forces", rib_share,
+        tolerance=1e-4,
+    ),
+    *(
+        Anchor(
+            TOPIC,
+            f"barrels: largest roller load, {name}, {force[1] / 1e3:g} kN along, {force[2] / 1e3:g} kN up",
+            1.0,
+            "",
+            HERTZ,
+            partial(largest_over_hertz, name, *force),
+            tolerance=0.03,
+        )
+        for name in ("SRB120x260", "SRB130x280")
+        for force in ((0.0, 0.0, 60e3), (0.0, 8e3, 40e3))
+    ),
+    *(
+        Anchor(
+            TOPIC,
+            f"barrels: load of the slices on the {ring}, at Hertz's approach of {load / 1e3:g} kN",
+            1.0,
+            "",
+            HALF_SPACE,
+            partial(slices_over_half_space, ring, load),
+            tolerance=0.03,
+        )
+        for ring in ("cup", "cone")
+        for load in (5e3, 15e3, 30e3)
+    ),
+    Anchor(
+        TOPIC, "barrels: moment of a cone tilted by 20 mrad", 0.0, "N m", "self-alignment: none",
+        moment_under_tilt, absolute=1e-5,
+    ),
+    *(
+        Anchor(
+            TOPIC,
+            f"reference life of {name} at its rating, half the ring loaded, without edge stress",
+            1.0,
+            "10^6 rev",
+            f"{LUNDBERG}; 0.83 for edges taken back",
+            partial(rated_life_of_half_loaded_ring, name),
+            tolerance=0.03,
+        )
+        for name in ("WJ130x240", "WJ120x240", "SRB120x260", "SRB130x280")
+    ),
+)  # fmt: skip

@@ -1,0 +1,219 @@
+"""Cylindrical and spherical bearings wherever a user can ask for them: answered, or refused by a sentence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import beardyn_core as bd
+from beardyn_core.cli.main import main
+from beardyn_core.config import load_any_bearing, load_bearing, read_scene
+from beardyn_core.config.folders import find
+from beardyn_core.config.plates import load_plate
+from beardyn_core.follow.shipped import shipped_for
+from test.bearings import CYLINDRICAL, SPHERICAL
+
+OTHERS = (*CYLINDRICAL, *SPHERICAL)
+SCENE = """
+scene: mine
+purpose: A bearing of another kind.
+bearing: {bearing}
+lubricant: L055
+operation: {{kind: constant, force_kN: [0, 0, 60], speed_rpm: 600}}
+"""
+
+
+def refused(text: str, name: str) -> bool:
+    """Whether one sentence says that runs are for tapered bearings, and what is possible."""
+    words = load_any_bearing(name).words
+    return all(part in text for part in (name, words, "tapered roller bearings only", "beardyn bearing"))
+
+
+def scene_file(folder: Path, name: str) -> Path:
+    path = folder / "mine.yaml"
+    path.write_text(SCENE.format(bearing=name), encoding="utf-8")
+    return path
+
+
+def test_two_of_each_kind_are_shipped() -> None:
+    assert (len(CYLINDRICAL), len(SPHERICAL)) == (2, 2)
+    for name in OTHERS:
+        bearing = bd.bearing(name)
+        assert all(source for _, source in bearing.sources)
+        assert not {"roller_count", "pitch_diameter", "width"} - dict(bearing.sources).keys()
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_questions_without_a_run_are_answered(name: str) -> None:
+    bearing = bd.bearing(name)
+    loads = bd.load_distribution(name, (0, 5, 60))
+    assert loads.shape == (2, bearing.roller_count)
+    assert loads.max() < 60e3
+    soft, stiff = bd.stiffness(name, 60, radial_clearance_mm=[0.2, 0.0])[:, 2, 2]
+    assert stiff > soft > 1e8
+    life = bd.life(name, (0, 5, 60), 600)
+    assert life.modified > life.basic > 1e9
+    assert 0.3 < life.reference_basic / life.basic < 5.0
+    frequencies = bd.fault_frequencies(bearing)
+    assert frequencies["BPFO"] + frequencies["BPFI"] == pytest.approx(bearing.roller_count, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_kinematics_are_those_of_pure_rolling(name: str) -> None:
+    """Surface speeds of roller and rings are equal at both contacts."""
+    bearing = load_any_bearing(name)
+    assert isinstance(bearing, bd.CylindricalBearing | bd.SphericalBearing)
+    cage, found = bearing.cage_ratio, bearing.frequencies
+    spin = found.bsf  # against the cage, turns per turn of the shaft
+    radius = 0.5 * bearing.roller_diameter
+    assert cage == found.ftf
+    assert spin * radius == pytest.approx(cage * bearing.cup_radius, rel=1e-12)
+    assert spin * radius == pytest.approx((1.0 - cage) * bearing.cone_radius, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_monitor_takes_their_bearing_data(name: str, tmp_path: Path) -> None:
+    own = tmp_path / "own.yaml"
+    assert main(["new", name, "-o", str(own)]) == 0
+    for plate in (load_plate(name), load_plate(str(own))):
+        assert plate.frequencies == load_any_bearing(name).frequencies
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_runs_are_refused_by_one_sentence(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = scene_file(tmp_path, name)
+    for words in (
+        ("simulate", str(path)),
+        ("explain", str(path)),
+        ("ladder", str(path), "-o", str(tmp_path)),
+    ):
+        assert main([*words]) == 2
+        error = capsys.readouterr().err
+        assert refused(error, name), error
+        assert error.count("tapered roller bearings only") == 1
+    with pytest.raises(bd.InputError) as caught:
+        bd.simulate(str(path))
+    assert refused(str(caught.value), name)
+    with pytest.raises(bd.InputError) as caught:
+        bd.scene("cup_spall", bearing=bd.bearing(name))
+    assert refused(str(caught.value), name)
+    with pytest.raises(bd.InputError) as caught:
+        read_scene(path)
+    assert refused(str(caught.value), name)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_what_is_made_of_runs_is_refused(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sweep, trial, box = (tmp_path / f"{kind}.yaml" for kind in ("sweep", "trial", "box"))
+    scene = tmp_path / "train.yaml"
+    text = find("scenes", "healthy_140").read_text(encoding="utf-8")
+    assert "bearing: HS130x230" in text
+    scene.write_text(text.replace("bearing: HS130x230", f"bearing: {name}"), encoding="utf-8")
+    sweep.write_text(f"sweep: mine\npurpose: x\nscene: {scene}\nruns: 2\n", encoding="utf-8")
+    assert main(["sweep", str(sweep), "-o", str(tmp_path / "set")]) == 2
+    assert refused(capsys.readouterr().err, name)
+    assert main(["new", "quick", "--kind", "trials", "-o", str(trial)]) == 0
+    lines = trial.read_text(encoding="utf-8").splitlines()
+    changed = [f"scene: {scene}" if line.startswith("scene:") else line for line in lines]
+    trial.write_text("\n".join(changed) + "\n", encoding="utf-8")
+    assert main(["trial", str(trial), "-o", str(tmp_path / "trial")]) == 2
+    assert refused(capsys.readouterr().err, name)
+    assert main(["structure", "high_speed", "--bearing", name, "-o", str(box.with_suffix(".csv"))]) == 2
+    assert refused(capsys.readouterr().err, name)
+    with pytest.raises(bd.InputError) as caught:
+        shipped_for(load_plate(name))
+    assert refused(str(caught.value), name)
+    for call in (lambda: bd.torque(name, 600), lambda: bd.film(name, 600), lambda: load_bearing(name)):
+        with pytest.raises(bd.InputError) as caught:
+            call()
+        assert refused(str(caught.value), name)
+
+
+def test_a_scene_made_of_nouns_refuses_them() -> None:
+    from dataclasses import replace
+
+    with pytest.raises(bd.InputError) as caught:
+        replace(bd.scene("static_80kN"), bearing=bd.bearing("WJ130x240"))
+    assert refused(str(caught.value), "WJ130x240")
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"kind": "needle"}, "kind is 'needle'"),
+        ({"roller_count": 25}, "overlap"),
+        ({"roller_length_mm": 90}, "run into each other"),
+        ({"outer_diameter_mm": 210}, "outer_diameter"),
+        ({"bore_mm": 160}, "half the bore"),
+        ({"width_mm": 120}, "not less than the width"),
+        ({"end_play_mm": 0.1}, "roller_play"),
+        ({"rib_contact_height_mm": 6.0}, "corner of the rib"),
+        ({"rib_contact_height_mm": 1.2}, "undercut"),
+        ({"cup_ribs": "left"}, "cup_ribs"),
+        ({"contact_angle_deg": 3.0}, "unknown key"),
+        ({"radial_clearance_mm": 4.0}, "radial_clearance_mm"),
+    ],
+)
+def test_a_cylindrical_bearing_that_cannot_be_is_refused(keys: dict[str, object], said: str) -> None:
+    with pytest.raises(bd.InputError, match=said):
+        bd.bearing("WJ130x240", **keys)
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"cup_osculation": 1.0}, "cup_osculation"),
+        ({"contact_angle_deg": 5.0}, "run into each other"),
+        ({"row_spacing_mm": 50.0}, "unknown key"),
+        ({"end_play_mm": 0.1}, "unknown key"),
+    ],
+)
+def test_a_spherical_bearing_that_cannot_be_is_refused(keys: dict[str, object], said: str) -> None:
+    with pytest.raises(bd.InputError, match=said):
+        bd.bearing("SRB120x260", **keys)
+
+
+def test_a_tapered_file_may_say_its_kind(tmp_path: Path) -> None:
+    assert bd.bearing("HS130x230", kind="tapered") == bd.bearing("HS130x230")
+    assert bd.scene(bearing={**_keys("HS130x230"), "kind": "tapered"}).bearing.name == "HS130x230"
+
+
+def _keys(name: str) -> dict[str, object]:
+    from beardyn_core.base.edge import write_noun
+
+    return write_noun(bd.bearing(name))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("SRB120x260", "--end-play", "0.1"), "its play is radial_clearance"),
+        (("HS130x230", "--radial-clearance", "0.1"), "its play is end_play"),
+        (("SRB120x260", "--coupled-laminae"), "cannot be coupled"),
+        (("SRB120x260", "--laminae", "3"), "at least 10"),
+        (("WJ130x240", "--radial-clearance", "3"), "--radial-clearance is 3 mm"),
+    ],
+)
+def test_options_that_a_kind_does_not_have_are_refused(
+    words: tuple[str, ...], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["bearing", *words]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_the_page_of_a_pair_has_ribs_and_clearance(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bearing", "WJ130x240", "--load", "0", "10", "80", "--radial-clearance", "0.2"]) == 0
+    shown = capsys.readouterr().out
+    for part in (
+        "cylindrical roller bearing",
+        "radial clearance 0.2 mm",
+        "C_0r 1564 kN",
+        "ribs of the inner ring",
+    ):
+        assert part in shown
+    assert "from its inner to its outer end" in shown
