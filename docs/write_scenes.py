@@ -44,9 +44,8 @@ A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `
 runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
 bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
 only the box that rings, so each is computed with those that it [needs](effects_auto.md) to stay
-within 5 % of the full model;
-[the choices](choices.md). `bogie` names the tier `quasistatic`, so that its four boxes keep up: it misses
-5 %, and says by how much.
+within 5 % of the full model; [the choices](evidence/choices.md). `bogie` names the tier `quasistatic`, so
+that its four boxes keep up: it misses 5 %, and states by how much.
 
 Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
 something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
@@ -163,7 +162,7 @@ def page() -> str:
 
 def _irregularities() -> Iterator[str]:
     yield "Keys of `irregularity`. A spectrum ends at 2 m, as its source does; `short_waves` gives the"
-    yield "roughness of the rail below. [sensors.md](sensors.md#lines-and-wheels) compares the levels."
+    yield "roughness of the rail below. [Sensors](evidence/sensors.md#lines-and-wheels) compares the levels."
     yield ""
     yield from _options(keys_of(Irregularity))
     yield ""

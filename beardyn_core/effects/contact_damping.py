@@ -22,7 +22,7 @@ class ContactDamping:
         cost="low",
         validity="Persistent, lubricated contacts; impacts lose less than a restitution law would say.",
         source="Kraemer (1992), damping time 2.5e-6 to 2.5e-5 s of whole bearings; what it changes: "
-        "docs/damping.md; clipped so that a contact never pulls",
+        "docs/evidence/damping.md; clipped so that a contact never pulls",
     )
 
     time_constant: A[

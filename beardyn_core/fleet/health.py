@@ -30,7 +30,7 @@ _OF_PARTS = {"cup": "outer ring (cup)", "cone": "inner ring (cone)", "roller": "
 
 @dataclass(frozen=True)
 class HealthSettings:
-    """What health is made of; all numbers are assumed, and docs/fleet_year.md has what they come to."""
+    """What health is made of; all numbers are assumed, docs/evidence/fleet_year.md has their outcome."""
 
     recent: A[int, "recordings that can tell, of which so many must agree"] = 5
     agreeing: A[int, "of them that name the same part: `plan`"] = 3

@@ -15,7 +15,7 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.passage_order import band_envelope, find_passage_order
 
 NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
-# a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]
+# a roller gives up and takes up its load this far inside of the edges (docs/evidence/impact.md), [m]
 ENTRY_AND_EXIT = 1.1e-3
 _LEAST_ROLLER = 15e-3  # of a roller for which that was found, [m]
 _DEVELOPED_FROM = 4e-3  # [m]
@@ -109,9 +109,9 @@ def severity_of(
     any speed.
 
     The width is the way and 1.1 mm: a roller gives up its load 0.6 mm behind the leading edge and takes it up
-    as much before the trailing one, over spalls from 3 mm on (docs/impact.md). Smaller ones make one event.
-    The loudest event is the exit, so that of a spall narrower than half of the distance of two rollers the
-    other event lies before it. The event that follows the loudest one is either the exit of a spall whose
+    as much before the trailing one, over spalls from 3 mm on (docs/evidence/impact.md). Smaller ones make one
+    event. The loudest event is the exit, so that of a spall narrower than half of the distance of two rollers
+    the other event lies before it. The event that follows the loudest one is either the exit of a spall whose
     entry is louder, or the entry of the next roller into a wide spall: then the least width alone is stated.
 
     A spall wider than the distance of two rollers strikes as one that is narrower by this distance. Where

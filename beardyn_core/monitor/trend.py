@@ -24,7 +24,7 @@ _FAINTEST = 1e-12  # [m^2/s^4]
 
 @dataclass(frozen=True)
 class TrendSettings:
-    """Settings of `Trend`: round numbers; docs/run_to_failure.md has what they come to."""
+    """Settings of `Trend`: round numbers; docs/evidence/run_to_failure.md has what they come to."""
 
     edges: A[tuple[float, ...], "between the bands whose levels are watched, [Hz]"] = (
         100.0, 1000.0, 2500.0, 5000.0, 8000.0, 12_000.0,

@@ -1,7 +1,7 @@
-"""Levels of measured bearings, sound and faulty, beside the twin's, as far as they can be compared.
+"""Levels of measured bearings, healthy and faulty, next to the twin's, as far as they compare.
 
-``python -m evidence.measured.levels --cwru DIR --mfpt DIR --pronostia DIR`` writes docs/levels.md. A motor is
-no axlebox: what is compared are ratios of faulty to sound, powers of the load, and kurtosis. Widths and
+``python -m evidence.measured.levels --cwru DIR --mfpt DIR --pronostia DIR`` writes docs/evidence/levels.md. A
+motor is no axlebox: compared are ratios of faulty to healthy, powers of the load, kurtosis. Widths and
 lengths of faults are those of CWRU over the size of the contact, shafts turn as fast.
 """
 
@@ -34,9 +34,9 @@ from evidence.measured.cases import (
     listenings,
     records,
 )
-from evidence.pages import DOCS
+from evidence.pages import REPORTS
 
-PAGE = DOCS / "levels.md"
+PAGE = REPORTS / "levels.md"
 G = 9.80665
 INCH = 25.4e-6  # a thousandth of it, [m]
 LOW = (100.0, 5600.0)  # what records of 12 kHz hold, [Hz]

@@ -14,10 +14,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from evidence.pages import DOCS
+from evidence.pages import REPORTS
 from evidence.ros.faults import FAULTS, Fault
 
-PAGE = DOCS / "ros.md"
+PAGE = REPORTS / "ros.md"
 HEAD = """# The ROS graph: faults found by outside clients, then and now
 
 ros2cli, launch, rosbags and mcap found these faults in the nodes. `python -m

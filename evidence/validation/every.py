@@ -86,7 +86,7 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "levels of impacts measured on axleboxes and rigs (Tarawneh and others, Pueblo 1999)",
-        "no source found gives level, sensor, bearing and spall together; relations are on docs/impact.md",
+        "no source found gives level, sensor, bearing and spall together; relations: docs/evidence/impact.md",
     ),
     (
         "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 13:910)",

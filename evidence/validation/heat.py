@@ -1,9 +1,9 @@
 """Torque of whole axlebox bearings, and their temperature, as published.
 
 Ours comes from losses by source and the thermal network, `beardyn_core.choice.steady_heat`, with settled
-grease in air of 20 °C; docs/heat.md has the tables. Those of healthy boxes at 200 and 300 km/h were known
-before the rows of boxes in a train were written, and ours of class K before its rows were, so these have the
-tolerance of the Russian cars.
+grease in air of 20 °C; docs/evidence/heat.md has the tables. Those of healthy boxes at 200 and 300 km/h were
+known before the rows of boxes in a train were written, and ours of class K before its rows were; these have
+the tolerance of the Russian cars.
 """
 
 from __future__ import annotations

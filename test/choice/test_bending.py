@@ -38,7 +38,7 @@ def to(scene: Scene, highest: float | None) -> Scene:
 
 
 def test_modes_left_out_cost_what_runs_have_shown(evidence: Evidence) -> None:
-    """docs/structure.md, runs to 8 kHz: 2.8 dB or more with modes to 6 kHz, 0.3 to 0.5 dB with more."""
+    """docs/evidence/structure.md, to 8 kHz: 2.8 dB or more with modes to 6 kHz, 0.3 to 0.5 dB with more."""
     scene = evidence.scene
     whole = levels(scene, evidence.typical, evidence.statics.body, 8912.0)
     expected = {
