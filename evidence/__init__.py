@@ -18,10 +18,10 @@ service     docs/evidence/sensors.md: what a sensor in service hears, and what t
 heat        docs/evidence/heat.md: torque and steady temperatures beside published ones
 ladder      docs/evidence/ladder.md: what accuracy costs
 automatic   docs/evidence/automatic.md: what `effects: auto` chooses, on trial
-trial       docs/trial.md: the monitor on trial
-population  docs/sweep.md: what a learner makes of a set, how fast sets are made
+trial       docs/evidence/trial.md, docs/monitor.md: the benchmark of monitors
+population  docs/evidence/learner.md: what a learner makes of a set, how fast sets are made
 fleet       docs/evidence/fleet_year.md: a year of 64 axleboxes in one store, and what it takes
-follow      docs/estimate.md: a train played in full, followed from what its sensor hears
+follow      docs/evidence/estimator.md: the estimator judged, a train followed by its vibration
 calibration docs/estimate.md: scenes fitted to recordings of hidden axleboxes
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs

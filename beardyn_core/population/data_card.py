@@ -13,9 +13,9 @@ from beardyn_core.population.table import unit_in
 
 _LIMITS = (
     "Every run is simulated by a model of a double-row tapered roller bearing in an axlebox. What the model "
-    "leaves out is not in the signals; `docs/evidence/validation.md` and `docs/sweep.md` of beardyn state "
-    "how far they agree with measurements. A learner that is good on this set is not therefore good on a "
-    "railway.",
+    "leaves out is not in the signals; `docs/evidence/validation.md` and `docs/evidence/learner.md` of "
+    "beardyn state how far they agree with measurements. A learner that is good on this set is not therefore "
+    "good on a railway.",
     "The distributions are those of the sweep above: they say what was asked for, and not how often it is "
     "so in service.",
     "Failed runs stand in the table with their sentence; their signals end early, and are NaN from there on.",

@@ -27,12 +27,12 @@ def front(ladder: str) -> str:
     rows = [f"| {row}" for row in _ROW.findall(ladder)]
     return "\n".join(
         [
-            f"What accuracy costs in [`{SCENE}`](docs/evidence/ladder.md), a healthy bearing of a driven "
-            f"axle at 200 km/h in a box that rings, on one core of {machine[1]}: errors against tier `full` "
-            "with every effect, 40 laminae and 8 steps. *6 laminae x 3*: contacts in 6 slices, 3 time steps "
-            "for each sample of 25.6 kHz; rows without a tier are of `full`. Brackets: at most what two "
-            "runs of the same differ by. *5 %*: whether force, deflection, roller load and torque are within "
-            "5 % and third octaves within 1.5 dB for sure. In `standard` rings and box are rigid.",
+            f"What accuracy costs in [`{SCENE}`](docs/evidence/ladder.md), a healthy bearing at 200 km/h "
+            f"in a box that rings, on one core of {machine[1]}. Errors are against tier `full` with all "
+            "effects, 40 slices (laminae) and 8 time steps per sample. *6 laminae x 3*: 6 slices, 3 steps "
+            "per sample of 25.6 kHz. Rows without a tier are `full`. Brackets: within the scatter of two "
+            "equal runs. *5 %*: force, deflection, roller load and torque within 5 %, third octaves "
+            "within 1.5 dB, all uncertainty included. `standard` has rigid rings and a rigid box.",
             "",
             "| tier, effects | s of a core for 1 s | force % | deflection % | roller load % | torque % "
             "| vibration dB | 5 % |",

@@ -99,12 +99,12 @@ def test_the_page_says_what_was_measured() -> None:
 
 
 def test_writing_again_keeps_what_is_above_the_mark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_module, "PAGE", tmp_path / "sweep.md")
+    monkeypatch.setattr(page_module, "PAGE", tmp_path / "learner.md")
     monkeypatch.setattr(page_module, "PICTURE", tmp_path / "population.png")
-    (tmp_path / "sweep.md").write_text("# By hand\n")
+    (tmp_path / "learner.md").write_text("# By hand\n")
     for _ in range(2):
         write_page(json.loads(json.dumps(found())))
-    text = (tmp_path / "sweep.md").read_text()
+    text = (tmp_path / "learner.md").read_text()
     assert text.startswith("# By hand\n")
     assert text.count(page_module.MARK) == text.count("## How fast, how big") == 1
     assert (tmp_path / "population.png").stat().st_size > 1000
@@ -147,7 +147,7 @@ def test_records_are_named_by_their_folders_and_have_the_features_of_simulated_r
 
 @pytest.mark.slow
 def test_eight_workers_take_an_eighth_of_the_time_of_slow_runs() -> None:
-    """At least 80 % on a machine with other work; docs/sweep.md has what was measured."""
+    """At least 80 % on a machine with other work; docs/evidence/learner.md has what was measured."""
     import time
 
     with Engine(Cluster(workers=8)) as engine:
