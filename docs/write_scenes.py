@@ -59,7 +59,7 @@ of the axlebox, its spectrum, and that of its envelope between 2 and 8 kHz; the 
 and roller are dotted.
 
 Bearings of the railway scenes are as made, grade G1 of
-[manufacturing scatter](model.md#manufacturing-scatter); those under a constant load are as drawn.
+[manufacturing scatter](scatter.md); those under a constant load are as drawn.
 
 `bogie` has [several axleboxes at once](rail.md#several-axleboxes-at-once), one recording with a namespace
 each; its picture is of the first wheel. In ROS 2 it is for `car.launch.py`.
