@@ -54,7 +54,7 @@ random: $(VENV)/.ready-test ## set up, then random legal scenes, each finite or 
 bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
 	@$(BIN)/python -m benchmarks $(ARGS)
 
-performance: ## write docs/performance.md from bench.json
+performance: ## write docs/performance.md and docs/evidence/speed.md from bench.json
 	@$(BIN)/python -m evidence.performance.page bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
