@@ -42,9 +42,7 @@ class Following:
         lines += ["at the end:", *last.estimates.sentences]
         lines += [] if last.remains is None else last.remains.sentences
         if self.residual is not None:
-            lines.append(
-                f"twin beside it: {100 * self.residual.explained:.0f} % of the third octaves explained"
-            )
+            lines.append(f"twin: {100 * self.residual.explained:.0f} % of the third octaves explained")
             lines += self.residual.sentences
         return lines
 

@@ -73,7 +73,7 @@ def monitor(
     Raises
     ------
     InputError
-        The run has no vibration with a shaft angle, or does not say which bearing it is of.
+        The run has no vibration with a shaft angle, or does not name its bearing.
     """
     from beardyn_core.monitor.chain import REFERENCE
     from beardyn_core.study.monitored_recording import conclude, findings_of
@@ -131,10 +131,10 @@ def heard_of(
         known = mounted_in(run.measured, run.label)
         if len(known) != 1:
             several = (
-                f"has the bearings {', '.join(each.label for each in known)}" if known else "does not say"
+                f"has the bearings {', '.join(each.label for each in known)}"
+                if known
+                else "does not name its bearing"
             )
-            raise InputError(
-                f"{run.label}: {several}{'' if known else ' which bearing it is of'}; give bearing"
-            )
+            raise InputError(f"{run.label}: {several}; give bearing")
         bearing, sensor = known[0].plate, sensor or known[0].sensor
     return run, bearing, sensor

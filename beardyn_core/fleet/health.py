@@ -208,9 +208,7 @@ def _after(
         else:
             notes.insert(0, f"{sentence}: {reason}; the alarm stays")
     if not why:
-        why.append(
-            "nothing points to a fault" if state == OK else "the alarm of before has not been released"
-        )
+        why.append("nothing points to a fault" if state == OK else "the earlier alarm has not been released")
     rise = nan if watched.point is None else watched.point.rise
     is_ok = state == OK
     return Health(

@@ -68,12 +68,12 @@ class Estimate:
     """What is known of one quantity."""
 
     quantity: Quantity
-    value: A[float, "most likely, NaN where nothing can be said, SI"]
+    value: A[float, "most likely, NaN where it is not identifiable, SI"]
     intervals: A[
         tuple[tuple[float, float], ...],
         "of 50 and of 90 %, SI; of the runs learnt from",
     ]
-    reason: A[str, "why nothing can be said, or no more than `at_least`; empty"] = ""
+    reason: A[str, "why there is no value, or no more than `at_least`; empty"] = ""
     at_least: A[
         float, "lower end of the last interval, where the upper end is beyond what was learnt from"
     ] = nan
@@ -97,9 +97,9 @@ class Estimates:
     """What an estimator makes of a run."""
 
     part: A[PartEstimate | None, "condition of the bearing; none where the estimator learnt one alone"]
-    quantities: A[tuple[Estimate, ...], "in the order in which they are told"]
+    quantities: A[tuple[Estimate, ...], "in the order in which they are reported"]
     strangeness: A[float, "distance from the runs learnt from, 1 where one in twenty lies farther away, [-]"]
-    stretches: A[int, "of the signal that were heard"]
+    stretches: A[int, "of the signal that were used"]
     shaft_frequency: A[float, "middle of the stretches, [Hz]"]
     known_load: A[KnownLoad | None, "vertical, from outside of the vibration"] = None
     mountings: A[tuple[Mounting, ...], "of the sensor that would make a strange signal familiar"] = ()
@@ -130,7 +130,7 @@ class Estimator:
     plate: A[NamePlate, "bearing that it was learnt for"]
     axes: A[tuple[str, ...], "of the accelerometer"]
     rate: A[float, "of the accelerometer, [Hz]"]
-    stretch: A[float, "length of signal that it hears at once, [s]"]
+    stretch: A[float, "length of signal that it takes at once, [s]"]
     middle: A[Float, "shape [descriptor], mean of those learnt from"]
     spread: A[Float, "shape [descriptor], their standard deviation"]
     box: A[Familiarity, "of the levels of bands, which tell another box or sensor place"]
@@ -185,8 +185,7 @@ class Estimator:
         known = self.card["quantities"][quantity.name]
         return _silent(
             quantity,
-            f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
-            "of its variance is explained",
+            "not identifiable from these sensors",
             tuple((low, high) for low, high in known["ranges"]),
         )
 

@@ -55,7 +55,7 @@ class RatedLife:
     used: A[tuple[float, float, float], "share of L10mr that is used; NaN without mileage"]
     used_basic: A[tuple[float, float, float], "share of L10r that is used; NaN without mileage"]
     spans: A[tuple[tuple[float, float], ...], "mileage that each recording stands for, [m]"]
-    assumptions: A[LifeAssumptions, "what no recording says"] = field(default_factory=LifeAssumptions)
+    assumptions: A[LifeAssumptions, "what no recording holds"] = field(default_factory=LifeAssumptions)
 
     @property
     def sentences(self) -> list[str]:

@@ -299,7 +299,7 @@ class Run:
             )
         if self.description is None:
             raise InputError(
-                f"{self.label}: the recording does not say which bearing it is of (no run.json and no topic "
+                f"{self.label}: the recording does not name its bearing (no run.json and no topic "
                 "truth); record the topic truth too"
             )
         return self.description

@@ -130,7 +130,7 @@ def test_auto_of_the_command_line_leaves_the_bearing_in_its_box(scene: str) -> N
 def test_a_sensor_is_told_what_rings_beyond_its_band(evidence: Evidence) -> None:
     (usual,) = rates_told(evidence)
     assert "at 25.6 kHz measures to 10.2 kHz, and 22 modes of the box ring above" in usual
-    assert "rate_kHz 51.2 hears it" in usual
+    assert "rate_kHz 51.2 measures it" in usual
     (fast,) = rates_told(Evidence(boxed(sensors=FAST_SENSOR)))
     assert "the modes of the box end at 12.8 kHz" in fast
     assert list(rates_told(Evidence(variant(effects="all")))) == []

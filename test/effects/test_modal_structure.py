@@ -311,7 +311,7 @@ def test_the_box_of_a_scene_is_that_of_the_table() -> None:
         ({"effects": {"structure": {"kind": "modes", "table": "none.csv"}}}, "none.csv: cannot be read"),
         (
             {"sensors": [{"name": "a", "position_mm": [0, 0, 170], "measured_paths": [{"path": "a.csv"}]}]},
-            "would hear each of them twice",
+            "would count each of them twice",
         ),
         ({"effects": {"ring_flexibility": True}}, "ring_flexibility is called `structure` now"),
     ],

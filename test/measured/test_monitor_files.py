@@ -169,7 +169,7 @@ def test_the_monitor_asks_for_bearing_and_speed_at_once(
     assert main(["monitor", str(motor(tmp_path))]) == BAD_INPUT
     told = capsys.readouterr().err.splitlines()
     assert len(told) == 2
-    assert "does not say which bearing it is of; give --bearing" in told[0]
+    assert "does not name its bearing; give --bearing" in told[0]
     assert "the speed of the shaft is not known, and a monitor needs it; give one of --speed-rpm" in told[1]
     words = ["--speed-rpm", "1800", "--bearing", "a=6205@top", "--bearing", "a=6203", "--bearing", "x=y=z"]
     assert main(["monitor", str(motor(tmp_path)), *words]) == BAD_INPUT

@@ -151,7 +151,7 @@ class MonitorSettings:
     ] = ()
     harmonics: A[int, "multiples of a fault frequency that are added up, the fundamental included"] = 5
     false_alarm_rate: A[float, "probability that noise alone passes the threshold of an analysis, [-]"] = 1e-4
-    strike_harmonics: A[int, "multiples of a fault frequency by which strikes are told from a hum"] = 8
+    strike_harmonics: A[int, "multiples of a fault frequency by which strikes differ from a hum"] = 8
     least_strikes: A[float, "what those but the loudest must make of the mean power for a fault, [-]"] = 0.3
     least_sharpest: A[
         tuple[float, float, float], "or what they must make in one of `strike_bands`: cup, cone, roller, [-]"
@@ -174,7 +174,7 @@ class MonitorSettings:
     ] = 1.0
     foreign_sharpest: A[float, "or what they must make in one of `strike_bands`, [-]"] = 1.5
     clockwork_depth: A[
-        float, "line over the mean power from which the signal is heard as measured, too, [-]"
+        float, "line over the mean power from which the signal is judged as measured, too, [-]"
     ] = 0.25
     clockwork_strikes: A[float, "in place of `least_strikes` there, [-]"] = 1.0
     warm: A[float, "temperature of the axlebox from which it is warm, [K]"] = 363.15
