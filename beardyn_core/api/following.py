@@ -36,7 +36,7 @@ class Following:
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         lines = [each.sentence for each in self.steps]
         last = self.steps[-1]
         lines += ["at the end:", *last.estimates.sentences]
@@ -67,8 +67,9 @@ def follow(
 ) -> Following:
     """Follow load, end play and spall of a bearing over its recordings.
 
-    Follow one bearing over its recordings in the order of time: a filter puts together what every stretch
-    says of load, end play and spall, lets loads wander and spalls grow, and says what it does not explain.
+    Follow one bearing over its recordings in the order of time: a filter puts together the estimates of each
+    stretch of load, end play and spall, lets loads wander and spalls grow, and reports what it does not
+    explain.
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ def monitor(
         Your algorithm, its module may be in this folder; default the reference chain. In Python a `Chain`,
         or a function like it.
     bearing : Bearing, NamePlate or str, optional
-        What the bearing data say, or the name or file of one; by default that of the scene, of a measured
+        Bearing data, or the name or file of a bearing; by default that of the scene, of a measured
         run the one it was read with.
     sensor : str, optional
         Accelerometer to take; by default the first, or the one that measures the bearing of a measured run.
@@ -96,7 +96,7 @@ def severity(
     run, bearing, sensor
         See `monitor`.
     conclusion : Conclusion, optional
-        What `monitor` says of the run; by default it is asked.
+        Result of `monitor`; by default it is computed.
 
     Returns
     -------

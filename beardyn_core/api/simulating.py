@@ -41,7 +41,7 @@ def simulate(
     """Run a scene as fast as this machine can, record it if asked to.
 
     Run a scene as fast as this machine can. The first run of a set of effects compiles its kernels, about a
-    minute, and prints a line on standard error that says so; they are kept on disk.
+    minute, and prints a line on standard error about it; they are kept on disk.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def simulate(
     -------
     Run
         Kept in memory. Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by
-        name. Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its
+        name. Its ``status`` is a sentence, and a ``RuntimeWarning`` repeats it, when the model left its
         range of validity; the arrays end there.
 
     Warns

@@ -42,7 +42,7 @@ class Calibration:
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         before, after = self.residuals
         within = np.mean(np.abs(self.found.after) <= _WITHIN * self.found.tolerance)
         return [

@@ -81,7 +81,7 @@ class Estimate:
 
     @property
     def sentence(self) -> str:
-        """Say it in a line."""
+        """Write it in a line."""
         if self.reason:
             return f"{self.quantity.words}: {self.reason}"
         show, (low, high) = self.quantity.text, self.intervals[-1]
@@ -106,7 +106,7 @@ class Estimates:
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         lines = [] if self.part is None else [self.part.sentence]
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
@@ -156,8 +156,8 @@ class Estimator:
     def estimates(self, descriptors: Float) -> Estimates:
         """Estimate from stretches of one run, shape [stretch, descriptor].
 
-        The middle of the stretches is told, with the intervals of one stretch: what a box or a track has of
-        its own is in all of them, and does not go away with their number.
+        The middle of the stretches is reported, with the intervals of one stretch: what a box or a track has
+        of its own is in all of them, and does not go away with their number.
         """
         standard = self.standardise(descriptors)
         part = None if self.part is None else self.part.estimate(standard)
@@ -181,7 +181,7 @@ class Estimator:
         )
 
     def prior_estimate(self, quantity: Quantity) -> Estimate:
-        """Give what is known of a quantity that no signal tells: its range in the runs learnt from."""
+        """Give what is known of a quantity that no signal identifies: its range in the runs learnt from."""
         known = self.card["quantities"][quantity.name]
         return _silent(
             quantity,

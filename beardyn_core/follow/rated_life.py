@@ -59,7 +59,7 @@ class RatedLife:
 
     @property
     def sentences(self) -> list[str]:
-        """Say it in lines."""
+        """Write it in lines."""
         origin = "estimated" if self.lateral_is_estimated else "assumed"
         side = f"{self.lateral[0] / 1e3:.3g} to {self.lateral[1] / 1e3:.3g} kN ({origin})"
         most = max(self.parts, key=lambda name: self.parts[name])

@@ -45,7 +45,7 @@ _SMOOTHED = 5  # steps of the profile that are averaged
 
 @dataclass(frozen=True)
 class Severity:
-    """How much a fault matters, beside that there is one."""
+    """How much a fault matters."""
 
     grade: A[str, "``incipient``, ``developed``, ``severe``, or ``not measurable``"]
     width: A[float, "of the spall in rolling direction, NaN where not measurable, [m]"]
@@ -118,7 +118,7 @@ def severity_of(
     the wider one would be 40 mm wide or less, as on the cone of an axlebox, the least width alone is stated.
 
     A spall from 4 mm on is *developed*, one wider than half of the distance of two rollers *severe*. Both
-    limits are assumed: which size a vehicle may run with is its keeper's to say.
+    limits are assumed: which size a vehicle may run with is its keeper's decision.
 
     References
     ----------
@@ -192,7 +192,7 @@ def narrow_width(
 
 
 def unmeasured(reason: str) -> Severity:
-    """Say why the size of a spall cannot be given."""
+    """State why the size of a spall cannot be given."""
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
 
 
