@@ -37,7 +37,7 @@ from evidence.follow.judged import SHOWN, judged
 from evidence.pages import REPORTS, write_section
 
 PAGE = REPORTS / "estimator.md"
-TITLE, NEXT = "## Beside a neural posterior\n", "## What a known load gives\n"
+TITLE, NEXT = "## Compared with a neural posterior\n", "## What a known load gives\n"
 PARTS = 5  # of the hidden bearings; each is judged by what the others teach, in every way
 HEARD = 80  # descriptors that go best with the number
 DRAWS = 1000  # of a posterior
@@ -101,7 +101,7 @@ def section(ours: Mapping[str, Guessed], flows: Mapping[str, Mapping[str, Guesse
     lines = [
         TITLE,
         "Written by `python -m evidence.follow.neural --train runs --hidden hidden`: normalising flows "
-        "(`sbi`, neural posterior estimation) beside the shipped way. All learn from the runs of "
+        "(`sbi`, neural posterior estimation) compared with the shipped way. All learn from the runs of "
         f"`quasistatic` and, part by part, from {PARTS - 1} of {PARTS} parts of the hidden bearings, and "
         f"judge the rest; {seconds / 60:.0f} min of learning the flows.",
         "",

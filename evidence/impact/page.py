@@ -48,7 +48,7 @@ SHOWN = (Case(10e-3), Case(10e-3, length=WHOLE))
 def name(case: Case) -> str:
     """Name a case in a table."""
     if case.width == 0.0:
-        return "sound"
+        return "healthy"
     length = "whole" if case.length == WHOLE else f"{1e3 * case.length:g}"
     return f"{case.on} {1e3 * case.width:g} x {length}"
 

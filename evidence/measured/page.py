@@ -136,7 +136,7 @@ def _row(record: Record, heard: Sequence[Heard]) -> list[str]:
     name = record.name if record.group == "MFPT" else f"CWRU {record.name}"
     return [
         name,
-        f"{record.part or 'sound'}{size}{place}",
+        f"{record.part or 'healthy'}{size}{place}",
         str(record.load) if record.group != "MFPT" else "",
         record.grade,
         *(said(faulty, method) for method in METHODS),

@@ -335,7 +335,7 @@ def page_values(
         "reference": "own train's records" if own else "public records",
         "counts": ", ".join(f"{counts[part]} {name}" for part, name in CONDITIONS.items()),
         "healthy_count": counts[""],
-        "absent": absent.replace("sound", "healthy"),
+        "absent": absent,
         "tier": TIER,
         "measured_s": DURATION - SETTLED,
         "width": WIDTH_MM,

@@ -145,7 +145,7 @@ def _widths(widths: list[dict[str, Any]]) -> Table:
     columns: list[Column] = [
         (
             "width of the spall",
-            lambda row: f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "sound",
+            lambda row: f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "healthy",
         ),
         ("runs", lambda row: str(row["runs"])),
         ("named right", lambda row: f"{100 * row['right']:.0f} %"),
@@ -240,8 +240,8 @@ def _efficiency(rows: list[dict[str, Any]]) -> str:
     clock = (two["runs"] / two["wall_s"]) / (one["runs"] / one["wall_s"]) / (two["workers"] / one["workers"])
     return (
         f"From {one['workers']} to {two['workers']} processes: {100 * own:.0f} % of the runs an hour of each "
-        f"core are left, by processor time and waiting; by the clock {100 * clock:.0f} %, beside what else "
-        "the machine had to do (*load*: processes that wanted a core at the end of it)."
+        f"core are left, by processor time and waiting; by the clock {100 * clock:.0f} %, with "
+        "other work of the machine (*load*: processes that wanted a core at the end of it)."
     )
 
 

@@ -84,7 +84,7 @@ def test_the_page_says_what_was_measured() -> None:
     assert "| all features | 88 % | **38 points** |" in text
     assert "whitened: 66 %, both: 78 %. With fewer runs to learn from: 78 % of 1400 runs, 70 % of 700" in text
     assert "| 1 to 2 mm | 44 | 31 % |" in text
-    assert "| sound | 92 | 90 % |" in text
+    assert "| healthy | 92 | 90 % |" in text
     assert "A sweep of 2000 runs of 2 s, 3 failed" in text
     assert "busy with them for 20 min each" in text
     # 3600 s x 90 % / (0.35 + 0.02) s

@@ -115,7 +115,7 @@ def class_k_torque(axle: AxleResistance) -> float:
 
 SERVICE_MISSES = (
     "the surroundings: in air of 40 °C ours is 95 °C, with 0.4 m2 of box in the air, not 0.6, it is 89 °C; "
-    "the source tells neither"
+    "the source states neither"
 )
 
 

@@ -78,7 +78,7 @@ MFPT_LOADS = (
 )
 DEEP_ONES = (
     "the depth, 400 um by assumption: on floors of 2.5 and 5 um, on which rollers rest, it is 0.04 and 0.31; "
-    "the source tells none"
+    "the source states none"
 )
 # least and largest rms of a fault of so many thousandths of an inch, over that of a healthy bearing
 FAULTS_OF_CWRU = {7: (1.3, 12.7), 14: (1.4, 12.7), 21: (1.8, 11.4)}
