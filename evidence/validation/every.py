@@ -90,11 +90,13 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 13:910)",
-        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not stated",
+        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not "
+        "stated",
     ),
     (
         "torque and stiffness of the bearings of a disc cutter (Lubricants 2025, 13, 160, Tables 5 and 6)",
-        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers not stated",
+        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers "
+        "not stated",
     ),
     (
         "heat of bearings of class K and F on rigs (Tarawneh and others 2008 to 2012), service temperatures "
