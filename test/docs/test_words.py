@@ -1,7 +1,7 @@
 """What users read has one word for one thing: phrases that were given up do not come back.
 
-Read are README, pages, reports, their templates, help, schemas, purposes of shipped files, messages (every text
-in the code but docstrings) and the docstrings of the names of `beardyn_core`.
+Read are README, pages, reports, their templates, help, schemas, purposes of shipped files, messages (texts in
+the code that are no docstrings) and the docstrings of the names of `beardyn_core`.
 """
 
 from __future__ import annotations
