@@ -317,8 +317,8 @@ def _rib_lines(bearing: Bearing, load: float, speed: float) -> list[str]:
 def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:
     entries = [
         ("FTF", frequencies.ftf, "cage"),
-        ("BPFO", frequencies.bpfo, "cup fault, one row"),
-        ("BPFI", frequencies.bpfi, "cone fault, one row"),
+        ("BPFO", frequencies.bpfo, "outer ring (cup), one row"),
+        ("BPFI", frequencies.bpfi, "inner ring (cone), one row"),
         ("BSF", frequencies.bsf, "roller spin; a roller fault strikes twice as often"),
     ]
     lines = []
