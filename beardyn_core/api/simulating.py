@@ -55,7 +55,7 @@ def simulate(
     duration : float, optional
         Simulated time, s; default the scene's.
     laminae : int, optional
-        Laminae of each roller; default the scene's.
+        Slices (laminae) of each roller; default the scene's.
     seed : int, optional
         Seed of irregularity and noise; default the scene's.
     record : Path, optional

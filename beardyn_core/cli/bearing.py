@@ -68,7 +68,7 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--coupled-laminae",
         action="store_true",
-        help="laminae sink with each other: edge load; default independent",
+        help="slices (laminae) sink with each other: edge load; default independent",
     )
     add_json(parser)
     parser.set_defaults(run=run)
