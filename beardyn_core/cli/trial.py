@@ -33,12 +33,13 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "trial",
         help="benchmark of a monitor: detection rate and false alarms over many scenes",
         description="Benchmark of monitors. Run one, ours or your own, over faults, sizes, speeds, tracks "
-        "and wheels, and print how often it finds the fault, how often it alarms on a healthy bearing, and the "
-        "smallest spall it finds, with 95 % intervals. `quick` takes two minutes of one core, `default` "
-        "an hour, and a minute more for every set of effects that is not compiled yet; choosing effects "
-        "where neither benchmark nor scene names any takes half a minute to two, once. "
-        "With -o a run that is done is kept, and an interrupted benchmark goes on where it was; a folder of "
-        "another benchmark or monitor is refused.",
+        "and wheels, and print how often it finds the fault, how often it alarms on a healthy "
+        "bearing, and the smallest spall it finds, with 95 % intervals. `quick` takes two "
+        "minutes of one core, `default` an hour, and a minute more for every set of effects "
+        "that is not compiled yet; choosing effects where neither benchmark nor scene names any "
+        "takes half a minute to two, once. With -o a run that is done is kept, and an "
+        "interrupted benchmark goes on where it was; a folder of another benchmark or monitor "
+        "is refused.",
     )
     parser.add_argument(
         "matrix",
