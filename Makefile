@@ -54,7 +54,7 @@ random: $(VENV)/.ready-test ## set up, then random legal scenes, each finite or 
 bench: $(VENV)/.ready-test ## set up, then every speed in one run: tables, and bench.json
 	@$(BIN)/python -m benchmarks $(ARGS)
 
-performance: ## write docs/performance.md from bench.json
+performance: ## write docs/performance.md and docs/evidence/speed.md from bench.json
 	@$(BIN)/python -m evidence.performance.page bench.json
 
 costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (compiles 30 sets the first time)
@@ -63,38 +63,38 @@ costs: $(VENV)/.ready ## set up, then what every effect costs in the time step (
 soak: $(VENV)/.ready-test ## set up, then nodes killed, fed nonsense, on a full disk, for ARGS="--minutes 60" (default 5)
 	@$(BIN)/python -m evidence.ros.soak $(ARGS)
 
-step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/step.md
+step: $(VENV)/.ready-test ## set up, then time steps against an explicit reference of 0.1 us: tables, step.json, docs/evidence/step.md
 	@$(BIN)/python -m evidence.step $(ARGS)
 	@$(BIN)/python -m evidence.step.page step.json
 
-light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/light.md
+light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/evidence/light.md
 	@$(BIN)/python -m evidence.light.page $(ARGS)
 
-service: $(VENV)/.ready-test ## set up, then what sensors in service hear: docs/sensors.md
+service: $(VENV)/.ready-test ## set up, then what sensors in service hear: docs/evidence/sensors.md
 	@$(BIN)/python -m evidence.service.page $(ARGS)
 
-damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/damping.md
+damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/evidence/damping.md
 	@$(BIN)/python -m evidence.damping.page $(ARGS)
 
-heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside published ones: docs/heat.md
+heat: $(VENV)/.ready-test ## set up, then torque and steady temperatures beside published ones: docs/evidence/heat.md
 	@$(BIN)/python -m evidence.heat.page $(ARGS)
 
-structure: $(VENV)/.ready-test ## set up, then the modes of a box beside its finite elements: docs/structure.md
+structure: $(VENV)/.ready-test ## set up, then the modes of a box beside its finite elements: docs/evidence/structure.md
 	@$(BIN)/python -m evidence.structure.page $(ARGS)
 
-impact: $(VENV)/.ready-test ## set up, then impacts of spalls in a ringing box beside published ones: docs/impact.md
+impact: $(VENV)/.ready-test ## set up, then impacts of spalls in a ringing box beside published ones: docs/evidence/impact.md
 	@$(BIN)/python -m evidence.impact.page $(ARGS)
 
-monitor-measured: $(VENV)/.ready-test ## set up, then the monitor over public records in ARGS="--cwru FOLDER --mfpt FOLDER": docs/monitor_measured.md
+monitor-measured: $(VENV)/.ready-test ## set up, then the monitor over public records in ARGS="--cwru FOLDER --mfpt FOLDER": docs/evidence/monitor_measured.md
 	@$(BIN)/python -m evidence.measured.page $(ARGS)
 
-ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/ladder.md
+ladder: $(VENV)/.ready-test ## set up, then climb the ladders of three scenes and write docs/evidence/ladder.md
 	@$(BIN)/python -m evidence.ladder.page $(ARGS)
 
-automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of twenty scenes and write docs/automatic.md
+automatic: $(VENV)/.ready-test ## set up, then try the automatic choices of twenty scenes and write docs/evidence/automatic.md
 	@$(BIN)/python -m evidence.automatic.page $(ARGS)
 
-validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/validation.md
+validation: $(VENV)/.ready-test ## set up, then run every anchor and write docs/evidence/validation.md
 	@$(BIN)/python -m evidence.validation.page $(ARGS)
 
 lint: $(VENV)/.ready-dev ## style, types and the direction of imports

@@ -211,7 +211,7 @@ class Twin:
         self._observer.first_instant(*self._complete(self._state.rollers, self._state.bodies), first[:6])
 
     def feed(self, load: LoadHistory) -> bool:
-        """Append load samples; False when they were refused (`load.reason` says why)."""
+        """Append load samples; False when they were refused (`load.reason` gives the reason)."""
         return self.load.append(load)
 
     @property

@@ -18,7 +18,7 @@ PROGRAMS = {
     "monitor": ("monitor_node.main", "monitoring algorithm on vibration, shaft, load and temperature"),
     "follower": (
         "follower_node.main",
-        "load, end play and spall from vibration and shaft, with a twin beside",
+        "load, end play and spall from vibration and shaft, with a twin to compare",
     ),
     "car_twin": ("car.run_twins", "the twins of all axleboxes of a scene, or of a car, in one process"),
     "car_load": ("car.run_loads", "the load of each of these axleboxes from one scenario, all in step"),

@@ -64,7 +64,7 @@ def train_of(values: ParameterValues, said: Mapping[str, str]) -> Axleboxes | No
     if train is not None and (given := [name for name in said if values.is_given(name)]):
         raise InputError(
             [
-                f"parameter '{name}': scene '{values.scene}' says it, axleboxes.{said[name]}; leave the "
+                f"parameter '{name}': scene '{values.scene}' gives it, axleboxes.{said[name]}; leave the "
                 "parameter out, or change the scene"
                 for name in given
             ]

@@ -264,4 +264,4 @@ class _Observer:
             if failure is not None:
                 raise failure
             if time.monotonic() - self._last_message_at > timeout:
-                raise NodeFailureError(f"nothing was heard for {timeout:.0f} s while waiting for {what}")
+                raise NodeFailureError(f"nothing arrived for {timeout:.0f} s while waiting for {what}")

@@ -157,7 +157,7 @@ def missing_requirements(installed: Callable[[str], str] | None = None) -> list[
         *found,
         "the packages of this distribution do not do: make a virtual environment that sees the sourced ROS 2 "
         f"(python3 -m venv --system-site-packages DIR) and install there: DIR/bin/pip install {needs}; "
-        "docs/quality.md says more",
+        "docs/quality.md has more",
     ]
 
 

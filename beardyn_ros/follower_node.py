@@ -161,7 +161,7 @@ class FollowerNode(Node):
             problems = [f"node follower, parameter 'twin': {each}" for each in error.problems]
             raise InputError(problems) from None
         if not isinstance(found.operation, QuarterVehicleOperation):
-            raise InputError(f"{where}: a twin beside a train runs on a track (kind: quarter_vehicle)")
+            raise InputError(f"{where}: a twin next to a train runs on a track (kind: quarter_vehicle)")
         if doubt := doubt_of(self._follower.estimator, found.bearing):
             raise InputError(f"{where}: {doubt}")
         return found
@@ -239,7 +239,7 @@ class FollowerNode(Node):
         try:
             self._residual = done.result()
         except (InputError, ValidityError) as error:
-            self._trouble = f"twin beside: {error}"
+            self._trouble = f"twin: {error}"
             self.get_logger().error(self._trouble, throttle_duration_sec=5.0)
             return
         self._trouble = ""

@@ -50,7 +50,7 @@ def missing_background(name: str, load: LoadHistory, live: bool) -> str:
     return (
         f"the forces of the background {name!r} are not in the load: the load node of the scene adds them, "
         f"at {1e9 / BACKGROUND_SAMPLE_NS:.0f} samples a second, and {came}; "
-        "of it the sensors hear at most its pickup"
+        "of it the sensors measure at most its pickup"
     )
 
 

@@ -241,7 +241,7 @@ class LoadGate:
         if begin == 0:
             return "its first block was refused"
         return (
-            f"samples 0 to {begin - 1} are missing: they were sent before the twin listened (`ros2 bag play` "
+            f"samples 0 to {begin - 1} are missing: sent before the twin was ready (`ros2 bag play` "
             "needs --delay 1), or the stream is to be joined where it stands (parameter join)"
         )
 

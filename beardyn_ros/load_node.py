@@ -298,7 +298,7 @@ class LoadNode(Node):
         )
         if self._connected and not self._announced:
             self._announced = True
-            self.get_logger().info("the twin listens, replay begins")
+            self.get_logger().info("the twin is ready, replay begins")
         if self._connected or not self._announced or self._ended:
             self._alone_since = now
         elif self._values.exit_when_done and now - self._alone_since > ALONE_TIMEOUT_S:

@@ -185,7 +185,7 @@ class MonitorNode(Node):
     def _report(self) -> None:
         self._reported_at = time.monotonic()
         namespace = self.get_namespace()
-        latest = self._tally.latest or Finding(WAITING, "listening", 0.0)
+        latest = self._tally.latest or Finding(WAITING, "no verdict yet", 0.0)
         note = self._signals.clock_note
         warned = note or self._monitor.lost or self._monitor.refused or self._signals.guard.total
         status = Diagnostic(

@@ -322,7 +322,7 @@ FOLLOWER = (
         "axle_load", "", "EMPTY:FULL, axle loads of the vehicle, against which the load is checked", "t"
     ),
     NodeParameter("twin", "", "healthy scene of this axlebox on its track, a twin next to it; empty: none"),
-    NodeParameter("twin_tier", "quasistatic", "of the twin beside", choices=("lumped", "quasistatic")),
+    NodeParameter("twin_tier", "quasistatic", "of that twin", choices=("lumped", "quasistatic")),
     NodeParameter(
         "twin_period",
         6.0,
@@ -348,7 +348,7 @@ BOXES = NodeParameter(
     "boxes",
     "",
     "some of the axleboxes, each a namespace below that of this node: axle_<number>_<left or right>, axle 1 "
-    "leads; '': all that the axleboxes of the scene say, or all eight of a car",
+    "leads; '': all axleboxes of the scene, or all eight of a car",
 )
 PUBLISH_CLOCK = "publish_clock"
 # every box has frame and place of its own; the first one publishes the clock for all

@@ -110,7 +110,7 @@ class RecorderNode(Node):
         output, most = self._values.output, self._splitting.most_bytes
         if 0 < most < SMALLEST_BYTES:
             raise InputError(
-                f"node recorder: max_file_size {most / 1e6:g} MB is too small for what a file says about "
+                f"node recorder: max_file_size {most / 1e6:g} MB is too small for what a file states about "
                 f"itself; give at least {SMALLEST_BYTES / 1e6:g} MB, or 0 for no limit"
             )
         if not output:
@@ -372,7 +372,7 @@ class RecorderNode(Node):
         """Finish the file; there is no thread to end."""
         if self._recording.current is not None or not self.finished:
             self._intake.sweep_to_the_end()
-            self._recording.close("" if self.finished else "the recorder was told to stop")
+            self._recording.close("" if self.finished else "the recorder was asked to stop")
             self._tell_left()
         self._out.wait_until_received("/diagnostics", LAST_WORDS_TIMEOUT_S)
         return False

@@ -241,7 +241,7 @@ class RunFile:
         self.origin_ns = 0  # earliest stamp of the run
         self._writer = writer
         if truth is None:
-            self.problem = "no truth has come: the file does not say which scene it holds"
+            self.problem = "no truth has come: the file does not name its scene"
             return
         self.run_id = run_id_of(truth)
         self.origin_ns = self._simulated_ns = earliest_stamp(parsed_truth(truth))

@@ -174,7 +174,7 @@ class TwinNode(LifecycleNode):
 
     def close(self) -> bool:
         """Publish the last state and end the thread; whether the thread is still alive."""
-        alive = self._end_session("the twin was told to stop (SIGINT or SIGTERM)")
+        alive = self._end_session("the twin was asked to stop (SIGINT or SIGTERM)")
         self._trends.end()
         return alive
 
@@ -267,7 +267,7 @@ class TwinNode(LifecycleNode):
 
     def _quit(self) -> None:
         """End the process as SIGINT does."""
-        self._end_session("the twin was told to quit")
+        self._end_session("the twin was asked to quit")
         self.finished = True
 
     @property

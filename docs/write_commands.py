@@ -22,7 +22,7 @@ the same.
 Numbers are in the units of scene files (kN, mm, rpm); another unit is written behind: `80000N`. With
 `--json` a command prints one object ([json.md](json.md)). Nothing that exists is replaced without
 `--force`, and a file that a command reads never. Ctrl-C ends a command within two seconds, also while it
-compiles, and it says what it has kept.
+compiles, and it prints what it has kept.
 
 | exit code | meaning |
 |---|---|

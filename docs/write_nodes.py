@@ -56,7 +56,7 @@ Where `simulation_interfaces` is installed, the twin offers the standard service
 | `step_simulation` | `steps` blocks of 20 ms while paused; answers when they are done |
 | `reset_simulation` | time and state together (scope 0, 3 or 255); one alone is unsupported |
 
-### What its diagnostics say
+### Its diagnostics
 
 After REP-107 statuses are named in full, `axlebox/twin` in the namespace `/axlebox`, with the namespace as
 `hardware_id`; `run_id` changes with every run and begins with `instance`, which a twin keeps from its start
@@ -76,8 +76,9 @@ to its end.
 * The last word, in state `finished`, `stopped` or `interrupted` (SIGINT, SIGTERM, lifecycle, reset), counts
   the messages of the run by topic: `messages force` and so on.
 
-A second twin under the same full name refuses to start (exit code 2), and the first one warns while it hears
-it; a recorder that hears two in turns closes its file and ends with 2. Of several twins in one graph only one
+A second twin under the same full name refuses to start (exit code 2), and the first one warns while it
+receives its messages; a recorder that receives two in turns closes its file and ends with 2. Of several twins
+in one graph only one
 may publish `/clock`; a twin that meets another publisher of it warns.
 
 ### What RViz shows
@@ -114,8 +115,8 @@ ros2 service call /axlebox/load/pause std_srvs/srv/SetBool "{data: true}"
 Sample numbers and stamps always go on; a seek or a loop only moves the position in the scenario, with a
 cross-fade of half a cosine over `fade` in which force, moment, speed and bogie of both places are mixed:
 the load never jumps. A lap of a loop is the length of the scenario less one fade. What is sent already is
-not taken back: in lockstep a seek, a loop or a pause reaches the twin up to `horizon` later. `load/truth`
-says which stamp stands where, before the load that it is about comes: `replay.passages` lists, for each
+not taken back: in lockstep a seek, a loop or a pause reaches the twin up to `horizon` later. `load/truth` has
+the place of each stamp, before the load that it is about comes: `replay.passages` lists, for each
 passage, its first `sample` and `stamp_s`, its `position_s` there, and for how long (`fade_s`) the passage
 before it still fades out. At the stamp t of a passage the position is `position_s + t - stamp_s`.
 
@@ -133,35 +134,35 @@ ros2 bag play run.mcap --delay 1 --topics /axlebox/load/blocks /axlebox/load/tru
 ```
 
 Without the delay the player sends its first block before the twin has found it. A stream begins at sample
-0: when that is missing the twin says which samples are, waits for `load_timeout` in case they are sent
+0: when that is missing the twin names the samples, waits for `load_timeout` in case they are sent
 again, and ends with exit code 4. `join:=true` takes a stream from where it stands.
 
 A bag does not wait for credit: with `--rate` it may run ahead of the twin by `load_queue` seconds or
-`load_queue_size` MB, beyond which the twin stops and says so.
+`load_queue_size` MB, beyond which the twin stops with a message.
 """
 
 CAR = """
 ## Several boxes
 
-`ros2 launch beardyn car.launch.py scene:=bogie` runs the axleboxes that the scene says with
+`ros2 launch beardyn car.launch.py scene:=bogie` runs the axleboxes of the scene by
 [`axleboxes`](rail.md#several-axleboxes-at-once), as `beardyn simulate bogie` does: which there are, how far
 apart, which are faulty, with the same loads. `car_twin` has the twins of all in one process, `car_load`
 their loads, `car_recorder` records them into one file, each under its namespace: `beardyn report`, `monitor`
 and `view` take a box of it as `--box car/axle_2_left`. `boxes:="axle_1_left axle_1_right"` chooses some of
-them; what the scene says is no parameter then, and is refused as one. With `pictures: false` the twins
-publish no `bodies` and `contacts`. A `twin` or `load` node refuses such a scene; a twin that is told its
+them; what the scene sets is no parameter then, and is refused as one. With `pictures: false` the twins
+publish no `bodies` and `contacts`. A `twin` or `load` node refuses such a scene; a twin with the parameter
 `box` is that box of the scene.
 
 A scene without `axleboxes` is that of every box of a car: `ros2 launch beardyn car.launch.py` starts a twin
 in each of `/car/axle_1_left` to `/car/axle_4_right`, with one load (`car_load`) and one recorder
-(`car_recorder`); `--show-args` lists its arguments. The twins are of tier `lumped` unless `tier:=` says
-otherwise; `faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a spall. Each is told its
-`box`: right ones are mirrored. Every box has a file of its own, `car_<box>.mcap`. `car_twin` has these in
-one process, too, the defects of the scene in those of `faulty`; beside it go `car_load` and `car_recorder`:
+(`car_recorder`); `--show-args` lists its arguments. The twins are of tier `lumped` unless `tier:=` is given;
+`faulty_box:=axle_2_left faulty_scene:=cup_spall` gives one of them a spall. Each has its `box`: right ones
+are mirrored. Every box has a file of its own, `car_<box>.mcap`. `car_twin` has these in
+one process, too, the defects of the scene in those of `faulty`; with it go `car_load` and `car_recorder`:
 `ros2 run beardyn car_twin --ros-args -p scene:=cup_spall -p tier:=lumped -p faulty:=axle_2_left`. The first
 twin publishes `/clock`. `monitor:=true` and `follower:=true` start a monitor and a follower of every box
-beside its twin, each in its namespace, with `bearing:=` as their bearing data; the recorder keeps what they
-say.
+next to its twin, each in its namespace, with `bearing:=` as their bearing data; the recorder keeps their
+results.
 
 `ros2 launch beardyn train.launch.py cars:=2` starts several such cars, `/train/car_1` and so on, each with a
 load and recordings of its own (`train_car_1.mcap`, or `train_car_1_<box>.mcap`) and at the pace of the clock;
@@ -174,7 +175,7 @@ turn at the present speed of the train. The right rail is another one of the sam
 curves turn the other way for the right boxes; loads that are given (constant, stepped, CSV) are the same
 left and right. Defects of the wheel are on one wheel, `wheel_defects_on`, or on those of the faulty boxes.
 All boxes have axes of the same directions, so that row 0, inboard on the left, is outboard on the right.
-`load/truth` of each box says how far behind it is. No box gets load further ahead than `horizon` of the
+`load/truth` of each box states how far behind it is. No box gets load further ahead than `horizon` of the
 slowest: they stay together, and the `/clock` of one is right for all. Each box has the topics and services
 of a load node of its own (`/car/axle_1_left/load/blocks`); `/car/load/pause` holds all of them.
 
@@ -189,20 +190,21 @@ What ends first ends the others in order:
 """
 
 RECORDER = """
-The last word of the twin on `/diagnostics` says how many messages of every topic it has published (values
-`messages TOPIC`). The recorder waits for what is still on its way, then says which topics lack how many, and
-ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
-says that it vanished. A recorder that joins a run ends with 0 when nothing was lost since: it states from
+The last word of the twin on `/diagnostics` states how many messages of every topic it has published (values
+`messages TOPIC`). The recorder waits for what is still on its way, then reports which topics lack how many,
+and ends with 5; `beardyn report` finds the same in the file. A twin that is killed has no last word: the file
+states that it vanished. A recorder that joins a run ends with 0 when nothing was lost since: it states from
 when it has recorded (`recorded_from`, s) and how much was before.
 
 Every node takes a message only if it is what its topic promises and comes from the publisher that it follows:
 the node that the topic is named for, where there is one, else the first that speaks; another one follows when
 that has gone. What is refused is counted (`refused: TOPIC` and `refused_messages` in the diagnostic of every
 node; in that of the twin by reason) and not recorded. A `truth` names a file and chooses no folder.
-`python -m evidence.ros.fuzz --messages 10000` publishes hostile messages on every topic beside a run of all
+`python -m evidence.ros.fuzz --messages 10000` publishes hostile messages on every topic during a run of all
 nodes and reports whether anything ended, split or is missing: nothing in three runs of 10 000 of them at half
 of real time. In real time all six nodes and the sender are more than two cores can carry: receive buffers
-overflow, and a recorder that falls behind lacks up to two thirds of the messages, says so and ends with 5.
+overflow, and a recorder that falls behind lacks up to two thirds of the messages, reports that and ends with
+5.
 
 A disk that stalls is waited for in the background, up to 128 MB.
 
@@ -240,7 +242,7 @@ PROTOCOL = """
 `load/blocks` is reliable and keeps all. The load node stays within `horizon` of the simulated time that the
 twin repeats on `load/consumed` every 0.2 s; an empty block ends the stream. A twin looks ahead: samples that
 are evenly spaced by at most 11 ms are interpolated without images of their rate, which takes 30 of them on
-either side, 15 ms at 2 kHz; [rail.md](rail.md#between-the-samples) says what stays linear. In lockstep a
+either side, 15 ms at 2 kHz; [rail.md](rail.md#between-the-samples) lists what stays linear. In lockstep a
 block is computed only when the 30 samples after its end have arrived, or the end of the stream: the signals
 are the same to the last bit at any speed. Who sends in step with `load/consumed` must stay one block of 20
 ms and 30 samples ahead of it; the load node adds these to its horizon. Messages with NaN, out of order, with
@@ -269,7 +271,7 @@ twin's status is the same number. `truth` has `begin_ns`, a stamp that no sample
 | the clock of the load | what stamps do |
 |---|---|
 | runs faster or slower, up to 1 ms a second | follow it, by 20 us a block at most |
-| is set forward by more than 50 ms, or the twin was paused | leap with it, once; the status says so |
+| is set forward by more than 50 ms, or the twin was paused | leap with it, once; the status reports it |
 | is set back by 50 ms to 10 s | the run is held until the clock shows a new time: no stamp comes twice |
 | is set back by more | a new run begins, with a new `run_id` and a recording of its own |
 | runs at another pace than `speed_factor` | go on at the pace of the twin; the status warns |
@@ -279,7 +281,7 @@ Monitor and follower pair vibration and shaft by stamp: where the two have been 
 as with a sensor whose clock drifts, their status warns and states the distance.
 
 `/clock` stays silent then, unless `publish_clock` is true: the train has a clock. A twin that is late
-(status `axlebox/lag`) answers load that is younger than its stamps say, by as much as it lags. In `lockstep`
+(status `axlebox/lag`) answers load that is younger than its stamps, by as much as it lags. In `lockstep`
 stamps count from 0 by default; with `stamps:=source` they are those of `load/blocks`, exactly.
 """
 
@@ -328,8 +330,8 @@ other. Foxglove plots such an array; [viewers.md](viewers.md#every-sample-of-a-w
 KEPT = """
 ### How long topics are kept
 
-Until version 1.0 topics may change with a minor version, as [quality.md](quality.md) states, and only as this
-table says.
+Until version 1.0 topics may change with a minor version, as [quality.md](quality.md) states, and only as in
+this table.
 
 | topic | replaced by | kept |
 |---|---|---|

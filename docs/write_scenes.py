@@ -38,32 +38,26 @@ COLOURS = 16
 
 HEAD = """# Scenes
 
-Written by `python docs/write_scenes.py` from the files in `config/scenes`.
+A scene is a YAML file with a bearing, a lubricant, an operation, faults and sensors. `beardyn simulate
+cup_spall` runs a shipped one, `beardyn new cup_spall -o mine.yaml` copies it, `beardyn simulate
+mine.yaml` runs your own. This page is written by `python docs/write_scenes.py` from `config/scenes`.
 
-A scene is a YAML file: a bearing, a lubricant, an operation, faults, sensors. `beardyn simulate cup_spall`
-runs a shipped one, `beardyn simulate mine.yaml` your own. Railway scenes come first; the others turn a
-bearing under a constant load. But for those of a publication (`santos_*`) they name no effects, or
-only the box that rings, so each is computed with those that it [needs](effects_auto.md) to stay
-within 5 % of the full model;
-[the choices](choices.md). `bogie` names the tier `quasistatic`, so that its four boxes keep up: it misses
-5 %, and says by how much.
+Railway scenes test a monitor: some have a fault that must be found, some only a *similar disturbance*,
+some both, healthy ones nothing. The truth of a run (topic `truth`, key `excitation`) has the
+irregularity with its seed, strikes of a flat and joints passed, each with time and distance. Their
+bearings are as made, [grade G1](scatter.md); bearings under a constant load, at the end of the page,
+are as drawn.
 
-Every railway scene is there to test a monitor: some have a fault that must be found (*true*), some only
-something that looks like one (*similar disturbance*), some both, and the healthy ones nothing at all. The
-excitation of a run is part of its truth (topic `truth`, key `excitation`): the irregularity with its seed,
-strikes of a flat, joints passed, each with time and distance.
+Scenes name no effects, or only the box that rings (but for `santos_*`, of a publication): each is
+computed with those that it [needs](effects_auto.md) to stay within 5 % of the full model
+([choices](evidence/choices.md)). `bogie` names the tier `quasistatic`, so that its four boxes keep up:
+it misses 5 %, and states by how much. It has [several axleboxes at
+once](rail.md#several-axleboxes-at-once); its picture is of the first wheel.
 
-The pictures show the vertical load on the journal (line: mean, band: least and greatest) and the speed;
-red triangles are strikes, yellow stretches where a scene has something else to meet. Eight have a second
-picture, of a run in tier `quasistatic` (`python docs/write_signals.py`): vertical vibration
-of the axlebox, its spectrum, and that of its envelope between 2 and 8 kHz; the orders of faults of cup, cone
-and roller are dotted.
-
-Bearings of the railway scenes are as made, grade G1 of
-[manufacturing scatter](model.md#manufacturing-scatter); those under a constant load are as drawn.
-
-`bogie` has [several axleboxes at once](rail.md#several-axleboxes-at-once), one recording with a namespace
-each; its picture is of the first wheel. In ROS 2 it is for `car.launch.py`.
+Pictures: vertical load on the journal (line: mean, band: least and greatest) and speed; red triangles
+are strikes, yellow stretches have something else to meet. Second pictures (tier `quasistatic`, `python
+docs/write_signals.py`): vertical vibration of the axlebox, its spectrum, and that of its envelope
+between 2 and 8 kHz, with dotted orders of faults of outer ring (cup), inner ring (cone) and roller.
 
 ## Railway scenes
 """
@@ -163,7 +157,7 @@ def page() -> str:
 
 def _irregularities() -> Iterator[str]:
     yield "Keys of `irregularity`. A spectrum ends at 2 m, as its source does; `short_waves` gives the"
-    yield "roughness of the rail below. [sensors.md](sensors.md#lines-and-wheels) compares the levels."
+    yield "roughness of the rail below. [Sensors](evidence/sensors.md#lines-and-wheels) compares the levels."
     yield ""
     yield from _options(keys_of(Irregularity))
     yield ""

@@ -3,25 +3,25 @@
 =========== ======================================================================================
 folder      page
 =========== ======================================================================================
-validation  docs/validation.md: published numbers and trends beside ours
-santos2017  docs/santos2017.md: the runs of Santos (2017) again
-contacts    docs/contacts.md: the contact laboratory
-hard        docs/hard.md: situations in which codes of this kind break
-random      docs/random.md: whatever a scene may say ends finite or with a sentence
-step        docs/step.md: chosen time steps beside an explicit one of 0.1 us
-light       docs/light.md: cages under light loads
-structure   docs/structure.md: modes of an axlebox beside its finite elements
-measured    docs/monitor_measured.md, run_to_failure.md, spall_width.md: the monitor on measured data
-impact      docs/impact.md: what a sensor hears of a spall, beside published observations
-damping     docs/damping.md: what the damping of the contacts changes
-service     docs/sensors.md: what a sensor in service hears, and what the monitor says of it
-heat        docs/heat.md: torque and steady temperatures beside published ones
-ladder      docs/ladder.md: what accuracy costs
-automatic   docs/automatic.md: what `effects: auto` chooses, on trial
-trial       docs/trial.md: the monitor on trial
-population  docs/sweep.md: what a learner makes of a set, how fast sets are made
-fleet       docs/fleet_year.md: a year of 64 axleboxes in one store, and what it takes
-follow      docs/estimate.md: a train played in full, followed from what its sensor hears
+validation  docs/evidence/validation.md: published numbers and trends beside ours
+santos2017  docs/evidence/santos2017.md: the runs of Santos (2017) again
+contacts    docs/evidence/contacts.md: the contact laboratory
+hard        docs/evidence/hard.md: situations in which codes of this kind break
+random      docs/evidence/random.md: whatever a scene may say ends finite or with a sentence
+step        docs/evidence/step.md: chosen time steps beside an explicit one of 0.1 us
+light       docs/evidence/light.md: cages under light loads
+structure   docs/evidence/structure.md: modes of an axlebox beside its finite elements
+measured    docs/evidence/monitor_measured.md, run_to_failure.md, spall_width.md: the monitor on measured data
+impact      docs/evidence/impact.md: what a sensor hears of a spall, beside published observations
+damping     docs/evidence/damping.md: what the damping of the contacts changes
+service     docs/evidence/sensors.md: what a sensor in service hears, and what the monitor says of it
+heat        docs/evidence/heat.md: torque and steady temperatures beside published ones
+ladder      docs/evidence/ladder.md: what accuracy costs
+automatic   docs/evidence/automatic.md: what `effects: auto` chooses, on trial
+trial       docs/evidence/trial.md, docs/monitor.md: the benchmark of monitors
+population  docs/evidence/learner.md: what a learner makes of a set, how fast sets are made
+fleet       docs/evidence/fleet_year.md: a year of 64 axleboxes in one store, and what it takes
+follow      docs/evidence/estimator.md: the estimator judged, a train followed by its vibration
 calibration docs/estimate.md: scenes fitted to recordings of hidden axleboxes
 performance docs/performance.md: speeds measured by `benchmarks`
 ros         the ROS graph with nodes killed, starved and fed nonsense; what each node costs

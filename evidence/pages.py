@@ -21,7 +21,7 @@ from evidence.stamps import AT_START, command_of_this_process, png_text
 from evidence.tables import joined_rows
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-PICTURES = DOCS / "pictures"
+PICTURES, REPORTS = DOCS / "pictures", DOCS / "evidence"
 _TEMPLATES = Environment(
     undefined=StrictUndefined,
     trim_blocks=True,

@@ -94,7 +94,7 @@ def twins_of_the_scene(car: str, given: dict[str, str], **of_all: object) -> lis
     """Make the one process that takes the axleboxes of the scene as they are."""
     if said := [name for name in SAID_BY_AXLEBOXES if given[name]]:
         raise InputError(
-            f"scene {given['scene']}: its axleboxes say what {', '.join(said)} would; leave that out, or "
+            f"scene {given['scene']}: its axleboxes set what {', '.join(said)} would; leave that out, or "
             "change the scene"
         )
     words = {name: given[name] for name in ("scene", "boxes")}

@@ -92,7 +92,7 @@ FOLDERS = sorted(path.parent for path in (REPOSITORY / "evidence").glob("*/__ini
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda path: path.name)
 def test_every_page_has_its_run_its_writer_and_its_test_in_one_folder(folder: Path) -> None:
     assert list(folder.glob("test_*.py"))
-    # what is tried with nodes goes into README and docs/ros.md, which are written by hand
+    # what is tried with nodes goes into README and docs/evidence/ros.md, which are written by hand
     assert folder.name == "ros" or (folder / "page.py").is_file()
 
 

@@ -36,10 +36,10 @@ def calibrate(
 ) -> Calibration:
     """Fit a scene to healthy recordings of one axlebox, write the scene of that axlebox.
 
-    Fit what no drawing tells of an axlebox (natural frequencies and damping of the box, background, noise of
+    Fit what no drawing shows of an axlebox (natural frequencies and damping of the box, background, noise of
     the accelerometer, end play) to recordings with a healthy bearing: twins run at the speed of the
     recordings, and their spectra are compared. Writes the scene with the values that the recordings
-    determine; what they do not is said and left. Needs ``pip install beardyn[calibrate]``.
+    determine; the rest is reported and left. Needs ``pip install beardyn[calibrate]``.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def calibrate(
     scene : Scene or Path
         Healthy scene of such an axlebox: what is fitted begins there, the rest stays.
     output : Path, optional
-        Scene to write; default none, it is told only. It is a YAML file.
+        Scene to write; default none, it is printed only. It is a YAML file.
     fit : sequence of str, optional
         What is fitted: frequency, damping, background, noise, end_play; default all that the scene has.
     tier : str
@@ -60,7 +60,7 @@ def calibrate(
     force : bool
         Replace the file when it exists; default refuse.
     progress : bool
-        Say on standard error what is done.
+        Print on standard error what is done.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def calibrate(
     Raises
     ------
     InputError
-        Recordings do not fit the scene, a fault is heard in one, or what is to be fitted is not in the scene.
+        Recordings do not fit the scene, one has a fault, or what is to be fitted is not in the scene.
     """
     from beardyn_core.api.making import scene as make_scene
     from beardyn_core.api.reading import heard_of

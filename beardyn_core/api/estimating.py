@@ -39,8 +39,8 @@ def estimate(
     """Estimate load, end play and spall of a recording, each with an interval.
 
     Estimate from vibration and shaft of a recording what no sensor measures: load, end play, which part is
-    spalled and how wide, with intervals of 50 and 90 %; what is not identifiable is told (with the shipped
-    estimators vertical load and temperature).
+    spalled and how wide, with intervals of 50 and 90 %; what these sensors do not identify is named (with the
+    shipped estimators vertical load and temperature).
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def rating_life(
     temperature_C : 2 floats, optional
         Of the lubricant, ends of its 90 % interval; default assumed, 40 to 85.
     assumptions : LifeAssumptions, optional
-        What no recording says of the service, and is varied.
+        What no recording holds of the service, and is varied.
 
     Raises
     ------
@@ -192,7 +192,7 @@ def forecast(
     found : Estimates
         Of `estimate`.
     run : Run or Path
-        Says which bearing it is, where `bearing` does not.
+        Names the bearing, where `bearing` does not.
     service : Service
         Mileage so far, wheel, and the width at which a bearing is taken out.
     law : GrowthLaw, optional

@@ -62,7 +62,7 @@ class Fleet:
         warnings: list[str] | None = None,
         **defaults: Any,
     ) -> Intake:
-        """Add recordings to the store: which axlebox each is of, and what the monitor says of it.
+        """Add recordings to the store: which axlebox each is of, and its verdict.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class Fleet:
             CSV or YAML file with a line for each recording; default manifest.csv or manifest.yaml in each
             folder.
         pattern : str
-            How the path says which axlebox a file is of, such as {vehicle}/{axle}_{side}/{date}.csv;
+            How the path names the axlebox of a file, such as {vehicle}/{axle}_{side}/{date}.csv;
             default none.
         estimator : str
             File of an estimator that reads load and width too, shipped for one that is shipped for the
@@ -80,7 +80,7 @@ class Fleet:
         workers : int
             Processes that analyse recordings; default 1.
         progress : callable, optional
-            Told of how many are done, and of how many there are.
+            Called with how many are done, and of how many there are.
         warnings : list of str, optional
             Files that were left out are added to it, a sentence each.
         **defaults
@@ -142,7 +142,7 @@ class Fleet:
         Parameters
         ----------
         html : Path
-            HTML file to write; it needs nothing beside it.
+            HTML file to write; it needs no other file.
         as_of : str
             See `status`.
         force : bool

@@ -36,15 +36,13 @@ class Following:
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         lines = [each.sentence for each in self.steps]
         last = self.steps[-1]
         lines += ["at the end:", *last.estimates.sentences]
         lines += [] if last.remains is None else last.remains.sentences
         if self.residual is not None:
-            lines.append(
-                f"twin beside it: {100 * self.residual.explained:.0f} % of the third octaves explained"
-            )
+            lines.append(f"twin: {100 * self.residual.explained:.0f} % of the third octaves explained")
             lines += self.residual.sentences
         return lines
 
@@ -69,8 +67,9 @@ def follow(
 ) -> Following:
     """Follow load, end play and spall of a bearing over its recordings.
 
-    Follow one bearing over its recordings in the order of time: a filter puts together what every stretch
-    says of load, end play and spall, lets loads wander and spalls grow, and says what it does not explain.
+    Follow one bearing over its recordings in the order of time: a filter puts together the estimates of each
+    stretch of load, end play and spall, lets loads wander and spalls grow, and reports what it does not
+    explain.
 
     Parameters
     ----------

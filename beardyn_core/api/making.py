@@ -41,7 +41,7 @@ def bearing(
     name : str, Path or bearing, optional
         Shipped bearing, YAML file, or a bearing. Without it a tapered bearing is made of ``rollers``,
         ``pitch_diameter_mm``, ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every
-        other number is derived from them as docs/python.md says, and marked so in ``bearing.sources``.
+        other number is derived from them as docs/python.md lists, and marked so in ``bearing.sources``.
     rollers : int, optional
         Per row.
     **keys

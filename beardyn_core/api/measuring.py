@@ -29,7 +29,7 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     files : Path or sequence of Path
         In the order of time.
     bearing : NamePlate, str or mapping, optional
-        What the bearing data say; of several bearings on the shaft a mapping of names for them.
+        Bearing data; of several bearings on the shaft a mapping of names for them.
     **options
         How the files are to be read, in the units of the names: ``channels``, ``unit``, ``rate_Hz``,
         ``speed_rpm``, ... (docs/measured.md lists them).
@@ -37,13 +37,13 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     Returns
     -------
     Run
-        ``run.measured`` says how the files were understood, in ``understood``; its truth is empty. Of an axis
-        that was not measured the vibration is NaN.
+        ``run.measured`` states how the files were understood, in ``understood``; its truth is empty. Of an
+        axis that was not measured the vibration is NaN.
 
     Warns
     -----
     UserWarning
-        What was asked for and what a file says differ.
+        Options and file differ.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def trend(files: Files, *, memory: Path | str | None = None, **options: Any) -> 
     Returns
     -------
     list of TrendPoint
-        After every record; the last one says how it stands, and since when.
+        After every record; the last one has the state, and since when.
 
     Raises
     ------

@@ -59,7 +59,7 @@ def monitor(
         Your algorithm, its module may be in this folder; default the reference chain. In Python a `Chain`,
         or a function like it.
     bearing : Bearing, NamePlate or str, optional
-        What the bearing data say, or the name or file of one; by default that of the scene, of a measured
+        Bearing data, or the name or file of a bearing; by default that of the scene, of a measured
         run the one it was read with.
     sensor : str, optional
         Accelerometer to take; by default the first, or the one that measures the bearing of a measured run.
@@ -73,7 +73,7 @@ def monitor(
     Raises
     ------
     InputError
-        The run has no vibration with a shaft angle, or does not say which bearing it is of.
+        The run has no vibration with a shaft angle, or does not name its bearing.
     """
     from beardyn_core.monitor.chain import REFERENCE
     from beardyn_core.study.monitored_recording import conclude, findings_of
@@ -96,7 +96,7 @@ def severity(
     run, bearing, sensor
         See `monitor`.
     conclusion : Conclusion, optional
-        What `monitor` says of the run; by default it is asked.
+        Result of `monitor`; by default it is computed.
 
     Returns
     -------
@@ -131,10 +131,10 @@ def heard_of(
         known = mounted_in(run.measured, run.label)
         if len(known) != 1:
             several = (
-                f"has the bearings {', '.join(each.label for each in known)}" if known else "does not say"
+                f"has the bearings {', '.join(each.label for each in known)}"
+                if known
+                else "does not name its bearing"
             )
-            raise InputError(
-                f"{run.label}: {several}{'' if known else ' which bearing it is of'}; give bearing"
-            )
+            raise InputError(f"{run.label}: {several}; give bearing")
         bearing, sensor = known[0].plate, sensor or known[0].sensor
     return run, bearing, sensor

@@ -30,7 +30,7 @@ def report(
     settings: MonitorSettings | None = None,
     force: bool = False,
 ) -> tuple[str, ...]:
-    """Write a page for each axlebox: what a monitor says, why, what was assumed and what to do next.
+    """Write a page for each axlebox: the verdict, why, what was assumed and what to do next.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ def report(
     pdf : Path, optional
         Write the same page as PDF; default none.
     train : str
-        Train or vehicle, as it stands on the page; default what the files say.
+        Train or vehicle, as it stands on the page; default as in the files.
     axlebox : str
-        Axlebox, as it stands on the page; default what the files say.
+        Axlebox, as it stands on the page; default as in the files.
     box : str, optional
         Axlebox of a recording of several; default every one.
     bearing, sensor, algorithm, settings

@@ -41,7 +41,7 @@ def simulate(
     """Run a scene as fast as this machine can, record it if asked to.
 
     Run a scene as fast as this machine can. The first run of a set of effects compiles its kernels, about a
-    minute, and prints a line on standard error that says so; they are kept on disk.
+    minute, and prints a line on standard error about it; they are kept on disk.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def simulate(
     duration : float, optional
         Simulated time, s; default the scene's.
     laminae : int, optional
-        Laminae of each roller; default the scene's.
+        Slices (laminae) of each roller; default the scene's.
     seed : int, optional
         Seed of irregularity and noise; default the scene's.
     record : Path, optional
@@ -69,7 +69,7 @@ def simulate(
     -------
     Run
         Kept in memory. Of a scene with ``axleboxes`` that of the first one; every one is in its ``boxes``, by
-        name. Its ``status`` is a sentence, and a ``RuntimeWarning`` says it too, when the model left its
+        name. Its ``status`` is a sentence, and a ``RuntimeWarning`` repeats it, when the model left its
         range of validity; the arrays end there.
 
     Warns

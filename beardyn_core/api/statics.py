@@ -65,8 +65,8 @@ def equilibrium(
     tilt : str
         Tilt of the cone against the cup. ``locked`` or ``free``.
     laminae : int
-        Laminae of each raceway contact; default 1 of tapered bearings, 30 of others. With 1 the rollers do
-        not tilt.
+        Slices (laminae) of each raceway contact; default 1 of tapered bearings, 30 of others. With 1 the
+        rollers do not tilt.
     rings : str
         ``elastic``: the cup bends in a housing with a wall of 25 mm, as in runs with the effect structure;
         ``rigid``: only the contacts yield, as in catalogues. Elastic rings spread the load over more rollers;

@@ -54,7 +54,7 @@ def sweep(
     force : bool
         Start over in a folder that holds a set, and lose it.
     progress : bool or callable
-        Print a line now and then on standard error; or a function that is told after every task.
+        Print a line now and then on standard error; or a function that is called after every task.
     **changes
         Keys in place of those of the sweep's file: ``runs=50``, ``seed=2``.
 

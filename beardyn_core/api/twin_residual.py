@@ -40,7 +40,7 @@ def residual_beside(
     stretches = stretches_of(simulated(scene), estimator)
     beside = [describe(each, estimator.orders, estimator.plate, estimator.axes) for each in stretches]
     if not beside:
-        raise InputError(f"scene {base.name}: the twin beside gives no whole stretch at this speed")
+        raise InputError(f"scene {base.name}: the twin gives no whole stretch at this speed")
     return residual_of(estimator, rows[-_TWIN_STRETCHES:], np.stack(beside))
 
 
@@ -54,7 +54,7 @@ def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> S
     """
     course = base.operation
     if not isinstance(course, QuarterVehicleOperation):
-        raise InputError(f"scene {base.name}: a twin beside a train runs on a track (kind: quarter_vehicle)")
+        raise InputError(f"scene {base.name}: a twin next to a train runs on a track (kind: quarter_vehicle)")
     told = {each.quantity.name: each.value for each in known.quantities if isfinite(each.value)}
     operation: dict[str, Any] = write_noun(course)
     speed = known.shaft_frequency * pi * course.wheel_diameter

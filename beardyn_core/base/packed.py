@@ -46,7 +46,7 @@ def unpack_file(word: str, path: Path | str) -> str:
     origin, _, rest = whole.removeprefix(_OF).partition("\n")
     if not _slashed_path(path).endswith(_slashed_path(origin)):
         raise InputError(
-            f"{path}: content beside it is that of {origin}; leave content out to read this file, or name "
+            f"{path}: content next to it is that of {origin}; leave content out to read this file, or name "
             "that one"
         )
     return rest

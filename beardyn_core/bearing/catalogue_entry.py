@@ -37,7 +37,7 @@ class CatalogueEntry:
     width: A[float, "of the inner ring, NaN where not stated, [m]"] = nan
     size_source: A[str, "of the three"] = ""
     also_in: A[tuple[str, ...], "makers that list the same factors"] = ()
-    about: A[str, "what else tells it from others"] = ""
+    about: A[str, "what else distinguishes it"] = ""
 
     @property
     def name(self) -> str:

@@ -51,7 +51,7 @@ class Bearing(RollerBearing):
     """A double-row tapered roller bearing, O arrangement.
 
     The large roller ends are on the outer sides. Heights above the cone raceway are measured square to the
-    roller axis. `sources` says where each number comes from, or ``assumed``.
+    roller axis. `sources` has the source of each number, or ``assumed``.
     """
 
     name: A[str, At(longest=80), "of the bearing"]

@@ -49,7 +49,7 @@ def gold_pressure_viscosity(kinematic_viscosity: float, base_oil: str) -> float:
 class Lubricant:
     """An oil, or the base oil of a grease.
 
-    `sources` says where each number comes from, or ``assumed``.
+    `sources` has the source of each number, or ``assumed``.
     """
 
     name: A[str, At(longest=80), "of the lubricant"]

@@ -24,7 +24,7 @@ class Calibration:
     absent: A[tuple[str, ...], "what is not fitted as the scene has none of it, in sentences"]
     hearing: A[Hearing, "axes, sampling rate, and the bands compared"]
     speeds: A[tuple[float, ...], "of the shaft at which twins ran, [Hz]"]
-    stretches: A[int, "that were heard"]
+    stretches: A[int, "that were used"]
 
     @property
     def fits(self) -> tuple[Fit, ...]:
@@ -42,7 +42,7 @@ class Calibration:
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         before, after = self.residuals
         within = np.mean(np.abs(self.found.after) <= _WITHIN * self.found.tolerance)
         return [

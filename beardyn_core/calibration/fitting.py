@@ -39,7 +39,7 @@ class Fit:
     base: A[float, "of the scene, at the edge"]
     value: A[float, "fitted; the base value where it is not determined"]
     interval: A[tuple[float, float], "of 90 %"]
-    share: A[float, "width of the interval over the range thought of; 1 says nothing"]
+    share: A[float, "width of the interval over the range thought of; 1 is no information"]
     partner: A[str, "unknown that it is most correlated with; empty with one alone"]
     correlation: A[float, "with that one"]
     reason: A[str, "why it is left at its base value; empty when it is fitted"] = ""
@@ -81,7 +81,7 @@ class Fitter:
     unknowns: tuple[Unknown, ...]
     bases: A[tuple[float, ...], "of the unknowns, at the edge"]
     budget: A[int, "twins at each speed"]
-    tell: A[Tell, "told what is done and how many twins have run"] = lambda _what, _runs: None
+    tell: A[Tell, "receives what is done and how many twins have run"] = lambda _what, _runs: None
     _tried: list[Tried] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -237,14 +237,15 @@ class Fitter:
             j = max(others, key=lambda each: abs(known.correlation[k, each]))
             if abs(known.correlation[k, j]) >= TOGETHER:
                 reasons[k] = (
-                    f"not told apart from {self.unknowns[j].name}: correlation {known.correlation[k, j]:.2f}"
+                    f"not distinguishable from {self.unknowns[j].name}: "
+                    f"correlation {known.correlation[k, j]:.2f}"
                 )
         self._free = [k for k in self._free if k not in reasons]
         for k, share in zip(self._free, self._identify_unknowns(self._difference(point)).share, strict=True):
             if share >= AS_WIDE:
                 reasons[k] = f"not determined: its interval is {100 * share:.0f} % as wide as its range"
             elif k == self._noise and self._silent(known, point):
-                reasons[k] = "not determined: it is not heard beside all else"
+                reasons[k] = "not determined: other noise hides it"
         return reasons
 
     def _silent(self, known: Identified, point: Float) -> bool:

@@ -93,7 +93,7 @@ def rides_heard(
         verdict = conclude(findings_of(run, plate, sensor=name))
         if verdict.finding is not None and (verdict.finding.is_fault or verdict.verdict == HOT_BOX):
             problems.append(
-                f"{run.label}: the monitor hears a fault ({verdict.finding.reason}); a calibration is by "
+                f"{run.label}: the monitor finds a fault ({verdict.finding.reason}); a calibration is by "
                 "healthy bearings"
             )
     stretch = max(_SHORTEST, _TURNS / max(float(np.median(speeds)), 1e-3))

@@ -38,7 +38,7 @@ class Beside:
     the anti-alias filter, so that its power adds to that of each band.
     """
 
-    scene: A[Scene, "resolved, in the tier of the twin, sound"]
+    scene: A[Scene, "resolved, in the tier of the twin, healthy"]
     hearing: Hearing
     sensor: A[int, "number of the accelerometer in the scene"]
     rides: tuple[Ride, ...]
@@ -107,6 +107,6 @@ def operation_at(scene: Scene, shaft_frequency: float) -> dict[str, Any]:
     if isinstance(course, ConstantOperation):
         return {**keys, "speed_rpm": 60.0 * shaft_frequency}
     raise InputError(
-        f"scene {scene.name}: a twin beside recordings runs on a track (kind: quarter_vehicle) or under a "
-        "constant load (kind: constant)"
+        f"scene {scene.name}: a twin compared with recordings runs on a track (kind: quarter_vehicle) or "
+        "under a constant load (kind: constant)"
     )

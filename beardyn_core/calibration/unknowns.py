@@ -112,5 +112,5 @@ END_PLAY = Unknown(
     "end_play", "end play as mounted", "mm", False, (-0.15, 0.15), ("end_play_mm",),
 )  # fmt: skip
 UNKNOWNS = (FREQUENCY, DAMPING, BACKGROUND, NOISE, END_PLAY)
-"""In the order in which they are told."""
+"""In the order in which they are reported."""
 BY_NAME = {each.name: each for each in UNKNOWNS}

@@ -111,7 +111,7 @@ def rates_told(evidence: Evidence) -> Iterator[str]:
         louder = levels(evidence.scene, evidence.typical, body, last)[index, beyond] - rigid
         if louder.size and louder.max() > VIBRATION_TOLERANCE_DB:
             faster = [rate for rate in RATES if PASSBAND * rate > hears]
-            remedy = f": rate_kHz {faster[0] / 1e3:g} hears it" if faster else ""
+            remedy = f": rate_kHz {faster[0] / 1e3:g} measures it" if faster else ""
             count = int(np.count_nonzero(body.modes.frequency[: body.modes.free_count] > hears))
             yield (
                 f"{said}, and {count} modes of the box ring above, to {_kilohertz(last)} and up to "

@@ -23,12 +23,12 @@ _REFERENCE_LAMINAE = 6
 _BLOCK_SAMPLES = 512
 # middle of each cost class of the catalogue
 _CLASS_SHARES = {"none": 0.001, "low": 0.015, "medium": 0.09, "high": 0.2}
-# modes of a box, and what a step with them takes over one with all 99 of `high_speed`: docs/structure.md
+# modes of a box, and the share of a step with all 99 modes of `high_speed`: docs/evidence/structure.md
 _MODES, _MODES_SHARE = (0.0, 16.0, 50.0, 99.0), (0.0, 0.39, 0.76, 1.0)
 # of what bending adds to a step of the full tier, in a fast one; the rest a tier with few states has for
-# nothing: table in docs/model.md
+# nothing: table in docs/tiers.md
 _FAST_BENDING, _FAST_REST = 0.25, 0.001
-# what rollers that move in their pockets add to a step of tier quasistatic: docs/model.md
+# what rollers that move in their pockets add to a step of tier quasistatic: docs/tiers.md
 _LOOSE_SHARE = 0.15
 # what coupled laminae add to one: `python benchmarks/effect_costs.py --only quasistatic`
 _COUPLED_SHARE = 0.44

@@ -75,7 +75,7 @@ def fast_steps(scene: Scene, long: bool = True, band: float = math.inf) -> StepC
     that bend go with long steps in the lumped tier.
 
     Steps longer than a waveform sample end the band of the waveforms at 0.4 of the step rate. A healthy
-    bearing under a load without strikes has nothing to say beyond (docs/model.md has the levels); edges of
+    bearing under a load without strikes has nothing to say beyond (docs/tiers.md has the levels); edges of
     faults, strikes of wheel and rail, measured loads, background forces and boxes that bend do.
     The scene's own numerics do not matter.
     """

@@ -33,7 +33,7 @@ _CREEP, _DRY_CREEP = 0.05, 0.07
 # no creep along the cup damps it, [dB]: docs/effects_auto.md, rows without creep.
 _UNDAMPED_DB, _UNDAMPED_QUIET_DB = 8.5, 2.0
 # Torque that the fast tiers miss besides where the box bends in modes: 4 to 6 % with every effect
-# (docs/ladder.md, service_high_speed and its cup), 1 % where it bends in rings (wheel_flat).
+# (docs/evidence/ladder.md, service_high_speed and its cup), 1 % where it bends in rings (wheel_flat).
 _BY_MODES = 0.05
 
 

@@ -31,7 +31,7 @@ def rate_for(scene: Scene, free: Free) -> RateChoice | None:
     offered = (*SLOW_RATES, RATES[0])
     rate = next((each for each in offered if PASSBAND * each >= end), RATES[0])
     reason = (
-        f"the third octave at {_kilohertz(asked)} ends at {_kilohertz(end)}, and {_kilohertz(rate)} is heard "
+        f"the third octave at {_kilohertz(asked)} ends at {_kilohertz(end)}, and {_kilohertz(rate)} measures "
         f"to {_kilohertz(PASSBAND * rate)}"
     )
     if rate > SLOW_RATES[0]:

@@ -71,7 +71,7 @@ def add_parser(subparsers: Any) -> None:
     parser.add_argument(
         "--coupled-laminae",
         action="store_true",
-        help="laminae sink with each other: edge load; default independent",
+        help="slices (laminae) sink with each other: edge load; default independent",
     )
     add_json(parser)
     parser.set_defaults(run=run)
@@ -409,8 +409,8 @@ def _rib_lines(bearing: RollerBearing, solution: StaticSolution, speed: float) -
 def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:
     entries = [
         ("FTF", frequencies.ftf, "cage"),
-        ("BPFO", frequencies.bpfo, "cup fault, one row"),
-        ("BPFI", frequencies.bpfi, "cone fault, one row"),
+        ("BPFO", frequencies.bpfo, "outer ring (cup), one row"),
+        ("BPFI", frequencies.bpfi, "inner ring (cone), one row"),
         ("BSF", frequencies.bsf, "roller spin; a roller fault strikes twice as often"),
     ]
     lines = []

@@ -23,9 +23,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "explain",
-        help="say which effects a scene is computed with, why, and what each costs",
-        description="Say which tier, laminae, step and effects a scene is computed with, why, what each "
-        "costs and which error is expected. For a scene that fixes them, also what `effects: auto` would be.",
+        help="show which effects a scene is computed with, why, and what each costs",
+        description="Show which tier, slices (laminae), step and effects a scene is computed with, why, what "
+        "each costs, and by how much the result can differ from the full model. For a scene that fixes them, "
+        "also what `effects: auto` would be.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     add_choice(parser)

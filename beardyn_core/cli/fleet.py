@@ -48,7 +48,7 @@ def _add_add(parts: argparse._SubParsersAction[argparse.ArgumentParser]) -> None
     add_parameter(
         parser, Fleet.add, "workers", metavar="N", type=int, default=None, usual="as many as processors"
     )
-    group = parser.add_argument_group("identity", "of every file that neither manifest nor path says")
+    group = parser.add_argument_group("identity", "of every file that neither manifest nor path names")
     for name, words in (
         ("vehicle", "name or number of the vehicle"),
         ("axle", "name or number of the axle"),

@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     at_km = args.at_km or []
     if at_km and args.mileage_km is not None:
         raise InputError(
-            "--at-km, --mileage-km: both say the mileage at the first recording; give one of them"
+            "--at-km, --mileage-km: both give the mileage at the first recording; give one of them"
         )
     if at_km and len(at_km) != len(args.recordings):
         raise InputError(

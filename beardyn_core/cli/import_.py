@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    more = "How a file was understood is said. `beardyn report`, `monitor` and `export` read the recording."
+    more = "Prints how a file was understood. `beardyn report`, `monitor` and `export` read the recording."
     parser = add_command(subparsers, "import", import_measured, more)
     add_parameter(parser, import_measured, "files", "files", nargs="+", metavar="FILE")
     add_parameter(parser, import_measured, "recording", "-o", "--output", metavar="run.mcap", required=True)

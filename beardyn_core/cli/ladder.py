@@ -35,11 +35,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "ladder",
-        help="measure what accuracy costs: tiers, effects, laminae and steps against a reference",
-        description="Run a scene over tiers, effects, laminae and steps, and compare each level with a "
-        "converged reference of the same scene: wall time per simulated second, and errors with their "
-        "run-to-run band. Takes some minutes, and a minute more for every set of effects that is not "
-        "compiled yet. Ctrl-C keeps the levels done so far; with -o the same command goes on from there.",
+        help="accuracy study: error next to cost for tiers, effects, slices and steps",
+        description="Accuracy study. Run a scene over tiers, effects, slices (laminae) and steps, and "
+        "compare each level with a converged reference of the same scene: wall time per "
+        "simulated second, and errors with their run-to-run band. Takes some minutes, and a "
+        "minute more for every set of effects that is not compiled yet. Ctrl-C keeps the levels "
+        "done so far; with -o the same command goes on from there.",
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     parser.add_argument(

@@ -27,7 +27,7 @@ def add_reading(parser: argparse.ArgumentParser) -> None:
     """Declare how measured files are read."""
     from beardyn_core.measured.options import Reading
 
-    group = parser.add_argument_group("measured files", "what the files do not say, or say wrongly")
+    group = parser.add_argument_group("measured files", "what the files lack, or have wrong")
     for place in places(Reading):
         several: dict[str, Any] = {"action": "append", "type": str} if place.field == "channels" else {}
         add_field(group, place, dest=f"measured_{place.key}", **several)

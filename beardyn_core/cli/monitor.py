@@ -234,6 +234,7 @@ def _draw(results: dict[Mounted, BearingResults], path: Path, *, replace: bool) 
 
 def _ending(findings: list[Finding]) -> str:
     """Sum up the findings of one bearing: a file that ends without an analysis is not diagnosable."""
+    from beardyn_core.monitor.chain.explanations import PART_NAMES
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, UNEXPLAINED, WAITING, conclude
 
     conclusion = conclude(findings)
@@ -241,7 +242,8 @@ def _ending(findings: list[Finding]) -> str:
         unclear = conclusion.verdict in (NOT_DIAGNOSABLE, UNEXPLAINED)
         why = f"; {conclusion.finding.reason}" if unclear else ""
         counts = f"{conclusion.agreeing} of {conclusion.analyses} analyses"
-        named = " or ".join((conclusion.verdict, *conclusion.finding.also_fits))
+        parts = (conclusion.verdict, *conclusion.finding.also_fits)
+        named = " or ".join(PART_NAMES.get(part, part) for part in parts)
         return f"{named}: {counts}{_confidence_text(conclusion.finding)}{why}"
     reason = findings[-1].reason if findings else "the signal is shorter than the first analysis needs"
     short = len(findings) > 1 and "revolutions" in reason

@@ -120,7 +120,7 @@ def _inspect_measured_files(
     if bearings == ():
         numbers = "--roller-count, --roller-diameter-mm, --pitch-diameter-mm"
         problems.append(
-            f"{args.files[0]}: does not say which bearing it is of; give --bearing, or {numbers}, or "
+            f"{args.files[0]}: does not name its bearing; give --bearing, or {numbers}, or "
             "--bpfo, --bpfi, --bsf, --ftf; --which-bearing compares the catalogue"
         )
     bearings = bearings or ()

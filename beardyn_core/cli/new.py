@@ -21,15 +21,15 @@ if TYPE_CHECKING:
 _NAME_KEY = {"scenes": "scene", "trials": "trial", "sweeps": "sweep"}
 _HOW = {
     "scenes": "beardyn simulate {file}     what is computed, and why: beardyn explain {file}",
-    "bearings": "beardyn bearing {file}     in a scene beside it: bearing: {file}",
-    "lubricants": "in a scene beside it: lubricant: {file}",
-    "vehicles": "in the operation of a scene beside it: vehicle: {file}",
-    "effects": "beardyn simulate SCENE --effects {file}     in a scene beside it: effects: {file}",
+    "bearings": "beardyn bearing {file}     in a scene next to it: bearing: {file}",
+    "lubricants": "in a scene next to it: lubricant: {file}",
+    "vehicles": "in the operation of a scene next to it: vehicle: {file}",
+    "effects": "beardyn simulate SCENE --effects {file}     in a scene next to it: effects: {file}",
     "trials": "beardyn trial {file}",
     "sweeps": "beardyn sweep {file} -o DIR",
     "structures": "beardyn structure {file}",
-    "sensors": "in a sensor of a scene beside it: type: {file}",
-    "backgrounds": "in a scene beside it: background: {file}",
+    "sensors": "in a sensor of a scene next to it: type: {file}",
+    "backgrounds": "in a scene next to it: background: {file}",
     CATALOGUE: "beardyn monitor MEASURED_FILE --bearing {file}",
 }
 # What else a scene may say: shown as comments where the scene does not say it.
@@ -56,7 +56,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="copy a shipped scene, bearing, ... with its comments, to change it",
         description="Copy a shipped scene with its comments to a file of your own; `beardyn simulate FILE` "
         "runs it. Bearings, lubricants and whatever else `beardyn scenes all` lists are copied in the same "
-        "manner. Files that a scene refers to are copied beside it.",
+        "manner. Files that a scene refers to are copied next to it.",
     )
     parser.add_argument("name", metavar="NAME", help="shipped scene, bearing, lubricant, ...")
     parser.add_argument(

@@ -36,8 +36,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "report",
-        help="say what a recording holds; recover one that was cut off",
-        description="Say what a recording holds: topics, counts, rates, gaps, scene, faults, status. A file "
+        help="show what a recording holds; recover one that was cut off",
+        description="Show what a recording holds: topics, counts, rates, gaps, scene, faults, status. A file "
         "that was cut off by a crash is copied, as far as it is readable, to NAME.recovered.mcap; one that "
         "is there already stays as it is. With --html or --pdf: a page for each axlebox instead, with the "
         "verdict of `beardyn monitor`, its evidence, what was assumed and what to do next.",

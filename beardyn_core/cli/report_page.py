@@ -32,7 +32,7 @@ def add_page(parser: argparse.ArgumentParser) -> None:
     add_parameter(group, report, "html", metavar="FILE.html")
     add_parameter(group, report, "pdf", metavar="FILE.pdf")
     for name in ("train", "axlebox"):
-        add_parameter(group, report, name, metavar="NAME", usual="what the files say")
+        add_parameter(group, report, name, metavar="NAME", usual="as in the files")
     group.add_argument(
         "--monitor",
         metavar="MODULE:FUNCTION",

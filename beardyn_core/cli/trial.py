@@ -1,4 +1,4 @@
-"""``beardyn trial``: a monitor put on trial over a matrix of scenes."""
+"""``beardyn trial``: the benchmark of a monitor over a matrix of scenes."""
 
 from __future__ import annotations
 
@@ -31,14 +31,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     """Declare the command."""
     parser = subparsers.add_parser(
         "trial",
-        help="test a monitor: detection rate and false alarms over a matrix of scenes",
-        description="Run a monitor, ours or your own, over faults, sizes, speeds, tracks and wheels, and "
-        "print how often it finds the fault, how often it alarms on a healthy bearing, and the smallest "
-        "spall it finds, with 95 % intervals. `quick` takes two minutes of one core, `default` "
-        "an hour, and a minute more for every set of effects that is not compiled yet; choosing effects "
-        "where neither trial nor scene names any takes half a minute to two, once. "
-        "With -o a run that is done is kept, and an interrupted trial goes on where it was; a folder of "
-        "another trial or monitor is refused.",
+        help="benchmark of a monitor: detection rate and false alarms over many scenes",
+        description="Benchmark of monitors. Run one, ours or your own, over faults, sizes, speeds, tracks "
+        "and wheels, and print how often it finds the fault, how often it alarms on a healthy "
+        "bearing, and the smallest spall it finds, with 95 % intervals. `quick` takes two "
+        "minutes of one core, `default` an hour, and a minute more for every set of effects "
+        "that is not compiled yet; choosing effects where neither benchmark nor scene names any "
+        "takes half a minute to two, once. With -o a run that is done is kept, and an "
+        "interrupted benchmark goes on where it was; a folder of another benchmark or monitor "
+        "is refused.",
     )
     parser.add_argument(
         "matrix",

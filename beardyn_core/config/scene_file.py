@@ -194,7 +194,7 @@ class SceneFile(FileModel):
         for index, sensor in enumerate(given["sensors"]):
             if sensor.measured_paths:
                 twice = (
-                    "the box rings by its modes: a measured path behind them would hear each of them twice"
+                    "the box rings by its modes: a measured path behind them would count each of them twice"
                 )
                 problems.append(Problem(f"{twice}; leave one out", ("sensors", index, "measured_paths")))
             try:

@@ -63,12 +63,12 @@ class LineFilm:
     def rules(self) -> Iterator[str]:
         """Check the options against each other."""
         if self.layer is not None and self.starvation is not None:
-            yield "layer_um and starvation both say how much oil there is; give one of them"
+            yield "layer_um and starvation both set the amount of oil; give one of them"
         if (self.supply == "ageing") != (self.million_revolutions is not None):
             yield "supply ageing and million_revolutions go together; give both or neither"
         for key, given in (("layer_um", self.layer), ("starvation", self.starvation)):
             if self.supply == "ageing" and given is not None:
-                yield f"supply ageing and {key} both say how much oil there is; give one of them"
+                yield f"supply ageing and {key} both set the amount of oil; give one of them"
 
     @property
     def oil_layer(self) -> float | None:

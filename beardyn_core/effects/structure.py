@@ -57,7 +57,8 @@ class ModalStructure:
         cost="high",
         validity="Up to the highest free mode of the table; linear; raceways bend in their middle planes and "
         "neither tilt nor turn there; one damping ratio a mode; wheelset, cages and seals see a rigid box.",
-        source="Rubin (1975), AIAA J. 13, 995, for the residual modes; finite elements in docs/structure.md",
+        source="Rubin (1975), AIAA J. 13, 995, for the residual modes; "
+        "finite elements: docs/evidence/structure.md",
     )
 
     table: A[

@@ -19,7 +19,7 @@ class Thermal:
         adds="Temperatures of the parts; they change the lubricant's viscosity and the end play.",
         states="6 temperatures, advanced every 0.2 s",
         cost="medium",
-        validity="Needs the audit, which tells what each source loses in tier full; one temperature for both "
+        validity="Needs the audit, which keeps what each source loses in tier full; one temperature for both "
         "rows; the film has the mean temperature of rollers and raceways.",
         source="Lumped network; axlebox as a cylinder across the air, Churchill and Bernstein (1977); end "
         "play as in Timken's indirect mounting; conductances and shelter assumed",

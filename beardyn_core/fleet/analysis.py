@@ -190,9 +190,7 @@ def _read(recording: FleetRecording) -> tuple[Run, tuple[Any, ...]]:
             raise InputError(f"{path}: has the axleboxes {', '.join(run.boxes)}; name one in source_box")
         return run, mounted
     if not mounted:
-        raise InputError(
-            f"{path}: nothing says which bearing it is of; give bearing in the manifest, or --bearing"
-        )
+        raise InputError(f"{path}: nothing names its bearing; give bearing in the manifest, or --bearing")
     measured = with_heard_speed(survey([path], Reading.of(**recording.reading), needs_speed=True), mounted)
     return run_of(measured, mounted), mounted
 

@@ -30,7 +30,7 @@ _OF_PARTS = {"cup": "outer ring (cup)", "cone": "inner ring (cone)", "roller": "
 
 @dataclass(frozen=True)
 class HealthSettings:
-    """What health is made of; all numbers are assumed, and docs/fleet_year.md has what they come to."""
+    """What health is made of; all numbers are assumed, docs/evidence/fleet_year.md has their outcome."""
 
     recent: A[int, "recordings that can tell, of which so many must agree"] = 5
     agreeing: A[int, "of them that name the same part: `plan`"] = 3
@@ -208,9 +208,7 @@ def _after(
         else:
             notes.insert(0, f"{sentence}: {reason}; the alarm stays")
     if not why:
-        why.append(
-            "nothing points to a fault" if state == OK else "the alarm of before has not been released"
-        )
+        why.append("nothing points to a fault" if state == OK else "the earlier alarm has not been released")
     rise = nan if watched.point is None else watched.point.rise
     is_ok = state == OK
     return Health(

@@ -34,7 +34,7 @@ class FleetRecording:
     train: A[str, "whose axleboxes are compared on the same ride"]
     time: A[float, "of its begin, after 1970-01-01 UTC, [s]"]
     mileage: A[float, "of the axlebox, NaN where unknown, [m]"]
-    bearing: A[str, "as in `beardyn monitor --bearing`; empty: the scene of the recording says so"] = ""
+    bearing: A[str, "as in `beardyn monitor --bearing`; empty: the scene of the recording names it"] = ""
     sensor: A[str, "accelerometer in the file; empty: the first"] = ""
     source_box: A[str, "axlebox in a recording of several; empty: the only one"] = ""
     exchanged: A[bool, "whether the bearing is another one from this recording on"] = False

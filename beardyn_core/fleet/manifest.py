@@ -99,7 +99,7 @@ def list_recordings(
                 warnings.append(f"{path}: no line of the manifest names it; it is left out")
             else:
                 problems.append(
-                    f"{path}: nothing says which axlebox it is of; write {MANIFESTS[0]} in its "
+                    f"{path}: nothing names its axlebox; write {MANIFESTS[0]} in its "
                     "folder, or give --pattern such as {vehicle}/{axle}_{side}/{date}.csv"
                 )
     lines += from_paths

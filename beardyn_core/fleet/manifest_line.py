@@ -27,7 +27,7 @@ class ManifestLine:
     bearing: A[
         str,
         At(),
-        "designation of the catalogue, shipped bearing or YAML file; a twin's recording says its own",
+        "designation of the catalogue, shipped bearing or YAML file; a twin's recording has its own",
     ] = ""
     sensor: A[str, At(), "accelerometer in the file; empty: the first"] = ""
     source_box: A[str, At(), "axlebox in a recording of several, such as axle_1_left"] = ""

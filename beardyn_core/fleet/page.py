@@ -172,7 +172,7 @@ def _axlebox_page(store: FleetStore, status: FleetStatus, standing: Standing) ->
             )
         )
     assumed = (*last.analysis.assumed[:_ASSUMED], *standing.left.assumed)
-    parts.append(Points("What was assumed", assumed or ("what the recording of the twin says of itself",)))
+    parts.append(Points("What was assumed", assumed or ("what the recording of the twin states",)))
     parts.append(Points("What to do next", _actions(standing)))
     return Page(f"{standing.rank}. {standing.axlebox.name}", headline, tuple(parts))
 

@@ -34,7 +34,7 @@ from beardyn_core.follow.growth import GrowthLaw
 
 MEANINGS = {
     ACT: "the box is hot, or a part is named again and again and its spall is wide: take it out of service "
-    "as the rules of the keeper say",
+    "as the rules of the keeper require",
     PLAN: "3 of the last 5 recordings name the same part, or 2 and the levels, temperature or sisters agree",
     WATCH: "one sign: a single verdict, levels that rise, or a difference from the other axleboxes",
     CANNOT_TELL: "the last recording cannot tell, or there is none for longer than usual: not healthy",
@@ -43,7 +43,7 @@ MEANINGS = {
 """What each state means; the scale of `beardyn fleet`."""
 EXIT_CODES = {OK: 0, CANNOT_TELL: 10, WATCH: 11, PLAN: 12, ACT: 12}
 _ADVICE = {
-    ACT: "stop using it as the rules of the keeper say; inspect the bearing now",
+    ACT: "stop using it as the rules of the keeper require; inspect the bearing now",
     PLAN: "confirm with a recording at a similar speed, then plan the inspection or exchange",
     WATCH: "record again soon; check speed and bearing data",
     CANNOT_TELL: "check sensor, cable and recording; until then nothing is known",

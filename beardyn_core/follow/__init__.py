@@ -20,7 +20,7 @@ mounting_search     what must be undone of a mounting for a strange signal to be
 inference           what an estimator makes of a run
 shipped             estimators that are shipped, found by the bearing
 growth              how a spall grows with mileage, with its scatter
-service             what a forecast must be told: mileage, wheel, widest spall
+service             what a forecast must know: mileage, wheel, widest spall
 known_load          a vertical load that somebody knows, stated or of several sources that must agree
 load_sensors        air spring, primary spring and weighing site as loads on a journal
 load_checks         what bearing, lateral load, speed and vehicle say against a load that is stated
@@ -34,7 +34,7 @@ cubature_filter     means and covariances, carried on and corrected
 condition           which part is spalled, believed over many stretches
 following           the filter of one bearing: load, end play, spall as they change
 run_stretches       the stretches of a run as the filter of its bearing takes them
-residual            what is heard beside a twin at the state that is known
+residual            measured minus twin, in the state that is known
 follower_values     a step as numbers that any tool plots
 estimate_json       estimates, steps and residuals for JSON
 windowing           stretches out of blocks as they come

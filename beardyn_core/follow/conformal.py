@@ -50,7 +50,7 @@ class Learnt:
     """
 
     ways: A[tuple[Way, ...], "one or more"]
-    reach: A[Float, "shape [level], half of an interval over the expected error"]
+    reach: A[Float, "shape [level], half of an interval over the estimated error"]
 
     def value(self, standardised: Float) -> Float:
         """Give the number, shape [run], of standardised descriptors, shape [run, descriptor]."""
@@ -73,7 +73,7 @@ class Learnt:
 
 
 def reach_of(errors: Float, expected: Float) -> Float:
-    """Find how wide intervals must be, shape [level], over the expected error, of runs not learnt from.
+    """Find how wide intervals must be, shape [level], over the estimated error, of runs not learnt from.
 
     The quantile is that of one run more than there are, so that the promise holds for the next one; where
     there are too few runs for it, the interval is without end.

@@ -68,12 +68,12 @@ class Estimate:
     """What is known of one quantity."""
 
     quantity: Quantity
-    value: A[float, "most likely, NaN where nothing can be said, SI"]
+    value: A[float, "most likely, NaN where it is not identifiable, SI"]
     intervals: A[
         tuple[tuple[float, float], ...],
         "of 50 and of 90 %, SI; of the runs learnt from",
     ]
-    reason: A[str, "why nothing can be said, or no more than `at_least`; empty"] = ""
+    reason: A[str, "why there is no value, or no more than `at_least`; empty"] = ""
     at_least: A[
         float, "lower end of the last interval, where the upper end is beyond what was learnt from"
     ] = nan
@@ -81,7 +81,7 @@ class Estimate:
 
     @property
     def sentence(self) -> str:
-        """Say it in a line."""
+        """Write it in a line."""
         if self.reason:
             return f"{self.quantity.words}: {self.reason}"
         show, (low, high) = self.quantity.text, self.intervals[-1]
@@ -97,16 +97,16 @@ class Estimates:
     """What an estimator makes of a run."""
 
     part: A[PartEstimate | None, "condition of the bearing; none where the estimator learnt one alone"]
-    quantities: A[tuple[Estimate, ...], "in the order in which they are told"]
+    quantities: A[tuple[Estimate, ...], "in the order in which they are reported"]
     strangeness: A[float, "distance from the runs learnt from, 1 where one in twenty lies farther away, [-]"]
-    stretches: A[int, "of the signal that were heard"]
+    stretches: A[int, "of the signal that were used"]
     shaft_frequency: A[float, "middle of the stretches, [Hz]"]
     known_load: A[KnownLoad | None, "vertical, from outside of the vibration"] = None
     mountings: A[tuple[Mounting, ...], "of the sensor that would make a strange signal familiar"] = ()
 
     @property
     def sentences(self) -> list[str]:
-        """Say everything, a line each."""
+        """List everything, a line each."""
         lines = [] if self.part is None else [self.part.sentence]
         lines += [each.sentence for each in self.quantities]
         if self.strangeness > 1.0:
@@ -130,7 +130,7 @@ class Estimator:
     plate: A[NamePlate, "bearing that it was learnt for"]
     axes: A[tuple[str, ...], "of the accelerometer"]
     rate: A[float, "of the accelerometer, [Hz]"]
-    stretch: A[float, "length of signal that it hears at once, [s]"]
+    stretch: A[float, "length of signal that it takes at once, [s]"]
     middle: A[Float, "shape [descriptor], mean of those learnt from"]
     spread: A[Float, "shape [descriptor], their standard deviation"]
     box: A[Familiarity, "of the levels of bands, which tell another box or sensor place"]
@@ -156,8 +156,8 @@ class Estimator:
     def estimates(self, descriptors: Float) -> Estimates:
         """Estimate from stretches of one run, shape [stretch, descriptor].
 
-        The middle of the stretches is told, with the intervals of one stretch: what a box or a track has of
-        its own is in all of them, and does not go away with their number.
+        The middle of the stretches is reported, with the intervals of one stretch: what a box or a track has
+        of its own is in all of them, and does not go away with their number.
         """
         standard = self.standardise(descriptors)
         part = None if self.part is None else self.part.estimate(standard)
@@ -181,12 +181,11 @@ class Estimator:
         )
 
     def prior_estimate(self, quantity: Quantity) -> Estimate:
-        """Give what is known of a quantity that no signal tells: its range in the runs learnt from."""
+        """Give what is known of a quantity that no signal identifies: its range in the runs learnt from."""
         known = self.card["quantities"][quantity.name]
         return _silent(
             quantity,
-            f"not identifiable: on bearings not learnt from, {100 * max(known['explained'], 0.0):.0f} % "
-            "of its variance is explained",
+            "not identifiable from these sensors",
             tuple((low, high) for low, high in known["ranges"]),
         )
 

@@ -379,7 +379,9 @@ class Follower:
         if self._strangeness > 1.0:
             found.append(UNLIKE.format(self._strangeness))
         if self._surprise > _SURPRISING:
-            found.append(f"what is heard misses what was known, {self._surprise:.1f} times the usual square")
+            found.append(
+                f"the signal differs from the known state, {self._surprise:.1f} times the usual square"
+            )
         return tuple(found)
 
     def _health(self, known: Estimates, remains: Forecast | None, doubts: tuple[str, ...]) -> str:

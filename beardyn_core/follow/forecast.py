@@ -51,7 +51,7 @@ class Forecast:
 
     @property
     def sentences(self) -> list[str]:
-        """Say it in lines."""
+        """Write it in lines."""
         lines = []
         if self.remaining == _NOTHING:
             limit = 1e3 * _limit(self.widest)
@@ -118,7 +118,7 @@ def forecast(
     Width and rate of growth are drawn from their distributions. The length of a spall, across the raceway, is
     drawn from its interval, or from the lengths learnt from where it is not identifiable; it stays while the
     spall grows along the raceway. A spall whose interval reaches 20 mm, or the end of what was learnt from,
-    has no mileage left: its width is known too badly for one. The load of the stretches heard stands for the
+    has no mileage left: its width is known too badly for one. The load of the stretches stands for the
     whole mileage.
     """
     law = law or GrowthLaw()

@@ -60,8 +60,8 @@ class GrowthLaw:
 class PowerLaw:
     """Growth of the area of a spall at a rate that goes with a power of the area.
 
-    A published family for rolling bearings, whose exponent is fitted to each of them; the exponents beside
-    which a forecast is shown, 0, 1/2 and 1, are **assumed**, as the rate at the reference area is.
+    A published family for rolling bearings, whose exponent is fitted to each of them; the exponents with
+    which a forecast is compared, 0, 1/2 and 1, are **assumed**, as the rate at the reference area is.
 
     References
     ----------

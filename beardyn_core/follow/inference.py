@@ -85,7 +85,7 @@ def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, s
     if not stretches:
         raise InputError(
             f"{run.label}: has no {estimator.stretch:.2f} s of whole vibration in which the shaft turns "
-            f"{FEWEST_TURNS:g} times one way; the estimator hears so much at once"
+            f"{FEWEST_TURNS:g} times one way; the estimator needs that much at once"
         )
     rows = [describe(each, estimator.orders, estimator.plate, estimator.axes) for each in stretches]
     found = estimator.estimates(np.stack(rows))
@@ -108,7 +108,7 @@ def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch
         raise InputError(f"{run.label}: {doubt}")
     if signal.rate < (1.0 - _SAME_RATE) * estimator.rate:
         raise InputError(
-            f"{run.label}: is sampled at {signal.rate:.0f} Hz, the estimator hears {estimator.rate:.0f} Hz; "
+            f"{run.label}: is sampled at {signal.rate:.0f} Hz, the estimator needs {estimator.rate:.0f} Hz; "
             "what lies between is not in the signal"
         )
     complete = np.isfinite(heard).all(axis=1)
@@ -137,7 +137,7 @@ def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:
     for axis, values in zip(estimator.axes, heard.T, strict=True):
         if len(values) and np.isnan(values).all():
             return (
-                f"axis {axis} is not measured; the estimator hears {', '.join(estimator.axes)}: "
+                f"axis {axis} is not measured; the estimator needs {', '.join(estimator.axes)}: "
                 "train one with --axes"
             )
     return ""

@@ -11,7 +11,7 @@ from beardyn_core.base.units import ZERO_CELSIUS
 
 @dataclass(frozen=True)
 class LifeAssumptions:
-    """What no recording says of the service; ends of 90 % intervals."""
+    """What no recording holds of the service; ends of 90 % intervals."""
 
     temperature: A[
         tuple[float, float], At("C", ge=-40.0, le=180.0, size=(2, 2)), "of the lubricant, low and high"
@@ -41,7 +41,7 @@ class LifeAssumptions:
         refuse(self, "assumptions of the rating life")
 
     def sentence(self, is_stated: bool) -> str:
-        """Say what is assumed in a line."""
+        """State what is assumed in a line."""
         low, high = (each - ZERO_CELSIUS for each in self.temperature)
         warm = "" if is_stated else f"lubricant at {low:.0f} to {high:.0f} °C, "
         return (

@@ -74,5 +74,5 @@ QUANTITIES = (
     ),
     Quantity("depth", "depth of the spall", "fault_depth_m", "m", "um", 1e6, True, True),
 )
-"""In the order in which they are told."""
+"""In the order in which they are reported."""
 BY_NAME = {each.name: each for each in QUANTITIES}

@@ -55,11 +55,11 @@ class RatedLife:
     used: A[tuple[float, float, float], "share of L10mr that is used; NaN without mileage"]
     used_basic: A[tuple[float, float, float], "share of L10r that is used; NaN without mileage"]
     spans: A[tuple[tuple[float, float], ...], "mileage that each recording stands for, [m]"]
-    assumptions: A[LifeAssumptions, "what no recording says"] = field(default_factory=LifeAssumptions)
+    assumptions: A[LifeAssumptions, "what no recording holds"] = field(default_factory=LifeAssumptions)
 
     @property
     def sentences(self) -> list[str]:
-        """Say it in lines."""
+        """Write it in lines."""
         origin = "estimated" if self.lateral_is_estimated else "assumed"
         side = f"{self.lateral[0] / 1e3:.3g} to {self.lateral[1] / 1e3:.3g} kN ({origin})"
         most = max(self.parts, key=lambda name: self.parts[name])

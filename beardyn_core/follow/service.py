@@ -1,4 +1,4 @@
-"""What a forecast must be told of the service of a bearing."""
+"""What a forecast must know of the service of a bearing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from beardyn_core.base.edge import At, refuse
 
 @dataclass(frozen=True)
 class Service:
-    """What a forecast must be told: how far the bearing has run, and what it may not come to."""
+    """What a forecast must know: how far the bearing has run, and what it may not come to."""
 
     mileage: A[float, At(ge=0.0, le=1e11), "of the bearing so far, [m]"] = 0.0
     wheel_diameter: A[float, At("mm", gt=0.0, ge=300.0, le=1500.0), "running diameter"] = 0.92

@@ -40,8 +40,8 @@ class StretchIntake:
         if self.heard or not self.unfit:
             return ""
         return (
-            f"nothing is heard: of {self.unfit} stretches none is without NaN and has a shaft that turns "
-            f"{FEWEST_TURNS:g} times one way"
+            f"no stretch was usable: of {self.unfit} stretches none is without NaN and has a shaft that "
+            f"turns {FEWEST_TURNS:g} times one way"
         )
 
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
@@ -57,7 +57,7 @@ class StretchIntake:
         period = float(time_ns[-1] - time_ns[0]) / (len(time_ns) - 1)
         if abs(1e9 / period / self.estimator.rate - 1.0) > _SAME_RATE:
             raise InputError(
-                f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator hears "
+                f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator needs "
                 f"{self.estimator.rate:.0f} Hz"
             )
         heard = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]

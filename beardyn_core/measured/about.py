@@ -110,7 +110,7 @@ def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:
             )
         except (KeyError, TypeError, ValueError) as error:
             raise InputError(
-                f"{label}: what it says of its bearing {name} is damaged ({error!r}); give --bearing"
+                f"{label}: the data of its bearing {name} is damaged ({error!r}); give --bearing"
             ) from error
         found.append(Mounted(name, plate, str(keys.get("sensor") or "")))
     return tuple(found)

@@ -74,7 +74,7 @@ def align_tables(tables: Sequence[Begun], log_delays: Sequence[int], longest_del
     elif len(known) < len(starts) and any(start.dated or start.ns for start in known):
         silent = [each for each, start in zip(tables, starts, strict=True) if start is None]
         when = "with the others" if first.dated else "at 0 s"
-        out.warnings.append(f"does not say when {_list_tables(silent)} began; taken is {when}")
+        out.warnings.append(f"does not state when {_list_tables(silent)} began; taken is {when}")
     ns = [zero if start is None else start.ns for start in starts]
     begin = min(at for at, each in zip(ns, tables, strict=True) if each.is_vibration)
     out.begin_ns = [at - begin for at in ns]

@@ -37,7 +37,7 @@ class Chosen:
     seconds: A[Mapping[str, float], "in a unit of them, by table"]
     problems: A[tuple[str, ...], "what must be asked for; sensors may lack then"]
     told: A[tuple[str, ...], "how the file was understood, in sentences"]
-    warnings: A[tuple[str, ...], "where what was said and what the file says differ"]
+    warnings: A[tuple[str, ...], "where options and file differ"]
     load: A[LoadChannel | None, "vertical load on the journal"] = None
 
     @property
@@ -140,11 +140,11 @@ def _complain_of_silence(work: Choosing, has_time: bool) -> None:
     units = {usual(each.unit) or unit_in(each.name, ACCELERATION) for each in channels}
     if not work.reading.unit and not units & set(ACCELERATION):
         work.complain(
-            f"does not say the unit of the acceleration; give --unit, one of {', '.join(ACCELERATION)}"
+            f"does not state the unit of the acceleration; give --unit, one of {', '.join(ACCELERATION)}"
         )
     claimed = any(is_plausible(rate) for each in channels for claim in each.claims for rate in claim.rates)
     if work.reading.rate is None and not has_time and not claimed:
-        work.complain("does not say at which rate it was sampled; give --rate-hz or --time-channel")
+        work.complain("does not state the rate at which it was sampled; give --rate-hz or --time-channel")
 
 
 def _times(work: Choosing) -> dict[str, Channel]:

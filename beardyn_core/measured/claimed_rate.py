@@ -58,8 +58,8 @@ class Stamps:
 
     what: str
     rate: A[float, "with their unit, or in seconds, [Hz]"]
-    has_unit: A[bool, "whether file or person say the unit"]
-    asked: A[bool, "whether a person has said it"]
+    has_unit: A[bool, "whether file or person state the unit"]
+    asked: A[bool, "whether a person has stated it"]
     uncertainty: A[float, "share by which the rate may be wrong"] = 0.0
 
 
@@ -163,7 +163,7 @@ def decide_rate(
     if asked is not None:
         if stamps is not None and not stamps.has_unit:
             out.seconds = _unit_that_gives(stamps, asked)
-        every = [(f"says {c.what},", c.rates) for c in claims]
+        every = [(f"states {c.what},", c.rates) for c in claims]
         every += [(stamps.what, (stamps.rate,))] if stamps is not None else []
         for what, rates in every:
             differs = rates and all(abs(rate - asked) > SAME * asked for rate in rates)
@@ -190,7 +190,7 @@ def decide_rate(
         _ask(doubtful, stamps, is_vibration, out)
     else:
         out.problems.append(
-            f"does not say at which rate {name} was sampled; give --rate-hz or --time-channel"
+            f"does not state the rate at which {name} was sampled; give --rate-hz or --time-channel"
         )
     if not out.problems:
         out.warnings += [
@@ -235,12 +235,12 @@ def _agree(near: list[Claim], stamps: Stamps | None, is_vibration: bool, out: De
     common = [rate for k, rate in enumerate(common) if not _fits(rate, common[:k])]
     if not common:
         each = " and ".join(f"{claim.what} ({_hertz(claim.rates)})" for claim in near)
-        out.problems.append(f"says {each}; give --rate-hz with the right one")
+        out.problems.append(f"states {each}; give --rate-hz with the right one")
         return
     if stamps is None:
         if len(common) > 1:
             out.problems.append(
-                f"says {near[0].what}, which may be {_hertz(common)}; give --rate-hz with the right one"
+                f"states {near[0].what}, which may be {_hertz(common)}; give --rate-hz with the right one"
             )
         else:
             out.rate = common[0]
@@ -250,7 +250,7 @@ def _agree(near: list[Claim], stamps: Stamps | None, is_vibration: bool, out: De
         out.rate = with_stamps[0]
         if abs(stamps.rate - out.rate) > SAME * out.rate + stamps.uncertainty * out.rate:
             out.warnings.append(
-                f"says {near[0].what} ({out.rate:.6g} Hz) and {stamps.what} {stamps.rate:.6g} Hz; taken is "
+                f"states {near[0].what} ({out.rate:.6g} Hz) and {stamps.what} {stamps.rate:.6g} Hz; taken is "
                 f"{out.rate:.6g} Hz; give --rate-hz if that is wrong"
             )
         return
@@ -259,7 +259,7 @@ def _agree(near: list[Claim], stamps: Stamps | None, is_vibration: bool, out: De
             out.rate, out.seconds = rate, factor
             return
     out.problems.append(
-        f"says {near[0].what} ({_hertz(common)}) and {stamps.what} {stamps.rate:.6g} Hz; "
+        f"states {near[0].what} ({_hertz(common)}) and {stamps.what} {stamps.rate:.6g} Hz; "
         "give --rate-hz with the right one"
     )
 
@@ -276,7 +276,7 @@ def _ask(doubtful: list[Claim], stamps: Stamps | None, is_vibration: bool, out: 
     allowed = f"{SLOWEST if is_vibration else _SLOWEST_SPEED:g} Hz to {FASTEST * 1e-6:g} MHz"
     for claim in doubtful:
         out.problems.append(
-            f"says {claim.what}, {_doubt(claim, is_vibration)}; the sampling rate of {what} is {allowed}: "
+            f"states {claim.what}, {_doubt(claim, is_vibration)}; the sampling rate of {what} is {allowed}: "
             "give --rate-hz"
         )
     if stamps is None:

@@ -72,7 +72,7 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
     slowest, fastest = _RPM * whole.frequency.min(), _RPM * whole.frequency.max()
     doubt = whole.uncertainty * fastest
     told = (
-        f"{path}: the vibration says that the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
+        f"{path}: by the vibration the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
         f"give or take {doubt:.3g}"
     )
     return replace(survey, heard=whole, told=(*survey.told, told))

@@ -40,7 +40,8 @@ def choose_load(work: Choosing) -> LoadChannel | None:
             f"{work.path}: the unit of {channel.name} is {in_file} in the file; taken is {said}, as asked"
         )
     if not (said or in_file):
-        work.complain(f"does not say the unit of {channel.name}; give --load-unit, one of {', '.join(FORCE)}")
+        units = ", ".join(FORCE)
+        work.complain(f"does not state the unit of {channel.name}; give --load-unit, one of {units}")
         return None
     work.told.append(f"{channel.name} is the vertical load on the journal in {said or in_file}")
     return LoadChannel(channel, FORCE[said or in_file])

@@ -124,11 +124,11 @@ def _guess_channels(
     names = [each.name for each in candidates]
     if names:
         work.complain(
-            f"does not say which channel is the acceleration; give --channels z=NAME "
+            f"does not state which channel is the acceleration; give --channels z=NAME "
             f"(or x=NAME,y=NAME,z=NAME), it has {list_names(names)}"
         )
     else:
-        work.complain("has no channel beside time and speed; give the file with the acceleration")
+        work.complain("has no channel but time and speed; give the file with the acceleration")
     return {}
 
 
@@ -154,7 +154,7 @@ def _factor(work: Choosing, channel: Channel) -> float:
         what = (
             f"the unit of {channel.name} is {foreign!r}"
             if foreign
-            else f"does not say the unit of {channel.name}"
+            else f"does not state the unit of {channel.name}"
         )
         work.complain(
             f"{what}; give --unit, one of {', '.join(ACCELERATION)}, with --scale for volts and the like"

@@ -26,11 +26,11 @@ class Channel:
     name: str
     table: A[str, "channels of one table are sampled together"] = ""
     count: A[int | None, "samples; None: known at the end of the file"] = None
-    unit: A[str, "as the file has it; empty when it says none"] = ""
+    unit: A[str, "as the file has it; empty when it has none"] = ""
     claims: A[tuple[Claim, ...], "on its sampling rate, the nearest first"] = ()
-    start: A[Start | None, "of its first sample, where the file says it beside the samples"] = None
-    is_time: A[bool, "the format itself says that this is the time, in seconds"] = False
-    axis: A[str, "``x``, ``y`` or ``z`` where the format itself says so"] = ""
+    start: A[Start | None, "of its first sample, where the file has it next to the samples"] = None
+    is_time: A[bool, "the format itself marks this as the time, in seconds"] = False
+    axis: A[str, "``x``, ``y`` or ``z`` where the format itself states it"] = ""
 
 
 class Source(Protocol):
@@ -38,9 +38,9 @@ class Source(Protocol):
 
     channels: tuple[Channel, ...]
     numbers: Mapping[str, float]
-    """Single numbers beside the channels, by name."""
+    """Single numbers next to the channels, by name."""
     facts: Mapping[str, str]
-    """What else the file says about itself."""
+    """What else the file states about itself."""
     notes: tuple[str, ...]
     """How the file was understood, in sentences."""
     warnings: tuple[str, ...]

@@ -94,7 +94,7 @@ def _speed_factor(work: Choosing, name: str, unit: str) -> float:
         work.complain(
             f"the unit of {name} is {unit!r}; give --speed-unit, one of {', '.join(known)}"
             if unit
-            else f"does not say the unit of {name}; give --speed-unit, one of {', '.join(known)}"
+            else f"does not state the unit of {name}; give --speed-unit, one of {', '.join(known)}"
         )
         return 1.0
     if taken in ROTATION:

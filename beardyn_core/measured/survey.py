@@ -361,7 +361,7 @@ def _rate(
     stamps = None
     if time is not None and isfinite(clock.rate):
         stamps = Stamps(
-            f"the time stamps {time.name} say",
+            f"the time stamps {time.name} give",
             clock.rate,
             bool(time.is_time or reading.time_unit or time_unit_in(time)),
             bool(reading.time_unit and not time.is_time),

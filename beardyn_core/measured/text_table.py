@@ -39,7 +39,7 @@ class TextTable:
     separator: A[str | None, "None: white space"]
     decimal: str
     names: A[tuple[str, ...], "of the columns"]
-    units: A[tuple[str, ...], "of the columns, empty where none is said"]
+    units: A[tuple[str, ...], "of the columns, empty where none is stated"]
     moments: A[frozenset[int], "columns of dates with times"]
     first_line: A[int, "that has numbers, from 0"]
     facts: A[dict[str, str], "lines ``key: value`` above the header"]
@@ -123,7 +123,7 @@ def detect_table(path: Path, reading: Reading) -> TextTable:
         raise InputError(
             f"{path}: line {one.first + 1} is {lines[one.first].strip()!r}, which may be "
             f"{len(one.sample)} columns with commas between or {len(other.sample)} with a decimal comma; "
-            "say --separator comma or --decimal comma"
+            "give --separator comma or --decimal comma"
         )
     return _table(lines, best, encoding)
 

@@ -15,7 +15,7 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.passage_order import band_envelope, find_passage_order
 
 NOT_MEASURABLE, INCIPIENT, DEVELOPED, SEVERE = "not measurable", "incipient", "developed", "severe"
-# a roller gives up and takes up its load this far inside of the edges (docs/impact.md), [m]
+# a roller gives up and takes up its load this far inside of the edges (docs/evidence/impact.md), [m]
 ENTRY_AND_EXIT = 1.1e-3
 _LEAST_ROLLER = 15e-3  # of a roller for which that was found, [m]
 _DEVELOPED_FROM = 4e-3  # [m]
@@ -45,7 +45,7 @@ _SMOOTHED = 5  # steps of the profile that are averaged
 
 @dataclass(frozen=True)
 class Severity:
-    """How much a fault matters, beside that there is one."""
+    """How much a fault matters."""
 
     grade: A[str, "``incipient``, ``developed``, ``severe``, or ``not measurable``"]
     width: A[float, "of the spall in rolling direction, NaN where not measurable, [m]"]
@@ -109,16 +109,16 @@ def severity_of(
     any speed.
 
     The width is the way and 1.1 mm: a roller gives up its load 0.6 mm behind the leading edge and takes it up
-    as much before the trailing one, over spalls from 3 mm on (docs/impact.md). Smaller ones make one event.
-    The loudest event is the exit, so that of a spall narrower than half of the distance of two rollers the
-    other event lies before it. The event that follows the loudest one is either the exit of a spall whose
+    as much before the trailing one, over spalls from 3 mm on (docs/evidence/impact.md). Smaller ones make one
+    event. The loudest event is the exit, so that of a spall narrower than half of the distance of two rollers
+    the other event lies before it. The event that follows the loudest one is either the exit of a spall whose
     entry is louder, or the entry of the next roller into a wide spall: then the least width alone is stated.
 
     A spall wider than the distance of two rollers strikes as one that is narrower by this distance. Where
     the wider one would be 40 mm wide or less, as on the cone of an axlebox, the least width alone is stated.
 
     A spall from 4 mm on is *developed*, one wider than half of the distance of two rollers *severe*. Both
-    limits are assumed: which size a vehicle may run with is its keeper's to say.
+    limits are assumed: which size a vehicle may run with is its keeper's decision.
 
     References
     ----------
@@ -192,7 +192,7 @@ def narrow_width(
 
 
 def unmeasured(reason: str) -> Severity:
-    """Say why the size of a spall cannot be given."""
+    """State why the size of a spall cannot be given."""
     return Severity(NOT_MEASURABLE, nan, nan, nan, f"{NOT_MEASURABLE}: {reason}")
 
 

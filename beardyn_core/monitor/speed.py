@@ -134,7 +134,7 @@ def speed_from_vibration(
     signal = signal[:, None] if signal.ndim == 1 else signal
     if not 0.0 < lowest < highest <= _WIDEST * lowest * (1.0 + 1e-9):
         return _nothing(
-            f"the range of the speed is too wide; at most {_WIDEST:g} times the lowest can be told apart"
+            f"the range of the speed is too wide; at most {_WIDEST:g} times the lowest can be distinguished"
         )
     duration = len(signal) / rate
     window = min(settings.window_revolutions / lowest, duration)
@@ -194,7 +194,7 @@ def _said(
 ) -> str:  # fmt: skip
     low, high = 60.0 * frequency.min(), 60.0 * frequency.max()
     if certain:
-        return f"the shaft turns with {low:.5g} to {high:.5g} rpm, as its orders in the vibration say"
+        return f"the shaft turns with {low:.5g} to {high:.5g} rpm, by its orders in the vibration"
     if evidence < settings.least_evidence:
         return (
             "the vibration has too few lines that belong to one speed: the odds of the best one "

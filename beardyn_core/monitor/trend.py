@@ -1,7 +1,7 @@
 """Trend with memory: levels of records against the bearing's own baseline, and an alarm that stays.
 
-It needs neither speed nor bearing, and records of a tenth of a second do: what it says is that a box has
-become louder than it was, not which part of the bearing it is.
+It needs neither speed nor bearing, and records of a tenth of a second do: the answer is that a box has become
+louder than it was, not which part of the bearing it is.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _FAINTEST = 1e-12  # [m^2/s^4]
 
 @dataclass(frozen=True)
 class TrendSettings:
-    """Settings of `Trend`: round numbers; docs/run_to_failure.md has what they come to."""
+    """Settings of `Trend`: round numbers; docs/evidence/run_to_failure.md has what they come to."""
 
     edges: A[tuple[float, ...], "between the bands whose levels are watched, [Hz]"] = (
         100.0, 1000.0, 2500.0, 5000.0, 8000.0, 12_000.0,
@@ -40,7 +40,7 @@ class TrendSettings:
 
 @dataclass(frozen=True)
 class TrendPoint:
-    """What the trend says after one record."""
+    """State of the trend after one record."""
 
     time: A[float, "of the end of the record, [s]"]
     state: A[str, "``learning``, ``steady`` or ``alarm``"]

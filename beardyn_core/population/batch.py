@@ -59,9 +59,9 @@ class Made:
     seconds: A[float, "wall time on its worker, [s]"]
     processor: A[float, "processor time of its worker meanwhile, [s]"] = 0.0
     shapes: A[
-        dict[str, Array], "what the arrays are, without values; told by the first whole run of a task alone"
+        dict[str, Array], "what the arrays are, without values; of the first whole run of a task alone"
     ] = field(default_factory=dict)
-    times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]; told by the same run"] = field(
+    times: A[dict[str, NDArray[np.int64]], "of each signal, [ns]; of the same run"] = field(
         default_factory=dict
     )
     code: A[str, "digest of the code of the worker; empty for a run that no worker has ended"] = ""

@@ -13,9 +13,10 @@ from beardyn_core.population.table import unit_in
 
 _LIMITS = (
     "Every run is simulated by a model of a double-row tapered roller bearing in an axlebox. What the model "
-    "leaves out is not in the signals; `docs/validation.md` and `docs/sweep.md` of beardyn say how far they "
-    "agree with measurements. A learner that is good on this set is not therefore good on a railway.",
-    "The distributions are those of the sweep above: they say what was asked for, and not how often it is "
+    "leaves out is not in the signals; `docs/evidence/validation.md` and `docs/evidence/learner.md` of "
+    "beardyn state how far they agree with measurements. A learner that is good on this set is not therefore "
+    "good on a railway.",
+    "The distributions are those of the sweep above: they are what was wanted, and not how often it is "
     "so in service.",
     "Failed runs stand in the table with their sentence; their signals end early, and are NaN from there on.",
 )
@@ -38,7 +39,7 @@ def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapp
         "| | |",
         "|---|---|",
         f"| runs | {len(rows)} of {about['runs']}, {about['failed']} failed |",
-        f"| bearings | {bearings}, told apart by drawing and scatter (`bearing_id`) |",
+        f"| bearings | {bearings}, distinguished by drawing and scatter (`bearing_id`) |",
         f"| parts | {', '.join(f'{name} {count}' for name, count in parts.items())}; no bearing is in two |",
         f"| conditions | {', '.join(f'{name} {count}' for name, count in conditions.most_common())} |",
         f"| each run | {length}, {sensors} |",

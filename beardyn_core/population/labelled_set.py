@@ -36,7 +36,7 @@ class LabelledSet:
     ----------
     folder : Path
     about : dict
-        What the set says about itself: sweep, scene that every run starts from, versions, seconds a run.
+        What the set states about itself: sweep, scene that every run starts from, versions, seconds a run.
 
     Raises
     ------

@@ -15,7 +15,7 @@ from beardyn_core.population.sweep_scenes import SweepScenes, mistakes_of, scene
 
 _EVEN = (
     "sampling sobol fills all keys evenly, but few runs of it have keys that go together, and a learner that "
-    "hears one then knows the other: take random for a set to learn from"
+    "sees one then knows the other: take random for a set to learn from"
 )
 _UNVARIED = {"key": "seed", "kind": "choice", "one_of": [1]}
 # a sweep of which nothing is wrong, that keys of another are tried in

@@ -26,7 +26,7 @@ class Column:
     """One column."""
 
     name: A[str, "as in the header; ends in the unit"]
-    unit: A[str, "as a row of units may say it"]
+    unit: A[str, "as a row of units may give it"]
     needed: bool = True
 
 
@@ -157,8 +157,8 @@ def _header_problems(path: Path, names: list[str], layout: Layout) -> list[str]:
 def _unit_problems(path: Path, line: int, names: list[str], units: list[str], layout: Layout) -> list[str]:
     expected = {column.name: column.unit for column in layout.columns}
     return [
-        f"{path}, line {line}: the row of units says {unit!r} for {name}; the numbers must be in "
-        f"{expected[name]!r}, as the name of the column says"
+        f"{path}, line {line}: the row of units has {unit!r} for {name}; the numbers must be in "
+        f"{expected[name]!r}, by the name of the column"
         for name, unit in zip(names, units, strict=False)
         if name in expected and unit != expected[name]
     ]

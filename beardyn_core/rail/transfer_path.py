@@ -54,7 +54,7 @@ def read_transfer_path(path: Path) -> TransferPath:
     whole = [pair for pair in _PAIRS if all(name in table for name in pair)]
     if len(whole) != 1 or len(table) != 3:
         raise InputError(
-            f"{path}: has the columns {', '.join(table)}; beside frequency_Hz give real and imaginary, or "
+            f"{path}: has the columns {', '.join(table)}; next to frequency_Hz give real and imaginary, or "
             "magnitude_dB and phase_deg"
         )
     one, two = (table[name] for name in whole[0])

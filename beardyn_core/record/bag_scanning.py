@@ -82,7 +82,7 @@ def _list_files(index: Path) -> list[str]:
         raise InputError(f"{index}: does not list files; {wanted}")
     for name in names:
         if Path(name).name != name or "\0" in name:
-            raise InputError(f"{index}: lists '{name}', which is not the name of a file beside it")
+            raise InputError(f"{index}: lists '{name}', which is not the name of a file next to it")
         if Path(name).suffix != ".mcap":
             raise InputError(f"{index}: lists '{name}'; only files that end in .mcap can be read")
     return list(dict.fromkeys(names))

@@ -154,7 +154,7 @@ class BagWriter:
             write_whole(self.path / INDEX, yaml_text({"rosbag2_bagfile_information": content}))
         except OSError as error:
             raise InputError(
-                f"{self.path / INDEX}: cannot be written ({error.strerror}); the files beside it are whole, "
+                f"{self.path / INDEX}: cannot be written ({error.strerror}); the files next to it are whole, "
                 "free space for more"
             ) from error
 

@@ -79,7 +79,7 @@ def cloud_points(cdr: bytes) -> NDArray[Any]:
     begin, step = layout.row_at + 8, layout.dtype.itemsize
     if begin + length >= len(cdr) or length != row * height:
         there = min(length, len(cdr) - begin - 1)
-        raise MalformedError(f"it says {height} row(s) of {row} bytes and has {there} bytes of data")
+        raise MalformedError(f"it claims {height} row(s) of {row} bytes and has {there} bytes of data")
     if width * step > row or (height > 1 and width * step != row):
         raise MalformedError(f"{width} points of {step} bytes do not fill rows of {row} bytes")
     return np.frombuffer(cdr, layout.dtype, width * height, begin)

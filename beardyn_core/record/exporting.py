@@ -190,7 +190,7 @@ def _write_wav(run: Run, path: Path, name: str) -> None:
     missing = int((np.diff(signal.sample) != 1).sum())
     if missing:
         raise InputError(
-            f"{run.label}: {name} has {missing} gaps, which WAV cannot say; choose another format"
+            f"{run.label}: {name} has {missing} gaps, which WAV cannot hold; choose another format"
         )
     wavfile.write(path, round(signal.rate), measured_axes(signal.values).astype(np.float32))
     units = tables.units_of(run, name)

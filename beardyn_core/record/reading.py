@@ -194,4 +194,4 @@ def _read_measured(scan: McapScan | BagScan) -> dict[str, Any]:
         found = json.loads(scan.attachments[MEASURED_FILE])
         if isinstance(found, dict):
             return found
-    raise InputError(f"{scan.path}: what it says about its measured files is damaged ({MEASURED_FILE})")
+    raise InputError(f"{scan.path}: its record of the measured files is damaged ({MEASURED_FILE})")

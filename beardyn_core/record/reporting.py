@@ -74,7 +74,7 @@ class Report:
     complete: A[bool, "the file was closed properly"]
     problem: A[str, "where and why reading stopped"]
     status: A[str | None, "how the run ended: ``complete`` as asked, ``None`` not known"]
-    begin: A[float, "first log time of what the twin says, [s]: a live load stream runs ahead of it"]
+    begin: A[float, "first log time of the twin's messages, [s]: a live load stream runs ahead of it"]
     end: A[float, "last log time, [s]"]
     topics: tuple[TopicCount, ...]
     attachments: A[Mapping[str, int], "name to bytes"]
@@ -89,7 +89,7 @@ class Report:
     pace: A[float | None, "simulated over wall time of the whole run; ``None``: none was asked for"]
     late_blocks: A[int | None, "published more than 40 ms after they were due; ``None``: not known"]
     energy_residual: A[float | None, "last value"]
-    budget: A[TorqueBudget | None, "losses by source after the start has settled, if the recording says"]
+    budget: A[TorqueBudget | None, "losses by source after the start has settled, if the recording has them"]
     monitor: A[str | None, "last verdict of the monitor"]
     sensor_rates_Hz: A[Mapping[str, float], "accelerometers by name"]
     missing_messages: A[

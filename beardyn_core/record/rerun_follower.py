@@ -91,7 +91,7 @@ def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
             places.append((place, top + HEIGHT + 14.0))
             words.append(f"{each:g} Hz")
         places.append((0.5 * WIDTH, top - 12.0))
-        words.append(f"{axis}, dB re 1 m/s²: heard blue, twin orange with its tolerance")
+        words.append(f"{axis}, dB re 1 m/s²: measured blue, twin orange with its tolerance")
         for levels, colour in (
             (twin[k] - tolerance[k], _TOLERANCE),
             (twin[k] + tolerance[k], _TOLERANCE),
@@ -123,7 +123,7 @@ def follower_view(quantities: Sequence[str]) -> rrb.Container:
     ]
     bounds = rrb.VisualBounds2D(x_range=[-80.0, WIDTH + 20.0], y_range=[-30.0, 3.0 * (HEIGHT + BETWEEN)])
     beside = rrb.Vertical(
-        rrb.Spatial2DView(origin=RESIDUAL, name="heard beside the twin", visual_bounds=bounds),
+        rrb.Spatial2DView(origin=RESIDUAL, name="measured and twin", visual_bounds=bounds),
         rrb.TextLogView(origin=HEALTH, name="health"),
         row_shares=[3.0, 1.0],
     )

@@ -122,7 +122,7 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
     Raises
     ------
     InputError
-        The recording does not say which bearing it is of.
+        The recording does not name its bearing.
     """
     log_parts(stream, run.described())
     if len(run.bodies):

@@ -47,7 +47,7 @@ class Run:
     problem : str
         Where and why reading stopped; empty when complete.
     status : str or None
-        How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file does not say.
+        How the run ended: ``complete`` as asked, else a sentence; ``None`` when the file has none.
     scene_text : str
         Resolved YAML of the scene.
     summary : callable, optional
@@ -218,7 +218,7 @@ class Run:
 
     @cached_property
     def results(self) -> arrays.Diagnostics:
-        """Stamp [ns] and statuses of the monitor that ran beside."""
+        """Stamp [ns] and statuses of the monitor that ran next to the twin."""
         return self._take(self._source.results)
 
     @cached_property
@@ -228,12 +228,12 @@ class Run:
 
     @cached_property
     def followed(self) -> arrays.Told:
-        """What a follower that ran beside said: ``steps[]`` of `beardyn follow --json`."""
+        """Results of a follower: ``steps[]`` of `beardyn follow --json`."""
         return self._take(self._source.followed)
 
     @cached_property
     def residuals(self) -> arrays.Told:
-        """Third octaves that a follower heard beside those of its twin, each with its ``time_s``."""
+        """Third octaves that a follower measured and those of its twin, each with its ``time_s``."""
         return self._take(self._source.residuals)
 
     @cached_property
@@ -273,7 +273,7 @@ class Run:
         Raises
         ------
         InputError
-            The recording does not say which scene it is of.
+            The recording does not name its scene.
         """
         from beardyn_core.record.run_summary import summary_of
 
@@ -299,7 +299,7 @@ class Run:
             )
         if self.description is None:
             raise InputError(
-                f"{self.label}: the recording does not say which bearing it is of (no run.json and no topic "
+                f"{self.label}: the recording does not name its bearing (no run.json and no topic "
                 "truth); record the topic truth too"
             )
         return self.description

@@ -36,7 +36,7 @@ def summary_of(run: Run) -> RunSummary:
     Raises
     ------
     InputError
-        The recording does not say which scene it is of.
+        The recording does not name its scene.
     """
     description, truth = run.described(), run.truth
     means = _means(run)

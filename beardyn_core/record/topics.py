@@ -86,7 +86,7 @@ TOPICS: tuple[Topic, ...] = (
           "JSON: health, condition, estimates with intervals, covariance, growth and forecast, as steps[] of "
           "`beardyn follow --json`"),
     Topic("follower/residual", STRING, *_RELIABLE, 50, "as the follower's twin runs",
-          "JSON: third octaves heard and of the twin beside, as residual of `beardyn follow --json`"),
+          "JSON: third octaves measured and of the twin, as residual of `beardyn follow --json`"),
     *(Topic(value.topic, VECTOR, *_RELIABLE, 50, _RESULT_RATES[value.source], value.content)
       for value in VALUES),
     Topic("vibration_samples", POLYGON, *_RELIABLE, 50, "every block of vibration, when asked for",

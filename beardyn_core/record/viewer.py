@@ -189,7 +189,7 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
     except subprocess.TimeoutExpired:
         output = f"no picture within {PICTURE_SECONDS:.0f} s"
     if not target.exists():
-        last = output.strip().splitlines()[-1:] or ["it said nothing"]
+        last = output.strip().splitlines()[-1:] or ["it printed nothing"]
         raise InputError(f"{target}: the viewer made no picture ({last[0]})")
     return target
 

@@ -19,7 +19,7 @@ waviness          harmonics of raceways and rollers
 surface           waves of raceways and rollers as made, and what of them moves a roller
 scatter           manufacturing scatter from a grade and a seed
 sensor            accelerometers, their kinds, measured paths to them
-background        what they hear besides the bearing
+background        what they measure besides the bearing
 axleboxes         those of a wheelset, a bogie, a car or a train, by name and place
 tier              which bodies move by their own equations of motion, how the full tier takes a time step
 scene             all of it, and what of it may be chosen

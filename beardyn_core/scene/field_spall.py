@@ -5,7 +5,7 @@ stage contains the one before. What a roller feels of it are the lengths along i
 support, one after the other, and the rims that stand up around them: strips of other widths, places and
 depths, and a few pits and dents around.
 
-Statistics of length, width, depth, rims and pits by stage are in `STAGES`; docs/model.md says which of them
+Statistics of length, width, depth, rims and pits by stage are in `STAGES`; docs/spalls.md says which of them
 are published, derived and assumed.
 """
 

@@ -109,7 +109,7 @@ class Mounting:
     axial_prop_stiffness: A[
         float, At("MN_per_m", ge=0.0), "of a spring between journal and ground along y; a single row needs it"
     ] = 0.0
-    axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper beside that spring"] = 0.0
+    axial_prop_damping: A[float, At("kN_s_per_m", ge=0.0), "of a damper next to that spring"] = 0.0
     side: A[
         str,
         At(one_of=("left", "right"), absent=True),

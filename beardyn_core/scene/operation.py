@@ -199,7 +199,7 @@ class QuarterVehicleOperation:
     wheelset: A[
         str,
         At(one_of=WHEELSETS),
-        "coupled: it bends as the vehicle's wheelset says, where there is one, in the twin too, under wheel "
+        "coupled: it bends as the vehicle's wheelset does, where there is one, in the twin too, under wheel "
         "and bearing; elastic: it bends and twists in the rail model alone, and its load also moves the "
         "twin's rigid journal so, which is no load on the bearing; rigid: it does not",
     ] = "rigid"

@@ -59,7 +59,7 @@ class Growth:
 
 @dataclass(frozen=True)
 class Patch:
-    """A patch of a raceway or a roller that lies deeper or higher than the sound surface.
+    """A patch of a raceway or a roller that lies deeper or higher than the healthy surface.
 
     The azimuth is that of its centre, of brinelling of the centre of its first dent; a roller's 0 faces the
     cup. The width is without the rim, of brinelling that of each dent. The rim is sin^2 in rolling direction.

@@ -14,7 +14,7 @@ class TierLimits:
     states: A[str, "what moves by its own equations of motion"]
     represented: A[frozenset[str] | None, "effects it computes or reports; ``None``: all of them"]
     steps_per_sample: A[
-        int, "time steps per waveform sample when the scene does not say; `choice.fast_step` may take fewer"
+        int, "time steps per waveform sample when the scene gives none; `choice.fast_step` may take fewer"
     ]
     needs_rib: A[bool, "whether nothing but the rib holds the rollers axially"]
     smallest_laminae: A[int, "fewest laminae it can work with"]

@@ -137,7 +137,7 @@ class Trial:
     shapes: A[
         tuple[str, ...],
         At(one_of=SHAPES),
-        "of the spalls: slot as long as spall says, whole contact, round or irregular (both of thirteen "
+        "of the spalls: slot as long as the spall, whole contact, round or irregular (both of thirteen "
         "strips side by side), or field, a field spall; a worn pocket has none",
     ] = (SLOT,)
     sensors: A[

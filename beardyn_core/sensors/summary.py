@@ -116,7 +116,7 @@ class RunSummary:
     not_in_tier: A[tuple[str, ...], "names of effects of the scene that the tier does not represent"]
     duration: A[float, "simulated, [s]"]
     wall_time: A[float, "spent in the simulation itself, without compiling, recording and drawing, [s]"]
-    status: A[str, "``complete``, or the sentence that says how the run left its validity"]
+    status: A[str, "``complete``, or the sentence on how the run left its validity"]
     mean_force: A[tuple[float, float, float], "of the rollers on the cup, world axes, [N]"]
     shaft_torque: A[float, "mean torque of the bearing on the shaft, [N m]"]
     cage_speed_ratio: A[tuple[float, ...], "one a row, over FTF and shaft speed, nominal 1; NaN at rest"]

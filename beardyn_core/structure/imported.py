@@ -191,7 +191,7 @@ def _fit_row(
         gap = np.degrees(np.diff(np.sort(angle), append=angle.min() + 2.0 * np.pi).max())
         yield (
             f"nodes under the {name} row leave {gap:.0f} degrees of the circle empty: {waves} waves around "
-            "it cannot be told apart; give nodes all round"
+            "it cannot be distinguished; give nodes all round"
         )
         return
     columns = [*range(waves + 1), *range(WAVES + 1, WAVES + 1 + waves)]

@@ -104,7 +104,7 @@ def modes_of_text(text: str, label: str) -> Modes:
     except (yaml.YAMLError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise InputError(f"{label}: the head is no YAML: {' '.join(str(error).split())}") from error
     if not isinstance(head, dict):
-        raise InputError(f"{label}: the head is missing; lines that begin with # say name, mass_kg and so on")
+        raise InputError(f"{label}: the head is missing; lines with # in front give name, mass_kg and so on")
     if problem := separator_problem(lines[begin] if begin < len(lines) else ""):
         raise InputError(f"{label}: {problem}")
     names, numbers, found = _numbers(lines[begin:], begin)

@@ -43,14 +43,14 @@ class Progress:
     def __init__(self, duration: float) -> None:
         self._duration = duration
         self._said = 0.0
-        self._monitor = "listening"
+        self._monitor = "no verdict yet"
         self._terminal = sys.stdout.isatty()
         self._open = False
 
     def hear(self, verdict: str) -> None:
         """Keep the latest verdict of the monitor."""
         self._monitor = {
-            "waiting": "listening",
+            "waiting": "no verdict yet",
             "healthy": "no fault",
             "not_diagnosable": "cannot tell",
             "unexplained": "strikes that fit no part",

@@ -15,6 +15,7 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import folder_problems
+from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.record.envelope_spectrum import envelope_order_spectrum
 from beardyn_core.record.reading import read_run
 from beardyn_core.record.run import Run
@@ -170,7 +171,8 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
         rows += [
             (
                 "monitor found",
-                f"{finding.verdict} fault ({conclusion.agreeing} of {conclusion.analyses} analyses)",
+                f"fault of the {PART_NAMES[finding.verdict]} "
+                f"({conclusion.agreeing} of {conclusion.analyses} analyses)",
             ),
             (
                 "frequency",

@@ -53,7 +53,7 @@ class Inspection:
     """One bearing as a monitor has judged it."""
 
     mounted: Mounted
-    bearing_from: A[str, "who says which bearing it is: `FROM_SCENE`, `FROM_RECORDING` or `FROM_USER`"]
+    bearing_from: A[str, "who names the bearing: `FROM_SCENE`, `FROM_RECORDING` or `FROM_USER`"]
     settings: MonitorSettings
     results: BearingResults
     read: A[Callable[[], Run], "gives the signals; those of measured files are read only when asked for"]
@@ -138,14 +138,14 @@ def inspect_run(
     Raises
     ------
     InputError
-        The recording does not say which bearing it is of, or has no speed.
+        The recording does not name its bearing, or has no speed.
     """
     recorded = recorded_plate(run, lenient=bool(given))
     known = mounted_in(run.measured, run.label)
     bearings, bearing_from = tuple(given) or known, FROM_USER if given else FROM_RECORDING
     if not bearings and recorded is not None:
         bearings, bearing_from = (Mounted(USUAL_LABEL, recorded),), FROM_SCENE
-    problems = [] if bearings else [f"{run.label}: does not say which bearing it is of; give --bearing"]
+    problems = [] if bearings else [f"{run.label}: does not name its bearing; give --bearing"]
     if run.measured and len(run.vibration) and not len(run.shaft):
         problems.append(
             f"{run.label}: was imported without the speed of the shaft, and a monitor needs it; import the "

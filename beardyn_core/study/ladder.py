@@ -197,7 +197,7 @@ def climb(
     least_runs: int = 1,
     store: Store[Run] | None = None,
 ) -> Ladder:
-    """Run all levels, the reference first, then the cheapest first.
+    """Run all levels, the reference first, then the least costly first.
 
     Parameters
     ----------

@@ -235,7 +235,7 @@ class Ladder:
 
     @property
     def by_cost(self) -> tuple[LevelResult, ...]:
-        """The levels, the cheapest first."""
+        """The levels, the least costly first."""
         return tuple(sorted(self.rows, key=lambda row: row.cost.median))
 
     @property
@@ -247,7 +247,7 @@ class Ladder:
 
     @property
     def efficient(self) -> tuple[LevelResult, ...]:
-        """Levels for which no cheaper one is as good, the cheapest first.
+        """Levels for which no cheaper one is as good, the least costly first.
 
         As good is what is not worse by more than the run-to-run band and a tenth.
         """

@@ -344,7 +344,7 @@ def results_of(
         When there is no vibration or no shaft in the recording, or no such sensor.
     """
     if not len(run.vibration) or not len(run.shaft):
-        raise InputError(f"{run.label}: has no vibration with a shaft angle to listen to")
+        raise InputError(f"{run.label}: has no vibration with a shaft angle to judge")
     settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
     plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
     monitor = Monitor(

@@ -26,7 +26,7 @@ class SummaryData:
     """Arrays of a run that the picture shows."""
 
     title: A[str, "name of the scene"]
-    verdict: A[str, "what the monitor says, in a sentence"]
+    verdict: A[str, "verdict of the monitor, in a sentence"]
     time: A[Float, "shape [sample], [s]"]
     force: A[Float, "shape [sample, 3], of the rollers on the cup, world axes, [N]"]
     load: A[Float, "shape [sample, 3], on the journal, [N]"]

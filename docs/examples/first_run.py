@@ -1,5 +1,5 @@
 # %% [markdown]
-# # A spalled bearing, heard and judged
+# # A spalled bearing, simulated and judged
 #
 # An axlebox bearing with a spall on its cup, the outer ring, under a train that slows down from 200 km/h:
 # simulated, looked at, and given to a monitor that does not know of the spall. `pip install '.[data]'` in a
@@ -34,7 +34,7 @@ plt.show()
 # %% [markdown]
 # ## What the box shakes with
 #
-# An accelerometer on top of the axlebox hears the strikes among the shaking that the wheel brings from the
+# An accelerometer on top of the axlebox measures the strikes among the shaking that the wheel brings from the
 # track.
 
 # %%
@@ -70,7 +70,7 @@ plt.ylabel("envelope, 1 = largest")
 plt.show()
 
 # %% [markdown]
-# ## What the monitor says
+# ## The verdict of the monitor
 #
 # It gets vibration, shaft angle and load, and the data of the bearing. `run.truth` has what it cannot
 # know.

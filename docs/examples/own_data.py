@@ -22,7 +22,7 @@ print(Path("vibration.csv").read_text(encoding="utf-8")[:120], f"...\nshaft: {sp
 # %% [markdown]
 # ## In
 #
-# What is not in the file is said: unit, speed, bearing. Anything that is missing, or that could be meant in
+# State what is not in the file: unit, speed, bearing. Anything that is missing, or that could be meant in
 # two ways, is an error with a sentence.
 
 # %%

@@ -40,7 +40,7 @@ for batch in runs.batches(8, part="train", labels=["condition"], seed=0):
 
 # %% [markdown]
 # The baseline: random forests on what the monitor works out of each run, tested on bearings that it has not
-# seen. A handful of them says little: [sets of labelled runs](../sweep.md) has the answer of hundreds.
+# seen. A handful of them shows little: [sets of labelled runs](../sweep.md) has the answer of hundreds.
 
 # %%
 learner = Learner().fit(runs)

@@ -3,8 +3,8 @@
 ======= ===========================================================
 module  responsibility
 ======= ===========================================================
-page    cases, their runs, and docs/automatic.md
-shipped what is chosen for every shipped scene: docs/choices.md
+page    cases, their runs, and docs/evidence/automatic.md
+shipped what is chosen for every shipped scene: docs/evidence/choices.md
 bands   what fast tiers miss of the third octaves: docs/effects_auto.md
 torque  what fast tiers miss of the torque: docs/effects_auto.md
 ======= ===========================================================

@@ -1,4 +1,4 @@
-"""Put what `effects: auto` chooses on trial and write docs/automatic.md: ``make automatic``.
+"""Put what `effects: auto` chooses on trial and write docs/evidence/automatic.md: ``make automatic``.
 
 Every case is a scene, the quantities asked for and an accuracy. What is chosen for it runs against the
 converged reference of the ladder; what a band leaves open runs once more, six times as long and
@@ -39,7 +39,7 @@ from beardyn_core.study.ladder_levels import (
 from beardyn_core.study.ladder_report import error_text
 from beardyn_core.study.ladder_result import Ladder, LevelResult, QuantityError
 from beardyn_core.study.measures import NOMINAL_BANDS, UNITS
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 from evidence.runner import kept_json
 from evidence.standard import standard_scene
 
@@ -82,7 +82,7 @@ CASES: dict[str, tuple[Case, ...]] = {
     "service_metro": (Case(USUAL, 0.05),),
     "service_metro_roller": (Case(USUAL, 0.05),),
 }
-PAGE = DOCS / "automatic.md"
+PAGE = REPORTS / "automatic.md"
 # where a band crosses the limit: times, of what is compared, and runs of the chosen and of the reference
 LONGER, MORE_RUNS, MORE_REFERENCE_RUNS = 6, 24, 12
 

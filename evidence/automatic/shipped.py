@@ -1,4 +1,4 @@
-"""What `effects: auto` chooses for every shipped scene beside what its file has: docs/choices.md.
+"""What `effects: auto` chooses for every shipped scene beside what its file has: docs/evidence/choices.md.
 
 Nothing is run: ``python -m evidence.automatic.shipped [SCENE ...] [--to FILE]``, some minutes.
 """
@@ -14,10 +14,10 @@ from beardyn_core.choice.rule import Choice, error_text
 from beardyn_core.config import shipped_names
 from beardyn_core.config.automatic import AUTO
 from beardyn_core.config.load import read_scene
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 from evidence.standard import standard_effects
 
-PAGE = DOCS / "choices.md"
+PAGE = REPORTS / "choices.md"
 _NOTABLE = 1e-3  # smaller errors are not written, whatever their unit
 
 

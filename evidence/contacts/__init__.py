@@ -3,6 +3,6 @@
 ====== ==============================================================
 module responsibility
 ====== ==============================================================
-page   docs/contacts.md and its pictures from what the command wrote
+page   docs/evidence/contacts.md and its pictures from what the command wrote
 ====== ==============================================================
 """

@@ -1,4 +1,4 @@
-"""Write docs/contacts.md and its pictures from a run of the contact laboratory.
+"""Write docs/evidence/contacts.md and its pictures from a run of the contact laboratory.
 
 ``beardyn contacts -o DIR``, on an idle machine, for the page holds processor times; then
 ``python -m evidence.contacts.page DIR [--to FOLDER]``. The text between the two marks of the runs of
@@ -78,7 +78,8 @@ def main() -> None:
     pictures.mkdir(parents=True, exist_ok=True)
     for name in PICTURES:
         save_small(arguments.folder / name, pictures / name, COLOURS)
-    page = arguments.to / "contacts.md"
+    page = arguments.to / "evidence" / "contacts.md"
+    page.parent.mkdir(exist_ok=True)
     page.write_text(page_text(found, kept_runs(page)), encoding="utf-8")
 
 

@@ -21,9 +21,9 @@ def test_quick_run_prints_writes_and_makes_the_page(tmp_path, capsys) -> None:
     time = {entry["method"]: entry["time_s"] for entry in found["whole_bearing"]}
     assert time["closed form, compiled"] < time["analytic Newton, compiled"] < time["analytic Newton, plain"]
     assert (folder / "a.rrd").stat().st_size > 10_000
-    page = tmp_path / "docs"
-    page.mkdir()
-    write = [sys.executable, "-m", "evidence.contacts.page", str(folder), "--to", str(page)]
+    docs, page = tmp_path / "docs", tmp_path / "docs" / "evidence"
+    docs.mkdir()
+    write = [sys.executable, "-m", "evidence.contacts.page", str(folder), "--to", str(docs)]
     subprocess.run(write, check=True)
     (page / "contacts.md").write_text(
         (page / "contacts.md").read_text().replace("Not yet on this page.", "Kept.")

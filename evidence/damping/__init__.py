@@ -4,6 +4,6 @@
 module   responsibility
 ======== =====================================================
 study    runs at several damping times, and the estimate of the film
-page     docs/damping.md
+page     docs/evidence/damping.md
 ======== =====================================================
 """

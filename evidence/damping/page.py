@@ -1,4 +1,4 @@
-"""Write docs/damping.md: ``python -m evidence.damping.page``."""
+"""Write docs/evidence/damping.md: ``python -m evidence.damping.page``."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import sys
 from collections.abc import Sequence
 
 from evidence.damping.study import EFFECTS, SPANS_HZ, SPEEDS_RPM, TIMES_US, Heard, Inlet, hear, inlet, scenes
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 
-PAGE = DOCS / "damping.md"
+PAGE = REPORTS / "damping.md"
 
 
 def row(heard: Heard) -> tuple[str, ...]:

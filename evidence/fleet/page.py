@@ -1,4 +1,4 @@
-"""Write docs/fleet_year.md from what `evidence.fleet.year` has kept: ``python -m evidence.fleet.page``."""
+"""Write docs/evidence/fleet_year.md from `evidence.fleet.year`: ``python -m evidence.fleet.page``."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from typing import Any
 
 from evidence.fleet import year
 from evidence.fleet.signals import HEALTHY, RECORDED, WIDTHS_MM
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.tables import markdown
 
-PAGE = DOCS / "fleet_year.md"
+PAGE = REPORTS / "fleet_year.md"
 _HEAD = ("axlebox", "spall", "2 mm on day", "20 mm on day", "watch", "plan", "act", "lead of plan", "rank")
 
 

@@ -1,7 +1,7 @@
 """A year of 64 axleboxes: three growing spalls, a wheel flat, wheels that are turned, a sensor that dies.
 
 ``python -m evidence.fleet.year --folder DIR`` makes the recordings, adds them to a store, and keeps what
-became of it beside this module; ``python -m evidence.fleet.page`` writes docs/fleet_year.md of that.
+became of it beside this module; ``python -m evidence.fleet.page`` writes docs/evidence/fleet_year.md of that.
 """
 
 from __future__ import annotations

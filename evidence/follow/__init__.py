@@ -4,7 +4,7 @@
 module    responsibility
 ========= ==================================================================
 demo      hidden truth, what the follower makes of it, picture
-page      the table of docs/estimate.md and its picture, from a run of it
+page      the table of docs/evidence/estimator.md and its picture, from a run of it
 drift     a load that steps, a spall that grows, warming, healthy bearings over mileage, and the lag of each
 judged    coverage and errors by size, speed, noise and box, of sets that are made beforehand
 boxes     the shipped estimator in its own box, a stiffer one and with another sensor place

@@ -1,4 +1,4 @@
-"""Judge the shipped estimator in its own box, a stiffer one and with another sensor place: docs/estimate.md.
+"""Judge the shipped estimator in its own box, a stiffer one, another place: docs/evidence/estimator.md.
 
 ``python -m evidence.follow.boxes FOLDER``, a set that ``beardyn sweep high_speed_boxes -o FOLDER`` has made.
 """
@@ -18,9 +18,9 @@ from beardyn_core.follow.estimate_json import Estimates
 from beardyn_core.follow.estimator import read_estimator
 from beardyn_core.follow.labelled import Described, describe_runs
 from beardyn_core.population.labelled_set import LabelledSet
-from evidence.pages import DOCS, with_section
+from evidence.pages import REPORTS, with_section
 
-PAGE = DOCS / "estimate.md"
+PAGE = REPORTS / "estimator.md"
 TITLE, NEXT = "## In other boxes\n", "## By size, speed, noise and box\n"
 SHIPPED = config_folder() / "estimators" / "high_speed_axlebox.npz"
 STIFFNESS, PLACE = "effects.structure.stiffness_factor", "sensors[0].position_mm"

@@ -1,8 +1,8 @@
 """Follow drifts of axleboxes in the tier `full`: a load that steps, a spall that grows, warming, none.
 
 ``python -m evidence.follow.drift --keep FOLDER`` simulates every drift, follows it by the estimator that is
-shipped, prints a table with the lag of each and writes it into docs/estimate.md. What a stretch sounded like
-is kept in FOLDER, so that another estimator is judged without another simulation.
+shipped, prints a table with the lag of each and writes it to docs/evidence/estimator.md. The descriptors of a
+stretch are kept in FOLDER, so that another estimator is judged without another simulation.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.sensors.labels import HEALTHY
-from evidence.pages import DOCS, write_section
+from evidence.pages import REPORTS, write_section
 from evidence.runner import kept_arrays
 
-PAGE = DOCS / "estimate.md"
-TITLE, NEXT = "## Drifts\n", "## What remains\n"
+PAGE = REPORTS / "estimator.md"
+TITLE, NEXT = "## Drifts\n", "## One train, followed\n"
 SCENE, BEARING, SPARE = "service_high_speed", "HS130x230", 1.03  # of the length of a stretch
 LENGTH_MM, DEPTH_UM = 25.0, 100.0
 

@@ -1,4 +1,4 @@
-"""Judge an estimator by hidden runs of the tier `full`, by size, speed, noise and box, in docs/estimate.md.
+"""Judge an estimator by hidden runs of `full`, by size, speed, noise, box, in docs/evidence/estimator.md.
 
 ``python -m evidence.follow.judged --train runs --hidden hidden``, sets that ``beardyn sweep
 high_speed_axlebox -o runs`` and ``beardyn sweep high_speed_hidden --runs 320 -o hidden`` have made.
@@ -33,10 +33,10 @@ from beardyn_core.follow.labelled import (
 from beardyn_core.follow.learning import train_estimator
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.population.labelled_set import TRAIN, VALIDATION, LabelledSet
-from evidence.pages import DOCS, write_section
+from evidence.pages import REPORTS, write_section
 
-PAGE = DOCS / "estimate.md"
-TITLE, NEXT = "## By size, speed, noise and box\n", "## Following a bearing\n"
+PAGE = REPORTS / "estimator.md"
+TITLE, NEXT = "## By size, speed, noise and box\n", "## What a known load gives\n"
 SHOWN = ("width", "lateral_load", "end_play")
 WIDTH, SPEED, NOISE = (
     "defects[0].width_mm",

@@ -1,4 +1,4 @@
-"""What a vertical load that is known buys: lateral load, end play, width and rating life: docs/estimate.md.
+"""What a known vertical load gives: lateral load, end play, width rating life: docs/evidence/estimator.md.
 
 ``python -m evidence.follow.load_gain FOLDER``, a set that ``beardyn sweep high_speed_axlebox --seed N`` has
 made, of bearings that the shipped estimator has not learnt from.
@@ -27,10 +27,10 @@ from beardyn_core.follow.life_surface import LifeSurface
 from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.follow.rated_life import LifeCounter
 from beardyn_core.population.labelled_set import LabelledSet
-from evidence.pages import DOCS, with_section
+from evidence.pages import REPORTS, with_section
 
-PAGE = DOCS / "estimate.md"
-TITLE, NEXT = "### What the load buys\n", "## Following a bearing\n"
+PAGE = REPORTS / "estimator.md"
+TITLE, NEXT = "## What a known load gives\n", "## Drifts\n"
 SHIPPED = config_folder() / "estimators" / "high_speed_axlebox.npz"
 BEARING, LUBRICANT, WHEEL = "HS130x230", "L055", 0.88
 NAMES = ("lateral_load", "end_play", "width")

@@ -1,4 +1,4 @@
-"""Mount a sensor wrongly and see what is made of it: docs/estimate.md.
+"""Mount a sensor wrongly and see what is made of it: docs/evidence/estimator.md.
 
 ``python -m evidence.follow.mountings OWN BOXES``: sets that ``beardyn sweep high_speed_axlebox --runs 48
 --seed 77 -o OWN`` and ``beardyn sweep high_speed_boxes --runs 48 --seed 78 -o BOXES`` have made.

@@ -3,7 +3,7 @@
 ``--train runs --hidden hidden`` as for `evidence.follow.judged`; needs ``pip install sbi``, which is no extra
 of this project. A normalising flow learns the posterior of each number from the descriptors of both sets
 (sbi: ``NPE`` with each of `FLOWS` and its usual early stopping), and judges bearings of
-the hidden set that it has not seen, part by part. The section goes into docs/estimate.md.
+the hidden set that it has not seen, part by part. The section goes into docs/evidence/estimator.md.
 
 References
 ----------
@@ -34,10 +34,10 @@ from beardyn_core.follow.learning import true_values
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.population.labelled_set import LabelledSet
 from evidence.follow.judged import SHOWN, judged
-from evidence.pages import DOCS, write_section
+from evidence.pages import REPORTS, write_section
 
-PAGE = DOCS / "estimate.md"
-TITLE, NEXT = "## Beside a neural posterior\n", "## Following a bearing\n"
+PAGE = REPORTS / "estimator.md"
+TITLE, NEXT = "## Compared with a neural posterior\n", "## What a known load gives\n"
 PARTS = 5  # of the hidden bearings; each is judged by what the others teach, in every way
 HEARD = 80  # descriptors that go best with the number
 DRAWS = 1000  # of a posterior
@@ -101,7 +101,7 @@ def section(ours: Mapping[str, Guessed], flows: Mapping[str, Mapping[str, Guesse
     lines = [
         TITLE,
         "Written by `python -m evidence.follow.neural --train runs --hidden hidden`: normalising flows "
-        "(`sbi`, neural posterior estimation) beside the shipped way. All learn from the runs of "
+        "(`sbi`, neural posterior estimation) compared with the shipped way. All learn from the runs of "
         f"`quasistatic` and, part by part, from {PARTS - 1} of {PARTS} parts of the hidden bearings, and "
         f"judge the rest; {seconds / 60:.0f} min of learning the flows.",
         "",

@@ -1,12 +1,12 @@
-"""Write what the demonstration showed into docs/estimate.md: ``python -m evidence.follow.page``."""
+"""Write what the demonstration showed into docs/evidence/estimator.md: ``python -m evidence.follow.page``."""
 
 from __future__ import annotations
 
 import beardyn_core as bd
 from evidence.follow.demo import BESIDE, draw, played, table
-from evidence.pages import DOCS, PICTURES, replace_between, save_small
+from evidence.pages import PICTURES, REPORTS, replace_between, save_small
 
-PAGE, PICTURE = DOCS / "estimate.md", PICTURES / "follow.png"
+PAGE, PICTURE = REPORTS / "estimator.md", PICTURES / "follow.png"
 BEFORE, AFTER = "ended with\n\n```text\n", "\n```\n\nand draws this"
 COLOURS = 64
 

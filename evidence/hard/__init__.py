@@ -21,6 +21,6 @@ run                 a case from start to verdict, by how it is run
 verdict             from measures and limits to a verdict, over all starts
 battery             all cases side by side, resumable
 report              table and JSON
-page                writes docs/hard.md
+page                writes docs/evidence/hard.md
 =================== =========================================================
 """

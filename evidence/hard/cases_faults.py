@@ -57,7 +57,7 @@ CASES = (
         "spall_within_a_lamina",
         "faults",
         "2 mm long where a lamina is 8 mm: a part of one lamina",
-        "each lamina has the share of it that is covered; damaged and sound springs side by side",
+        "each lamina has the share of it that is covered; damaged and healthy springs side by side",
         changes={"defects": [_cup(width_mm=6, depth_um=100, length_mm=2, offset_mm=3)]},
         load=steady(RADIAL, SPEED),
         duration=0.3,

@@ -126,7 +126,7 @@ CASES = (
     HardCase(
         "grabbing_rib",
         "geometry",
-        "a sound rib with friction 0.5: the largest skew moment",
+        "a healthy rib with friction 0.5: the largest skew moment",
         "secant friction of the rib in the implicit solve",
         changes={"effects": {"preset": "standard", "rib": {"friction": 0.5}}},
         load=steady((0.0, 1.5e4, 8e4), SPEED),
@@ -137,7 +137,7 @@ CASES = (
         "no_rib",
         "geometry",
         "no rib at all: nothing but pockets and friction holds the rollers along their axes",
-        "the rollers run out of the load zone; the run goes on, or says why not",
+        "the rollers run out of the load zone; the run goes on, or reports why not",
         changes={"effects": {"preset": "standard", "rib": False}},
         load=steady((0.0, 0.0, 8e4), SPEED),
         duration=0.2,

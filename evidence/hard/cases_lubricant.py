@@ -76,7 +76,7 @@ CASES = (
         "dry_and_sharp",
         "lubricant",
         "friction 0.3 with its corner rounded over 0.5 mm/s: friction rates of 1e8 1/s",
-        "as above; if it chatters the monitor says so",
+        "as above; if it chatters the monitor reports it",
         changes={
             "effects": {"preset": "dry", "traction": {"friction": 0.3, "regularisation_speed_m_per_s": 5e-4}}
         },

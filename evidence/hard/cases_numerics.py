@@ -84,7 +84,7 @@ CASES = (
         "largest_step",
         "numerics",
         "39 us, the largest step a scene may ask for, at 150 kN and 180 rad/s",
-        "converged, or the chatter monitor says that it is not",
+        "converged, or the chatter monitor reports that it is not",
         changes=_numerics(steps_per_sample=1),
         load=steady((0.0, 0.0, 1.5e5), 180.0),
         duration=0.3,

@@ -1,4 +1,4 @@
-"""Write docs/hard.md from what `make hard` wrote: ``python -m evidence.hard.page hard.json``, or several."""
+"""Write docs/evidence/hard.md from `make hard`: ``python -m evidence.hard.page hard.json``, or several."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from evidence.hard.catalogue import CASES
 from evidence.hard.report import cells, outcome_from
 from evidence.hard.run import STARTS, WITHOUT_STARTS
 from evidence.hard.verdict import FAILED, GOOD, KNOWN, SKIPPED
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.runner import read_json
 
-PAGE = DOCS / "hard.md"
+PAGE = REPORTS / "hard.md"
 
 
 def main() -> None:

@@ -8,6 +8,6 @@ published torques and temperatures of axlebox bearings as others printed them
 cases     scenes of the tables: speeds, states of the bearing, assumed inputs
 intervals measured temperatures next to intervals over grease, seals and air
 tables    the tables as text
-page      docs/heat.md
+page      docs/evidence/heat.md
 ========= ====================================================================
 """

@@ -1,4 +1,4 @@
-"""Write docs/heat.md and its picture: ``python -m evidence.heat.page`` (`make heat`). A minute, no run."""
+"""Write docs/evidence/heat.md and its picture: ``python -m evidence.heat.page`` (`make heat`)."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ from evidence.heat.tables import (
     torques,
     variations,
 )
-from evidence.pages import DOCS, PICTURES, save_small, write_page
+from evidence.pages import PICTURES, REPORTS, save_small, write_page
 from evidence.tables import markdown
 
-PAGE = DOCS / "heat.md"
+PAGE = REPORTS / "heat.md"
 PICTURE = PICTURES / "torque.png"
 COLOURS = 32
 SERVICE_RISE = 20.0  # of boxes in service, at least, [K]
@@ -94,7 +94,7 @@ def write() -> None:
         "settled": markdown(
             ("°C", "least [N m]", "largest [N m]", "least over the band's lower end"), reached
         ),
-        "picture": PICTURE.relative_to(DOCS),
+        "picture": f"../pictures/{PICTURE.name}",
         "torques": torques(torque_grid()),
         "low": low,
         "high": high,

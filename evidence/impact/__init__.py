@@ -10,6 +10,6 @@ loud      levels over a range of speeds: width, speed and load
 elastic   how an elastic roller sinks into a narrow slot
 edges     a held roller over a slot with rigid edges, with those of the twin and with elastic ones
 published published observations beside ours
-page      docs/impact.md
+page      docs/evidence/impact.md
 ========= =====================================================================
 """

@@ -100,7 +100,7 @@ def healthy(speed: float, load: float = 8e4) -> Case:
 
 # what makes strikes of a healthy bearing, taken away one by one
 LEFT_OUT: dict[str, Case] = {
-    "sound": healthy(90.0),
+    "healthy": healthy(90.0),
     "waves to 1 mm": replace(healthy(90.0), shortest_wave=1e-3),
     "waves to 0.5 mm": replace(healthy(90.0), shortest_wave=5e-4),
     "no cages": replace(healthy(90.0), caged=False),

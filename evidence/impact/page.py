@@ -1,4 +1,4 @@
-"""Write docs/impact.md and its pictures: ``python -m evidence.impact.page``."""
+"""Write docs/evidence/impact.md and its pictures: ``python -m evidence.impact.page``."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ from evidence.impact.edges import LAWS, sinks, strike
 from evidence.impact.loud import listed, loud
 from evidence.impact.published import published
 from evidence.impact.study import RATE, SPANS_KHZ, heard, run
-from evidence.pages import DOCS, PICTURES, save_small, write_page
+from evidence.pages import PICTURES, REPORTS, save_small, write_page
 
-PAGE = DOCS / "impact.md"
+PAGE = REPORTS / "impact.md"
 CROSSING, SPECTRA = PICTURES / "impact_crossing.png", PICTURES / "impact_spectra.png"
 SHOWN = (Case(10e-3), Case(10e-3, length=WHOLE))
 
@@ -48,7 +48,7 @@ SHOWN = (Case(10e-3), Case(10e-3, length=WHOLE))
 def name(case: Case) -> str:
     """Name a case in a table."""
     if case.width == 0.0:
-        return "sound"
+        return "healthy"
     length = "whole" if case.length == WHOLE else f"{1e3 * case.length:g}"
     return f"{case.on} {1e3 * case.width:g} x {length}"
 

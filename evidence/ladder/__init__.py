@@ -3,7 +3,7 @@
 ====== =======================================================
 module responsibility
 ====== =======================================================
-page   climbs the ladders, writes docs/ladder.md and its pictures
+page   climbs the ladders, writes docs/evidence/ladder.md and its pictures
 front  writes the efficient levels of one scene into README.md
 turns  what the levels of a scene cost, measured in turns
 ====== =======================================================

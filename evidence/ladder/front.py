@@ -1,11 +1,11 @@
-"""The front of accuracy over cost for README.md, from docs/ladder.md: ``python -m evidence.ladder.front``."""
+"""Accuracy over cost for README.md, from docs/evidence/ladder.md: ``python -m evidence.ladder.front``."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-from evidence.pages import DOCS, replace_between
+from evidence.pages import DOCS, REPORTS, replace_between
 
 README = DOCS.parent / "README.md"
 SCENE = "service_high_speed"
@@ -27,12 +27,12 @@ def front(ladder: str) -> str:
     rows = [f"| {row}" for row in _ROW.findall(ladder)]
     return "\n".join(
         [
-            f"What accuracy costs in [`{SCENE}`](docs/ladder.md), a healthy bearing of a driven axle at 200 "
-            f"km/h in a box that rings, on one core of {machine[1]}: errors against tier `full` with "
-            "every effect, 40 laminae and 8 steps. *6 laminae x 3*: contacts in 6 slices, 3 time steps for "
-            "each sample of 25.6 kHz; rows without a tier are of `full`. Brackets: no larger than what two "
-            "runs of the same differ by. *5 %*: whether force, deflection, roller load and torque are within "
-            "5 % and third octaves within 1.5 dB for sure. In `standard` rings and box are rigid.",
+            f"What accuracy costs in [`{SCENE}`](docs/evidence/ladder.md), a healthy bearing at 200 km/h "
+            f"in a box that rings, on one core of {machine[1]}. Errors are against tier `full` with all "
+            "effects, 40 slices (laminae) and 8 time steps per sample. *6 laminae x 3*: 6 slices, 3 steps "
+            "per sample of 25.6 kHz. Rows without a tier are `full`. Brackets: within the scatter of two "
+            "equal runs. *5 %*: force, deflection, roller load and torque within 5 %, third octaves "
+            "within 1.5 dB, all uncertainty included. `standard` has rigid rings and a rigid box.",
             "",
             "| tier, effects | s of a core for 1 s | force % | deflection % | roller load % | torque % "
             "| vibration dB | 5 % |",
@@ -48,7 +48,7 @@ def renewed(readme: str, ladder: str) -> str:
     return replace_between(readme, BEGIN, END, f"\n{front(ladder)}\n")
 
 
-def main(ladder: Path = DOCS / "ladder.md") -> None:
+def main(ladder: Path = REPORTS / "ladder.md") -> None:
     """Renew README.md."""
     text = renewed(README.read_text(encoding="utf-8"), ladder.read_text(encoding="utf-8"))
     README.write_text(text, encoding="utf-8")

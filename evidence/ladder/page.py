@@ -1,4 +1,4 @@
-"""Climb the ladders of the documentation and write docs/ladder.md with its pictures: ``make ladder``.
+"""Run the accuracy studies and write docs/evidence/ladder.md with its pictures: ``make ladder``.
 
 Run it on an idle machine: the page holds wall times. ``python -m evidence.ladder.page [SCENE ...] [--quick]
 [--duration S] [--to FOLDER]``.
@@ -241,7 +241,7 @@ def main() -> None:
         ladders.append(ladder)
         paths.append(picture)
     neighbour = levels_of(scene_with_all(arguments.scenes[0])).neighbour.name
-    write_whole(arguments.to / "ladder.md", page(ladders, paths, neighbour))
+    write_whole(arguments.to / "evidence" / "ladder.md", page(ladders, paths, neighbour))
     if arguments.to == DOCS:
         front.main()
 

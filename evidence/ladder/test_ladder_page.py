@@ -13,7 +13,7 @@ from beardyn_core.twin import Twin
 from evidence.ladder import front
 from evidence.ladder.page import page
 from evidence.ladder.turns import in_turns
-from evidence.pages import DOCS
+from evidence.pages import REPORTS
 from test.study.fake_ladder import FakeRuns, climbed
 
 
@@ -21,7 +21,7 @@ def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> No
     ladder = climbed(comparison_of(load_scene("static_80kN"), 0.5, 0.1), FakeRuns())
     summary, text = page([ladder], [Path("somewhere/static.png")], "neighbour").split("\n## static_80kN\n")
     lines = text.splitlines()
-    assert "![Accuracy against wall time of static_80kN](pictures/static.png)" in lines
+    assert "![Accuracy against wall time of static_80kN](../pictures/static.png)" in lines
     assert any("No fault, so no fault line" in line for line in lines)
     for row in ladder.rows:
         assert sum(line.startswith("|") and row.level.name in line for line in lines) == 1
@@ -30,7 +30,7 @@ def test_a_section_has_every_level_and_the_summary_the_cheapest_good_one() -> No
 
 def test_the_front_on_the_first_page_is_that_of_the_ladder() -> None:
     readme = front.README.read_text(encoding="utf-8")
-    ladder = (DOCS / "ladder.md").read_text(encoding="utf-8")
+    ladder = (REPORTS / "ladder.md").read_text(encoding="utf-8")
     assert readme == front.renewed(readme, ladder)
     assert "| auto 5 % |" in front.front(ladder)
 

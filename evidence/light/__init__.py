@@ -4,6 +4,6 @@
 module   responsibility
 ======== ==========================================
 grid     the grid, and the mean speed of the cages
-page     docs/light.md and its picture
+page     docs/evidence/light.md and its picture
 ======== ==========================================
 """

@@ -1,4 +1,4 @@
-"""Write docs/light.md and its picture: ``python -m evidence.light.page``; with sets as arguments of these."""
+"""Write docs/evidence/light.md and its picture: ``python -m evidence.light.page``; or of named sets."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from evidence.light.grid import (
     run_automatic,
     run_grid,
 )
-from evidence.pages import DOCS, PICTURES, save_small, write_page
+from evidence.pages import PICTURES, REPORTS, save_small, write_page
 from evidence.tables import markdown
 
-PAGE = DOCS / "light.md"
+PAGE = REPORTS / "light.md"
 PICTURE = PICTURES / "light.png"
 MINIMUM_SHARE = 0.02
 TOLD_FROM = 1.01
@@ -43,7 +43,7 @@ def write(points: list[Point], chosen: list[Point]) -> None:
         "bearing": scene.bearing.name,
         "supply": "" if film is None else film.supply,
         "count": len(points),
-        "picture": PICTURE.relative_to(DOCS),
+        "picture": f"../pictures/{PICTURE.name}",
         "minimum_share": MINIMUM_SHARE,
         "minimum": minimum,
         "above": max(abs(1.0 - each.ratio) for each in points if each.load_kn >= minimum),

@@ -1,8 +1,8 @@
 """How often verdicts are right, by what they rest on: the confidence of the monitor is set and judged here.
 
 ``python -m evidence.measured.confidence --cwru DIR --mfpt DIR --hit DIR`` prints the weights of
-`beardyn_core.monitor.chain.confidence`, set on all machines, and writes docs/confidence.md with its picture,
-on which every machine is judged with weights that are set on the others.
+`beardyn_core.monitor.chain.confidence`, set on all machines, and writes docs/evidence/confidence.md with its
+picture, on which every machine is judged with weights that are set on the others.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from beardyn_core.monitor.chain.confidence import PART, WEIGHTS, Grounds, confid
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED
 from evidence.measured.cases import HIT, MFPT, PLATES, Listening, Record, listenings, records
 from evidence.measured.wrong_inputs import orders_of
-from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.pages import PICTURES, REPORTS, render, save_small
 from evidence.runner import KeptResults
 
-PAGE, PICTURE = DOCS / "confidence.md", PICTURES / "confidence.png"
+PAGE, PICTURE = REPORTS / "confidence.md", PICTURES / "confidence.png"
 KINDS = (PART, HEALTHY, UNEXPLAINED)
 KIND_WORDS = {PART: "a part", HEALTHY: "healthy", UNEXPLAINED: "unexplained"}
 ERRORS = (-6, -4, -2, 2, 4, 6)  # of the stated speed, [%]

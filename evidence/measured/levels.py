@@ -1,7 +1,7 @@
-"""Levels of measured bearings, sound and faulty, beside the twin's, as far as they can be compared.
+"""Levels of measured bearings, healthy and faulty, next to the twin's, as far as they compare.
 
-``python -m evidence.measured.levels --cwru DIR --mfpt DIR --pronostia DIR`` writes docs/levels.md. A motor is
-no axlebox: what is compared are ratios of faulty to sound, powers of the load, and kurtosis. Widths and
+``python -m evidence.measured.levels --cwru DIR --mfpt DIR --pronostia DIR`` writes docs/evidence/levels.md. A
+motor is no axlebox: compared are ratios of faulty to healthy, powers of the load, kurtosis. Widths and
 lengths of faults are those of CWRU over the size of the contact, shafts turn as fast.
 """
 
@@ -34,9 +34,9 @@ from evidence.measured.cases import (
     listenings,
     records,
 )
-from evidence.pages import DOCS
+from evidence.pages import REPORTS
 
-PAGE = DOCS / "levels.md"
+PAGE = REPORTS / "levels.md"
 G = 9.80665
 INCH = 25.4e-6  # a thousandth of it, [m]
 LOW = (100.0, 5600.0)  # what records of 12 kHz hold, [Hz]
@@ -159,7 +159,7 @@ def first_records(folder: Path) -> Level:
     return Level(*(float(np.median([getattr(one, name) for one in each])) for name in names))
 
 
-HEAD = """# Levels of measured bearings beside the twin's
+HEAD = """# Levels of measured bearings and of the twin
 
 Written by `python -m evidence.measured.levels --cwru DIR --mfpt DIR --pronostia DIR` from public records that
 are not part of this repository (CWRU, MFPT and PRONOSTIA). No public record of an axlebox bearing with a
@@ -184,8 +184,8 @@ waves end at 1 mm.**
 
 CWRU cut round faults of 0.18, 0.36 and 0.53 mm. Under {ball:g} N, which is assumed, a ball's contact is
 {width:.2f} by {length:.2f} mm (Hamrock and Brewe), under 10 kN our roller's {ours_width:.2f} by
-{whole:.0f} mm; ours are as wide and as long beside that, 400 um deep, in the middle of the load zone, the
-shaft turns with {shaft:g} Hz. *Smooth*: ours with raceways and rollers without waves. Rms from 0.1 to 5.6
+{whole:.0f} mm; ours are as wide and long relative to it, 400 um deep, in the middle of the load zone;
+the shaft turns with {shaft:g} Hz. *Smooth*: ours with raceways and rollers without waves. Rms from 0.1 to 5.6
 kHz over that of the healthy bearing at the same end; least, middle and most of all records of that size, at
 every place on the clock.
 
@@ -210,7 +210,7 @@ load with which the rms grows:
 
 AFTER = """
 A deep spall takes from a roller what it carries; one in which the roller rests on the floor takes from it the
-depth times the stiffness of the contact, whatever it carries. The depth of MFPT's faults is not told.
+depth times the stiffness of the contact, whatever it carries. The depth of MFPT's faults is not stated.
 """
 
 

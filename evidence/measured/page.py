@@ -1,4 +1,4 @@
-"""Write docs/monitor_measured.md: ``python -m evidence.measured.page --cwru FOLDER --mfpt FOLDER``."""
+"""Write docs/evidence/monitor_measured.md: ``python -m evidence.measured.page --cwru DIR --mfpt DIR``."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from beardyn_core.monitor.chain import MonitorSettings
 from evidence.measured.cases import CWRU_12_DRIVE, SETS, Record, listenings, records
 from evidence.measured.grades import MEANINGS
 from evidence.measured.run import METHODS, Heard, outcomes, verdicts_of
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.runner import KeptResults
 
-PAGE = DOCS / "monitor_measured.md"
+PAGE = REPORTS / "monitor_measured.md"
 PARTS = ("cup", "cone", "roller")
 # the same harness over the same files with the chain before whitening, commit a5d4a3d: right, wrong, missed
 BEFORE = {
@@ -136,7 +136,7 @@ def _row(record: Record, heard: Sequence[Heard]) -> list[str]:
     name = record.name if record.group == "MFPT" else f"CWRU {record.name}"
     return [
         name,
-        f"{record.part or 'sound'}{size}{place}",
+        f"{record.part or 'healthy'}{size}{place}",
         str(record.load) if record.group != "MFPT" else "",
         record.grade,
         *(said(faulty, method) for method in METHODS),
@@ -162,7 +162,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--cwru", type=Path, metavar="FOLDER", help="with the .mat files of CWRU")
     parser.add_argument("--mfpt", type=Path, metavar="FOLDER", help="with the .mat files of MFPT")
     parser.add_argument("--results", type=Path, metavar="FILE", help="JSON to keep counts in, and go on from")
-    parser.add_argument("-o", "--output", type=Path, default=PAGE, help="default docs/monitor_measured.md")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=PAGE, help="default docs/evidence/monitor_measured.md"
+    )
     args = parser.parse_args(arguments)
     found = records(args.cwru, args.mfpt)
     if not found:

@@ -1,6 +1,6 @@
 """When the trend alarms in the runs to failure of PRONOSTIA, and how steadily what it hears then grows.
 
-``python -m evidence.measured.run_to_failure --pronostia DIR`` writes docs/run_to_failure.md. DIR has
+``python -m evidence.measured.run_to_failure --pronostia DIR`` writes docs/evidence/run_to_failure.md. DIR has
 ``Learning_set`` and ``Full_Test_Set`` with a folder of ``acc_*.csv`` for each run.
 """
 
@@ -19,10 +19,10 @@ from scipy.stats import spearmanr
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.monitor.trend import ALARM, Trend, TrendSettings, record_levels
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.runner import Arrays, kept_arrays
 
-PAGE = DOCS / "run_to_failure.md"
+PAGE = REPORTS / "run_to_failure.md"
 SETS = ("Learning_set", "Full_Test_Set")
 RATE, EVERY_S, G = 25_600.0, 10.0, 9.80665
 RMS_RISE = 6.0  # [dB]

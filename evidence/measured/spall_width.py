@@ -1,6 +1,7 @@
 """How wide spalls of known width are found to be, on the twin.
 
-``python -m evidence.measured.spall_width`` runs `service_high_speed_cup` and writes docs/spall_width.md.
+Runs `service_high_speed_cup`.
+``python -m evidence.measured.spall_width`` writes docs/evidence/spall_width.md.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ import beardyn_core as bd
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.monitor.severity import Severity, severity_of
 from beardyn_core.scene.patch import Patch
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.tables import markdown
 
-PAGE = DOCS / "spall_width.md"
+PAGE = REPORTS / "spall_width.md"
 WIDTHS_MM = (0.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 12.0)
 PARTS = ("cup", "cone")
 SECONDS = 1.2

@@ -1,4 +1,4 @@
-"""Write docs/beside_measured.md: measured bearings next to runs of the twin.
+"""Write docs/evidence/beside_measured.md: measured bearings next to runs of the twin.
 
 ``python -m evidence.measured.texture --cwru FOLDER --mfpt FOLDER [--hit-sm FOLDER] [--records TABLE.csv]``.
 `evidence.measured.own_records` says what the table of own recordings holds. With ``--results FILE`` what has
@@ -37,10 +37,10 @@ from evidence.measured.twin_runs import (
     measure_twin,
     twin_cases,
 )
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 from evidence.runner import KeptResults
 
-PAGE = DOCS / "beside_measured.md"
+PAGE = REPORTS / "beside_measured.md"
 OWN = "own train"
 FEW = 5  # records, of which least and most count
 LONGEST = 20.0  # of a record that is measured, [s]
@@ -335,7 +335,7 @@ def page_values(
         "reference": "own train's records" if own else "public records",
         "counts": ", ".join(f"{counts[part]} {name}" for part, name in CONDITIONS.items()),
         "healthy_count": counts[""],
-        "absent": absent.replace("sound", "healthy"),
+        "absent": absent,
         "tier": TIER,
         "measured_s": DURATION - SETTLED,
         "width": WIDTH_MM,
@@ -358,7 +358,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--hit-sm", type=Path, metavar="FOLDER", help="with the .mat files of HIT-SM")
     parser.add_argument("--records", type=Path, metavar="TABLE.csv", help="recordings of your own train")
     parser.add_argument("--results", type=Path, metavar="FILE", help="JSON to keep quantities in")
-    parser.add_argument("-o", "--output", type=Path, default=PAGE, help="default docs/beside_measured.md")
+    parser.add_argument(
+        "-o", "--output", type=Path, default=PAGE, help="default docs/evidence/beside_measured.md"
+    )
     args = parser.parse_args(arguments)
     found = records(args.cwru, args.mfpt, args.hit_sm)
     if not found and args.records is None:

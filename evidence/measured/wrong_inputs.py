@@ -1,7 +1,7 @@
 """Measured records with a wrong speed or a wrong bearing: what the monitor answers.
 
 ``python -m evidence.measured.wrong_inputs --cwru DIR --mfpt DIR --hit DIR`` writes
-docs/monitor_wrong_inputs.md. The records are those that are clearly faulty: grades Y1 and Y2 of CWRU, all of
+docs/evidence/monitor_wrong_inputs.md. Records are the clearly faulty ones: grades Y1 and Y2 of CWRU, all of
 MFPT and HIT-SM. One analysis of up to 60 revolutions for each record and each answer.
 """
 
@@ -22,10 +22,10 @@ from beardyn_core.config import load_plate
 from beardyn_core.measured.stated_speed import UNCERTAINTY
 from beardyn_core.monitor.chain import FAULTS, REFERENCE, MonitorSettings, Stretch
 from evidence.measured.cases import DRIVE, FAN, HIT, MFPT, PLATES, Listening, Record, listenings, records
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.runner import KeptResults
 
-PAGE = DOCS / "monitor_wrong_inputs.md"
+PAGE = REPORTS / "monitor_wrong_inputs.md"
 ERRORS = tuple(range(-8, 9))  # of the stated speed, [%]
 REVOLUTIONS, LONGEST_S = 60.0, 20.0
 # rolling elements, their diameter and their circle [mm]; 6204 and 6206 are assumed from common tables
@@ -165,7 +165,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--results", type=Path, metavar="FILE", help="JSON to keep answers in, and go on from"
     )
     parser.add_argument(
-        "-o", "--output", type=Path, default=PAGE, help="default docs/monitor_wrong_inputs.md"
+        "-o", "--output", type=Path, default=PAGE, help="default docs/evidence/monitor_wrong_inputs.md"
     )
     args = parser.parse_args(arguments)
     chosen = records(args.cwru, args.mfpt, args.hit)

@@ -3,6 +3,6 @@
 ====== ==============================================================
 module responsibility
 ====== ==============================================================
-page   goals beside what was measured: docs/performance.md
+page   goals beside what was measured: docs/performance.md, docs/evidence/speed.md
 ====== ==============================================================
 """

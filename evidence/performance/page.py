@@ -1,4 +1,4 @@
-"""Write docs/performance.md from the numbers of `make bench`.
+"""Write docs/performance.md and docs/evidence/speed.md from the numbers of `make bench`.
 
 ``python -m evidence.performance.page bench.json``
 """
@@ -9,11 +9,12 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from evidence.pages import DOCS, render
+from evidence.pages import DOCS, REPORTS, render
 from evidence.runner import read_json
 from evidence.tables import markdown
 
-PAGE = DOCS / "performance.md"
+PAGE, REPORT = DOCS / "performance.md", REPORTS / "speed.md"
+FOR_USERS = ("right_answers", "paced", "train", "cold_start", "compiling")
 
 # More than this and something else was running.
 IDLE = 0.7
@@ -78,13 +79,22 @@ def shown(cell: Any) -> str:
 
 
 def page(result: dict[str, Any]) -> str:
-    """Put the whole page together."""
+    """Put the page for users together."""
     tables = result["tables"]
     values = {
         "machine": result["machine"],
-        "busy": result["machine"]["load_average_before"] > IDLE,
         "goals": markdown(("", "floor", "goal", "measured", "reached"), goal_rows(tables)),
-        "tables": {name: _table(table) for name, table in tables.items()},
+        "tables": {name: _table(table) for name, table in tables.items() if name in FOR_USERS},
+    }
+    return render(Path(__file__).parent / "users.md", values)
+
+
+def report(result: dict[str, Any]) -> str:
+    """Put the report together: every other table."""
+    values = {
+        "machine": result["machine"],
+        "busy": result["machine"]["load_average_before"] > IDLE,
+        "tables": {name: _table(table) for name, table in result["tables"].items() if name not in FOR_USERS},
     }
     return render(__file__, values)
 
@@ -99,7 +109,9 @@ def main() -> None:
     """Read and write."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("numbers", type=Path, help="JSON file of make bench")
-    PAGE.write_text(page(read_json(parser.parse_args().numbers)), encoding="utf-8")
+    found = read_json(parser.parse_args().numbers)
+    PAGE.write_text(page(found), encoding="utf-8")
+    REPORT.write_text(report(found), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Write what docs/sweep.md says in numbers: ``python -m evidence.population.page FOLDER --measured DATA``.
+"""Write docs/evidence/learner.md: ``python -m evidence.population.page FOLDER --measured DATA``.
 
 FOLDER holds the set ``spalls`` (``beardyn sweep spalls -o FOLDER/spalls``; else it is made, with as many
 runs as ``--trained`` says) and gets the sets that the learner is tested on besides; DATA is a folder with the
@@ -20,14 +20,14 @@ from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TRAIN, LabelledSet
 from beardyn_core.population.learner import TRANSFERABLE, Learner
 from beardyn_core.study.table import Column, Table
-from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.pages import PICTURES, REPORTS, render, save_small
 from evidence.population import scale
 from evidence.population.causes import causes
 from evidence.population.measured import collection_of, features_of_records, records
 from evidence.population.sets import OTHERS, TRAINED, other_set, trained_set
 from evidence.runner import read_json, write_json
 
-PAGE, PICTURE = DOCS / "sweep.md", PICTURES / "population.png"
+PAGE, PICTURE = REPORTS / "learner.md", PICTURES / "population.png"
 MARK = "<!-- from here on written by python -m evidence.population.page -->"
 FEATURES = {"all features": NAMES, "features that compare a signal with itself": TRANSFERABLE}
 CHANCE = 0.25
@@ -145,7 +145,7 @@ def _widths(widths: list[dict[str, Any]]) -> Table:
     columns: list[Column] = [
         (
             "width of the spall",
-            lambda row: f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "sound",
+            lambda row: f"{row['low']:g} to {row['high']:g} mm" if row["high"] else "healthy",
         ),
         ("runs", lambda row: str(row["runs"])),
         ("named right", lambda row: f"{100 * row['right']:.0f} %"),
@@ -240,8 +240,8 @@ def _efficiency(rows: list[dict[str, Any]]) -> str:
     clock = (two["runs"] / two["wall_s"]) / (one["runs"] / one["wall_s"]) / (two["workers"] / one["workers"])
     return (
         f"From {one['workers']} to {two['workers']} processes: {100 * own:.0f} % of the runs an hour of each "
-        f"core are left, by processor time and waiting; by the clock {100 * clock:.0f} %, beside what else "
-        "the machine had to do (*load*: processes that wanted a core at the end of it)."
+        f"core are left, by processor time and waiting; by the clock {100 * clock:.0f} %, with "
+        "other work of the machine (*load*: processes that wanted a core at the end of it)."
     )
 
 

@@ -84,7 +84,7 @@ def test_the_page_says_what_was_measured() -> None:
     assert "| all features | 88 % | **38 points** |" in text
     assert "whitened: 66 %, both: 78 %. With fewer runs to learn from: 78 % of 1400 runs, 70 % of 700" in text
     assert "| 1 to 2 mm | 44 | 31 % |" in text
-    assert "| sound | 92 | 90 % |" in text
+    assert "| healthy | 92 | 90 % |" in text
     assert "A sweep of 2000 runs of 2 s, 3 failed" in text
     assert "busy with them for 20 min each" in text
     # 3600 s x 90 % / (0.35 + 0.02) s
@@ -99,12 +99,12 @@ def test_the_page_says_what_was_measured() -> None:
 
 
 def test_writing_again_keeps_what_is_above_the_mark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_module, "PAGE", tmp_path / "sweep.md")
+    monkeypatch.setattr(page_module, "PAGE", tmp_path / "learner.md")
     monkeypatch.setattr(page_module, "PICTURE", tmp_path / "population.png")
-    (tmp_path / "sweep.md").write_text("# By hand\n")
+    (tmp_path / "learner.md").write_text("# By hand\n")
     for _ in range(2):
         write_page(json.loads(json.dumps(found())))
-    text = (tmp_path / "sweep.md").read_text()
+    text = (tmp_path / "learner.md").read_text()
     assert text.startswith("# By hand\n")
     assert text.count(page_module.MARK) == text.count("## How fast, how big") == 1
     assert (tmp_path / "population.png").stat().st_size > 1000
@@ -147,7 +147,7 @@ def test_records_are_named_by_their_folders_and_have_the_features_of_simulated_r
 
 @pytest.mark.slow
 def test_eight_workers_take_an_eighth_of_the_time_of_slow_runs() -> None:
-    """At least 80 % on a machine with other work; docs/sweep.md has what was measured."""
+    """At least 80 % on a machine with other work; docs/evidence/learner.md has what was measured."""
     import time
 
     with Engine(Cluster(workers=8)) as engine:

@@ -1,4 +1,4 @@
-"""Write docs/random.md from the results of `make random`: ``python -m evidence.random.page random_runs``."""
+"""Write docs/evidence/random.md from `make random`: ``python -m evidence.random.page random_runs``."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections import Counter
 from pathlib import Path
 
 from beardyn_core.physics.tiers.status import SENTENCES, Status
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.random.book import last_code, results
 from evidence.random.scenes import BEARINGS, KERNELS
 from evidence.random.trial import ENDS, FAILED, REFUSED, VERDICTS, Tried
 from evidence.tables import markdown
 
-PAGE = DOCS / "random.md"
+PAGE = REPORTS / "random.md"
 
 
 def main(words: list[str] | None = None) -> None:

@@ -202,7 +202,7 @@ def _time_of_the_train(folder: Path) -> str:
     reference = _in_graphs(folder, scenes)[0].messages["source_time"][0]
     ahead = 1e-9 * (header_stamp(reference) - time_reference(reference))
     return (
-        f"stamps {ahead:.3f} s ahead of simulated time, told on source_time; a step of load is in the force "
+        f"stamps {ahead:.3f} s ahead of simulated time, on source_time; a step of load is in the force "
         "at its stamp, within two blocks; a clock that is set costs no sample"
     )
 
@@ -261,7 +261,7 @@ FAULTS = (
     ),
     Fault(
         15, "a foreign truth chooses the folder, splits the recording or ends the recorder",
-        "a file where the truth says; a run in two files, exit 0", _in_graph(strangers.strange_truth),
+        "a file as the truth names it; a run in two files, exit 0", _in_graph(strangers.strange_truth),
     ),
     Fault(
         16, "a device or a FIFO given as CSV", "hangs, or takes all memory", _in_graph(strangers.devices),

@@ -14,15 +14,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from evidence.pages import DOCS
+from evidence.pages import REPORTS
 from evidence.ros.faults import FAULTS, Fault
 
-PAGE = DOCS / "ros.md"
+PAGE = REPORTS / "ros.md"
 HEAD = """# The ROS graph: faults found by outside clients, then and now
 
 ros2cli, launch, rosbags and mcap found these faults in the nodes. `python -m
 evidence.ros.review --page` plays each again with real processes and writes this page. Real time and memory
-beside recorder and monitor are measured by `python -m evidence.ros.costs --scene cup_spall --auto` and
+with recorder and monitor are measured by `python -m evidence.ros.costs --scene cup_spall --auto` and
 `python -m evidence.ros.memory`; nodes that are killed, starved and fed nonsense by `make soak`.
 
 | | fault | then | now | holds |

@@ -8,7 +8,7 @@ spectrum    force spectrum, and where its bands come from
 friction    tangential over normal force of each kind of contact
 comparison  the rows of the page
 pictures    its pictures
-page        writes docs/santos2017.md
+page        writes docs/evidence/santos2017.md
 =========== ==========================================================
 
 References

@@ -1,16 +1,16 @@
-"""Write docs/santos2017.md and its pictures: ``python -m evidence.santos2017.page``.
+"""Write docs/evidence/santos2017.md and its pictures: ``python -m evidence.santos2017.page``.
 
 This runs everything: half a minute with compiled kernels.
 """
 
 from __future__ import annotations
 
-from evidence.pages import DOCS, PICTURES, render
+from evidence.pages import PICTURES, REPORTS, render
 from evidence.santos2017.comparison import SantosRuns, refusal, rows, run_all
 from evidence.santos2017.pictures import DRAWINGS
 from evidence.santos2017.spectrum import PUBLISHED_BAND, Bands
 
-PAGE = DOCS / "santos2017.md"
+PAGE = REPORTS / "santos2017.md"
 
 
 def spectrum_row(each: Bands, reference: Bands) -> tuple[str, ...]:

@@ -4,7 +4,7 @@
 module         responsibility
 ============== =====================================================
 study          runs of the service scenes, and of each part of a background alone
-variable_speed docs/variable_speed.md: the monitor while the speed changes
-page           docs/sensors.md
+variable_speed docs/evidence/variable_speed.md: the monitor while the speed changes
+page           docs/evidence/sensors.md
 ============== =====================================================
 """

@@ -1,4 +1,4 @@
-"""Write docs/sensors.md: ``python -m evidence.service.page``."""
+"""Write docs/evidence/sensors.md: ``python -m evidence.service.page``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_background, load_sensor, shipped_names
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 from evidence.service.study import (
     LINES,
     OCTAVES_HZ,
@@ -22,7 +22,7 @@ from evidence.service.study import (
 )
 from evidence.tables import markdown
 
-PAGE = DOCS / "sensors.md"
+PAGE = REPORTS / "sensors.md"
 
 
 def _kinds() -> Iterator[tuple[str, ...]]:

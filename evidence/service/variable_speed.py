@@ -1,7 +1,7 @@
 """The monitor while the train runs up, brakes, stops or has worn wheels, with and without a tachometer.
 
-``python -m evidence.service.variable_speed`` writes docs/variable_speed.md. Runs of the twin with the
-background of service, healthy and with a field spall of each part; the vibration is then read as measured.
+``python -m evidence.service.variable_speed`` writes docs/evidence/variable_speed.md. Runs of the twin with
+the background of service, healthy and with a field spall of each part, read as measured vibration.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.monitor.chain import MonitorSettings
 from beardyn_core.study.monitored_recording import Conclusion
-from evidence.pages import DOCS, render
+from evidence.pages import REPORTS, render
 from evidence.runner import KeptResults
 
-PAGE = DOCS / "variable_speed.md"
+PAGE = REPORTS / "variable_speed.md"
 SCENE, TIER, BEARING = "service_high_speed", "quasistatic", "HS130x230"
 # of field spalls that the monitor finds at a steady speed [mm]
 WIDTHS = {"cup": 12.0, "cone": 21.0, "roller": 16.0}

@@ -10,6 +10,6 @@ study      all runs side by side, as the mapping that is written as JSON
 unstable   explicit steps across their limit
 table      the same for the terminal and the page
 picture    spectra of the housing
-page       writes docs/step.md and its picture
+page       writes docs/evidence/step.md and its picture
 ========== =========================================================================
 """

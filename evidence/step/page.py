@@ -1,4 +1,4 @@
-"""Write docs/step.md and its picture from the numbers of `make step`.
+"""Write docs/evidence/step.md and its picture from the numbers of `make step`.
 
 ``python -m evidence.step.page step.json``
 """
@@ -9,14 +9,14 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.pages import PICTURES, REPORTS, render, save_small
 from evidence.runner import read_json
 from evidence.step.cases import BRIDGE, REFERENCE
 from evidence.step.picture import step_picture
 from evidence.step.table import CRITERIA, point_tables, unstable_table
 from evidence.tables import markdown
 
-PAGE = DOCS / "step.md"
+PAGE = REPORTS / "step.md"
 PICTURE = PICTURES / "step.png"
 COLOURS = 32
 

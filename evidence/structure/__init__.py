@@ -6,7 +6,7 @@ module   responsibility
 study    the same questions put to finite elements and to modes
 number   how many modes are enough, and what they cost
 pictures those of the page
-tiers    tiers with a box that bends, side by side: docs/model.md
-page     docs/structure.md
+tiers    tiers with a box that bends, side by side: docs/tiers.md
+page     docs/evidence/structure.md
 ======== =====================================================
 """

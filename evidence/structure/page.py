@@ -1,4 +1,4 @@
-"""Write docs/structure.md and its picture: ``python -m evidence.structure.page``."""
+"""Write docs/evidence/structure.md and its picture: ``python -m evidence.structure.page``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from evidence.pages import DOCS, write_page
+from evidence.pages import REPORTS, write_page
 from evidence.structure.number import (
     DURATION,
     LOWEST_BAND,
@@ -24,7 +24,7 @@ from evidence.structure.number import (
 from evidence.structure.pictures import draw_answer, draw_modes, draw_number
 from evidence.structure.study import BOX, LINES, SPRINGS, Meshed, answers, meshes, on_springs
 
-PAGE = DOCS / "structure.md"
+PAGE = REPORTS / "structure.md"
 
 
 def row(meshed: Meshed) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Pictures of docs/structure.md: the first modes, the answer of the sensor, the number of modes."""
+"""Pictures of docs/evidence/structure.md: the first modes, the answer of the sensor, the number of modes."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 ============== ==============================================================
 module         responsibility
 ============== ==============================================================
-page           docs/trial.md and its picture from what the command wrote
+page           docs/evidence/trial.md, its picture and docs/monitor.md
 growth_picture what is found of spalls while they grow, as a picture
 tiers          a spall in service in two tiers, and the noise that it stands out of
 rivals         the reference, envelope and pre-whitening over the same runs

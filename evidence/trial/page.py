@@ -1,7 +1,8 @@
-"""Write docs/trial.md from the trial.json of trials: ``python -m evidence.trial.page FOLDER [FOLDER ...]``.
+"""Write docs/evidence/trial.md from trial.json files: ``python -m evidence.trial.page FOLDER [FOLDER ...]``.
 
 Folders are those of ``beardyn trial -o FOLDER``. That of `default` makes the page and its picture; of others
-there are sections in it, which stay as they were when their folders are not given.
+there are sections in it, which stay as they were when their folders are not given. docs/monitor.md gets the
+settings of the shipped monitor.
 """
 
 from __future__ import annotations
@@ -14,21 +15,20 @@ from pathlib import Path
 from typing import Any
 
 from beardyn_core.monitor.chain import MonitorSettings
-from evidence.pages import DOCS, PICTURES, render, save_small
+from evidence.pages import DOCS, PICTURES, REPORTS, render, save_small
 from evidence.trial import growth_picture
 from evidence.trial.rivals import EVERY, Judged, orders, table
 
 HERE = Path(__file__).parent
-PAGE = DOCS / "trial.md"
+PAGE, MONITOR_PAGE = REPORTS / "trial.md", DOCS / "monitor.md"
 PICTURE = PICTURES / "trial.png"
 COLOURS = 64
 DEFAULT, GROWTH = "default", "growth"
-NEXT = "## The monitor\n"
+NEXT = "## Limits\n"
 # of another trial, or of other monitors
 _SECTION = re.compile(
     r"^## (?:`\w+`|Beside other monitors|With the effects `standard`)\n(?:(?!## ).*\n)*", re.MULTILINE
 )
-EXAMPLE = DOCS / "examples" / "my_monitor.py"
 
 
 def main() -> None:
@@ -61,6 +61,7 @@ def main() -> None:
     for section in (heard, *map(other_trial, others), beside):
         text = with_section_of(text, section)
     PAGE.write_text(text, encoding="utf-8")
+    MONITOR_PAGE.write_text(monitor_page(), encoding="utf-8")
 
 
 def with_old_sections(page: str, old: str) -> str:
@@ -84,12 +85,19 @@ def with_section_of(page: str, section: str) -> str:
 
 def page(found: dict[str, Any]) -> str:
     """Write the page of a trial's JSON object."""
-    settings = MonitorSettings()
     values = {
         **_results(found),
         "revolutions": found["revolutions"],
         "seed": found["seed"],
         "check": _check(found["check"], found["check_tier"]),
+    }
+    return render(__file__, values)
+
+
+def monitor_page() -> str:
+    """Write the page of the monitor with its settings."""
+    settings = MonitorSettings()
+    values = {
         "rate": settings.false_alarm_rate,
         "harmonics": settings.strike_harmonics,
         "whole": settings.least_strikes,
@@ -104,9 +112,8 @@ def page(found: dict[str, Any]) -> str:
         "hot": settings.hot - 273.15,
         "heating": 60.0 * settings.heating,
         "floor": settings.heating_floor - 273.15,
-        "example": EXAMPLE.read_text(encoding="utf-8"),
     }
-    return render(__file__, values)
+    return render(HERE / "monitor.md", values)
 
 
 def _results(found: dict[str, Any]) -> dict[str, Any]:
@@ -127,7 +134,7 @@ def _results(found: dict[str, Any]) -> dict[str, Any]:
 
 def other_trial(found: dict[str, Any]) -> str:
     """Write the section of another trial."""
-    picture = f"pictures/{growth_picture.PICTURE.name}" if found["trial"] == GROWTH else ""
+    picture = f"../pictures/{growth_picture.PICTURE.name}" if found["trial"] == GROWTH else ""
     return render(HERE / "other_trial.md", {**_results(found), "picture": picture})
 
 

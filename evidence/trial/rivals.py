@@ -1,8 +1,8 @@
 """The reference, a plain envelope spectrum and cepstrum pre-whitening over the same runs of a trial.
 
 ``python -m evidence.trial.rivals -o FILE``: every eleventh run of `default`, simulated once and judged by the
-three monitors of docs/monitor_measured.md, to see whether the twin ranks them as measured records do;
-``python -m evidence.trial.page FOLDER --rivals FILE`` has it on the page.
+three monitors of docs/evidence/monitor_measured.md, to see whether the twin ranks them as measured records
+do; ``python -m evidence.trial.page FOLDER --rivals FILE`` has it on the page.
 """
 
 from __future__ import annotations

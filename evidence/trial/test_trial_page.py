@@ -14,7 +14,15 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.study.trial_report import json_object
 from beardyn_core.study.trial_result import TrialResult
 from evidence.trial import growth_picture
-from evidence.trial.page import beside_standard, other_trial, page, with_old_sections, with_section_of
+from evidence.trial.page import (
+    MONITOR_PAGE,
+    beside_standard,
+    monitor_page,
+    other_trial,
+    page,
+    with_old_sections,
+    with_section_of,
+)
 from evidence.trial.rivals import Judged, as_seldom, judge, orders, table
 from evidence.trial.tiers import SPEEDS, TIERS, added, of_trial, scene_of
 from test.study.test_trial import run_of
@@ -39,12 +47,16 @@ def test_the_page_has_the_rates_of_the_runs() -> None:
     assert "## `quick`" not in text
 
 
+def test_the_page_of_the_monitor_has_its_settings() -> None:
+    assert MONITOR_PAGE.read_text(encoding="utf-8") == monitor_page()
+
+
 def test_what_grows_has_a_picture_and_a_column_for_each_surface(tmp_path: Path) -> None:
     trial = load_trial("growth")
     runs = [run_of(cell, cell.fault if cell.surface == "fine" else "healthy") for cell in trial.cells()]
     found = json.loads(json_text("trial", json_object(TrialResult.of(trial, "", runs))))
     section = other_trial(found)
-    assert "(pictures/growth.png)" in section
+    assert "(../pictures/growth.png)" in section
     assert "| cup | 0.6 | 6/6 | 0/6 | 0/6 |" in section
     growth_picture.draw(found, tmp_path / "growth.png")
     with Image.open(tmp_path / "growth.png") as picture:
@@ -52,9 +64,9 @@ def test_what_grows_has_a_picture_and_a_column_for_each_surface(tmp_path: Path) 
 
 
 def test_sections_of_other_trials_are_put_in_replaced_and_kept() -> None:
-    page = "# Trial\n\n## `quasistatic` against `full`\n\nchecked\n\n## The monitor\n\nabout\n"
+    page = "# Trial\n\n## `quasistatic` against `full`\n\nchecked\n\n## Limits\n\nabout\n"
     one = with_section_of(page, "\n## `shapes`\n\none\n")
-    assert one.index("checked") < one.index("## `shapes`\n\none\n\n## The monitor")
+    assert one.index("checked") < one.index("## `shapes`\n\none\n\n## Limits")
     two = with_section_of(one, "## `shapes`\n\ntwo\n")
     assert two == one.replace("one", "two")
     assert with_old_sections(page, two) == two
@@ -72,8 +84,8 @@ def test_right_effects_and_standard_stand_side_by_side() -> None:
 
     section = beside_standard(found(3e-3), found(1.0))
     assert "| all | 18/27, 66.7 % (46 to 83.5) | 0/27, 0 % (0 to 12.8) |" in section
-    page = with_section_of("# Trial\n\n## The monitor\n\nabout\n", section)
-    assert with_old_sections("# Trial\n\n## The monitor\n\nabout\n", page) == page
+    page = with_section_of("# Trial\n\n## Limits\n\nabout\n", section)
+    assert with_old_sections("# Trial\n\n## Limits\n\nabout\n", page) == page
 
 
 def test_a_spall_adds_its_own_power() -> None:

@@ -29,6 +29,6 @@ rail             standard deviation of track irregularities
 wheelset         modes of a wheelset, levels of axlebox vibration
 every            all of them, in the order of the page
 pictures         small plots of the page
-page             writes docs/validation.md and its pictures
+page             writes docs/evidence/validation.md and its pictures
 ================ ===================================================================
 """

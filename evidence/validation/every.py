@@ -60,8 +60,8 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "Zhao et al. 2026, skew and tilt make 11 to 21 % of the loss, tilt 2.5 times as much as skew",
-        "the source splits its loss formula by attitude; a run has one slip field, whose work cannot be told "
-        "apart by its cause",
+        "the source splits its loss formula by attitude; a run has one slip field, whose work cannot be "
+        "divided by its cause",
     ),
     (
         "coefficients of restitution",
@@ -83,20 +83,22 @@ UNREACHED: tuple[tuple[str, str], ...] = (
     ),
     (
         "cage slip measured on rigs in per cent (Smith 1962, Harris 1966, Guo and Keller 2020, Dawoud 2022)",
-        "no source found gives slip, load, speed, oil and the inside of a bearing together; what their "
-        "abstracts say is among the trends",
+        "no source found gives slip, load, speed, oil and the inside of a bearing together; "
+        "statements of their abstracts are among the trends",
     ),
     (
         "levels of impacts measured on axleboxes and rigs (Tarawneh and others, Pueblo 1999)",
-        "no source found gives level, sensor, bearing and spall together; relations are on docs/impact.md",
+        "no source found gives level, sensor, bearing and spall together; relations: docs/evidence/impact.md",
     ),
     (
         "torque of a LM12700 (Zhou and Hoeprich 1991), HM801349 (Cruz et al. 2021), 32208 (Machines 13:910)",
-        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not told",
+        "measured, but the viscosity, the load (worked back from a starting torque) and the oil are not "
+        "stated",
     ),
     (
         "torque and stiffness of the bearings of a disc cutter (Lubricants 2025, 13, 160, Tables 5 and 6)",
-        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers not told",
+        "measured from 5 to 60 kN, but the torque is that of breaking loose, the number of rollers "
+        "not stated",
     ),
     (
         "heat of bearings of class K and F on rigs (Tarawneh and others 2008 to 2012), service temperatures "

@@ -1,9 +1,9 @@
 """Torque of whole axlebox bearings, and their temperature, as published.
 
 Ours comes from losses by source and the thermal network, `beardyn_core.choice.steady_heat`, with settled
-grease in air of 20 °C; docs/heat.md has the tables. Those of healthy boxes at 200 and 300 km/h were known
-before the rows of boxes in a train were written, and ours of class K before its rows were, so these have the
-tolerance of the Russian cars.
+grease in air of 20 °C; docs/evidence/heat.md has the tables. Those of healthy boxes at 200 and 300 km/h were
+known before the rows of boxes in a train were written, and ours of class K before its rows were; these have
+the tolerance of the Russian cars.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def class_k_torque(axle: AxleResistance) -> float:
 
 SERVICE_MISSES = (
     "the surroundings: in air of 40 °C ours is 95 °C, with 0.4 m2 of box in the air, not 0.6, it is 89 °C; "
-    "the source tells neither"
+    "the source states neither"
 )
 
 

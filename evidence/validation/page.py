@@ -1,4 +1,4 @@
-"""Write docs/validation.md and its pictures: ``python -m evidence.validation.page`` (`make validation`).
+"""Write docs/evidence/validation.md and its pictures: ``make validation``.
 
 Runs every anchor and every trend, the dynamic ones too: a quarter of an hour, the first time also compiling.
 With topics as arguments it works out the numbers, trends and pictures of these alone and leaves the rest of
@@ -11,14 +11,14 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from evidence.pages import DOCS, PICTURES, write_page
+from evidence.pages import PICTURES, REPORTS, write_page
 from evidence.stamps import stamp
 from evidence.tables import joined_rows
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend
 from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
 from evidence.validation.pictures import DRAWINGS
 
-PAGE = DOCS / "validation.md"
+PAGE = REPORTS / "validation.md"
 
 COUNTED = [anchor for anchor in ANCHORS if not anchor.beside]
 OTHERS = "## Formulas that the simulator does not use"
@@ -99,7 +99,7 @@ def trend_lines(trend: Trend, finding: Finding) -> list[str]:
     lines = [trend_heading(trend), "", f"{finding.sentence} Verdict: {verdict}.", ""]
     lines += [f"Source: {trend.source}.", ""]
     if trend.picture:
-        lines += [f"![{trend.claim}](pictures/{trend.picture})", ""]
+        lines += [f"![{trend.claim}](../pictures/{trend.picture})", ""]
     return lines
 
 

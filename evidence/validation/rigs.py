@@ -191,7 +191,7 @@ GHENT_MISSES = {
     (
         65.0,
         200.0,
-    ): "the height of the rib contact is not told: with 1.3 mm instead of 0.7 ours is 23 % below, but then "
+    ): "the height of the rib contact is not stated: with 1.3 mm instead of 0.7 ours is 23 % below, but then "
     "56 % above at 400 rpm; no cause was found that serves both",
     (55.0, 400.0): RIB_FILM + "10 % above",
     (65.0, 400.0): RIB_FILM + "16 % above",

@@ -156,7 +156,7 @@ def none_from_the_minimum_load_on() -> Finding:
         max(abs(found[filling]) for filling in (SETTLED, CLOSED)) < HOLDS_FROM,
         f"Slip under {MINIMUM_KN:g} kN: "
         + "; ".join(f"{100.0 * value:.1f} % with {filling.name}" for filling, value in found.items())
-        + ". What catalogues say is taken for grease that has settled.",
+        + ". Figures of catalogues are taken for grease that has settled.",
     )
 
 

@@ -62,28 +62,30 @@ FEW_PULSES = (
 STILL = "as of noise alone: no background with knocks of its own lies under it"
 PRONOSTIA = (
     "first records of six runs to failure of PRONOSTIA, vertical, 5 to 12 kHz, medians of 3.0 to 3.3 "
-    "(docs/levels.md)"
+    "(docs/evidence/levels.md)"
 )
 UNCOVERED = (
     "waves shorter than 1 mm are left out here, and nothing covers the strikes of rollers at the ends of the "
-    "load zone (docs/impact.md)"
+    "load zone (docs/evidence/impact.md)"
 )
 CWRU = (
     "CWRU, 12 kHz, outer races of 6205 and 6203 over the healthy bearing at the same end, least to largest "
-    "of all records of the size (docs/levels.md)"
+    "of all records of the size (docs/evidence/levels.md)"
 )
 OUR_WAVES = "the waves of our raceways, whose height is assumed: over smooth ones it is 3.4"
-MFPT_LOADS = "MFPT, fault of the outer and of the inner race, 0 to 300 lbf: 0.07 and 0.28 (docs/levels.md)"
+MFPT_LOADS = (
+    "MFPT, fault of the outer and of the inner race, 0 to 300 lbf: 0.07 and 0.28 (docs/evidence/levels.md)"
+)
 DEEP_ONES = (
     "the depth, 400 um by assumption: on floors of 2.5 and 5 um, on which rollers rest, it is 0.04 and 0.31; "
-    "the source tells none"
+    "the source states none"
 )
 # least and largest rms of a fault of so many thousandths of an inch, over that of a healthy bearing
 FAULTS_OF_CWRU = {7: (1.3, 12.7), 14: (1.4, 12.7), 21: (1.8, 11.4)}
 SATURATES = (
     "from about 2 mm on a roller carries nothing over the length of the spall, whose growth is the row "
     "above; and over 1 mm it takes the load up again as soon as it has given it up, one stroke of twice the "
-    "change, which an elastic half-space has, too (docs/impact.md)"
+    "change, which an elastic half-space has, too (docs/evidence/impact.md)"
 )
 SHORTEST = (
     "3 mm at 200 km/h alone, by 0.4 ms over 4 mm, for which no cause was looked for; without it bursts last "

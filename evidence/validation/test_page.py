@@ -13,7 +13,7 @@ from evidence.validation.every import ANCHORS, TRENDS, UNREACHED
 from evidence.validation.page import OTHERS, reference_cells, trends_anew, unreached_line
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "evidence" / "validation.md").read_text(encoding="utf-8")
 LINES = PAGE.splitlines()
 LARGEST_PICTURE = 60_000
 BESIDE = {f"evidence.validation.{name}" for name in ("ball_contact", "load_zone", "zhang")}
@@ -36,7 +36,7 @@ def test_page_has_a_paragraph_for_the_trend_with_its_verdict_and_picture(trend: 
     assert verdict.endswith(ending)
     assert source == f"Source: {trend.source}."
     if trend.picture:
-        assert f"(pictures/{trend.picture})" in LINES[start + 6]
+        assert f"(../pictures/{trend.picture})" in LINES[start + 6]
         assert (ROOT / "docs" / "pictures" / trend.picture).stat().st_size < LARGEST_PICTURE
 
 

@@ -55,7 +55,7 @@ SQUATS = (
 SQUATS_HZ = 300.0
 CHINA = (
     "Veh. Syst. Dyn. 2019, 58(10), 10.1080/00423114.2019.1645340: rms on the axlebox of a Chinese train at "
-    "300 km/h, as quoted in github.com/bersamin12/nebulax (rail_phm.md); the band is not told"
+    "300 km/h, as quoted in github.com/bersamin12/nebulax (rail_phm.md); the band is not stated"
 )
 # Of a level whose band is not told.
 CHINA_TOLERANCE: float = 0.3

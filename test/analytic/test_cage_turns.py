@@ -43,7 +43,7 @@ def test_a_ball_is_named_and_the_cage_may_be_meant(seed: int) -> None:
     assert found.also_fits == ("cage",)
     assert found.fault_order == pytest.approx(ORDERS.ftf, rel=0.01)
     assert found.expected_order == ORDERS.ftf
-    assert "roller fault: FTF found at" in found.reason
+    assert "fault of the rolling elements: FTF found at" in found.reason
     assert "a damaged cage would have these lines, too" in found.reason
     assert _heard(_ball(0.15), seed).verdict == "healthy"  # rollers that differ
 

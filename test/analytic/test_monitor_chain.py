@@ -269,7 +269,7 @@ def test_a_dead_axis_is_told_and_a_dead_accelerometer_is_no_healthy_bearing() ->
             "not_diagnosable",
             "the signal is clipped: ",
         ),
-        ("cup", lambda signal: np.clip(signal, -30.0, 30.0), "cup", "cup fault: "),
+        ("cup", lambda signal: np.clip(signal, -30.0, 30.0), "cup", "fault of the outer ring (cup): "),
         (None, lambda signal: signal, "healthy", "no fault: "),
     ],
 )
@@ -377,7 +377,7 @@ def test_a_hot_box_is_called_beside_the_lines() -> None:
     spalled = replace(fault_stretch("cup", 40), temperature=400.0, heating=0.1)
     both = REFERENCE(spalled, ORDERS, ROLLERS, SETTINGS)
     assert (both.verdict, both.temperature_state) == ("cup", "hot")
-    assert both.reason.startswith("hot box: 127 °C, rising by 6.0 K a minute; cup fault")
+    assert both.reason.startswith("hot box: 127 °C, rising by 6.0 K a minute; fault of the outer ring (cup)")
 
 
 def test_a_step_of_ones_own_takes_its_place_in_the_chain() -> None:

@@ -130,7 +130,7 @@ def test_everything_wrong_with_a_file_is_told_at_once(tmp_path):
         read_measurement(written(tmp_path, text))
     found = caught.value.problems
     expected = [
-        "line 2: the row of units says 'kN' for fz_N",
+        "line 2: the row of units has 'kN' for fz_N",
         "line 12: not 5 values as in the header",
         "line 10: speed_rpm is 'sixty'",
         "line 8: fx_N is nan",

@@ -227,7 +227,7 @@ def test_a_band_that_the_ends_of_a_file_turn_round_is_refused(tmp_path, band):
         ("distance_m,vertical_mm\n0,0\n1,nan\n", ["line 3: vertical_mm is nan"]),
         (
             "distance_m,vertical_mm\nm,um\n0,0\n1,1\n",
-            ["line 2: the row of units says 'um' for vertical_mm", "'mm'"],
+            ["line 2: the row of units has 'um' for vertical_mm", "'mm'"],
         ),
         ("distance_m,vertical_mm\n0,0\n2,0\n1,0\n", ["line 4: distance_m does not increase"]),
         (
@@ -248,7 +248,7 @@ def test_everything_wrong_with_a_measured_rail_is_told_at_once(tmp_path):
     with pytest.raises(InputError) as caught:
         read_table(written(tmp_path, text), RAIL_LAYOUT)
     found = "\n".join(caught.value.problems)
-    for words in ("'gauge_mm'", "says 'um'", "line 4: vertical_mm is 'x'", "line 5: distance_m does not",
+    for words in ("'gauge_mm'", "has 'um'", "line 4: vertical_mm is 'x'", "line 5: distance_m does not",
                   "line 6: vertical_mm is inf", "line 7: not 3 values"):  # fmt: skip
         assert words in found
     assert len(caught.value.problems) == 6

@@ -93,7 +93,7 @@ def test_a_fault_that_the_monitor_hears_is_refused(tmp_path: Path, monkeypatch: 
     assert healthy.finding is not None
     spalled = replace(healthy, finding=replace(healthy.finding, verdict="cup", reason="the cup is spalled"))
     monkeypatch.setattr(intake, "conclude", lambda *_, **__: spalled)
-    with pytest.raises(InputError, match=r"hears a fault \(the cup is spalled\)"):
+    with pytest.raises(InputError, match=r"finds a fault \(the cup is spalled\)"):
         bd.calibrate(run, SCENE)
 
 

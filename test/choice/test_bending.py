@@ -38,7 +38,7 @@ def to(scene: Scene, highest: float | None) -> Scene:
 
 
 def test_modes_left_out_cost_what_runs_have_shown(evidence: Evidence) -> None:
-    """docs/structure.md, runs to 8 kHz: 2.8 dB or more with modes to 6 kHz, 0.3 to 0.5 dB with more."""
+    """docs/evidence/structure.md, to 8 kHz: 2.8 dB or more with modes to 6 kHz, 0.3 to 0.5 dB with more."""
     scene = evidence.scene
     whole = levels(scene, evidence.typical, evidence.statics.body, 8912.0)
     expected = {
@@ -130,7 +130,7 @@ def test_auto_of_the_command_line_leaves_the_bearing_in_its_box(scene: str) -> N
 def test_a_sensor_is_told_what_rings_beyond_its_band(evidence: Evidence) -> None:
     (usual,) = rates_told(evidence)
     assert "at 25.6 kHz measures to 10.2 kHz, and 22 modes of the box ring above" in usual
-    assert "rate_kHz 51.2 hears it" in usual
+    assert "rate_kHz 51.2 measures it" in usual
     (fast,) = rates_told(Evidence(boxed(sensors=FAST_SENSOR)))
     assert "the modes of the box end at 12.8 kHz" in fast
     assert list(rates_told(Evidence(variant(effects="all")))) == []

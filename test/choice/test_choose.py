@@ -84,7 +84,7 @@ def test_contacts_damp_where_a_wheel_strikes() -> None:
 
 
 def test_torque_in_a_box_with_modes_takes_the_full_tier() -> None:
-    """`quasistatic` was 6.0 % off in a run, and is 6.3 % off with every effect (docs/ladder.md)."""
+    """`quasistatic` was 6.0 % off in a run, and is 6.3 % off with every effect (docs/evidence/ladder.md)."""
     means = ["force", "deflection", "roller_load", "torque"]
     assert load_scene("service_high_speed", effects="auto", tier="auto", quantities=means).tier == "full"
     assert load_scene("smooth_run", effects=RIGID, tier="auto", quantities=means).tier == "quasistatic"

@@ -125,7 +125,7 @@ def test_the_content_of_another_file_is_refused(tmp_path: Path) -> None:
             with pytest.raises(InputError) as found:
                 read_scene_text(text.replace(here, other))
             told = "\n".join(found.value.problems)
-            assert f"{other}: content beside it is that of {here}; leave content out" in told
+            assert f"{other}: content next to it is that of {here}; leave content out" in told
     assert unpack_file(pack_file("1", "/a/b.csv"), "C:\\a\\b.csv") == "1"
 
 

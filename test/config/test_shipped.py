@@ -109,7 +109,7 @@ def test_spalled_scene_in_si() -> None:
 
 
 def test_standard_preset_is_the_usual_effect_set_with_a_lubricated_rib_and_drag() -> None:
-    """Without them idle rollers, which the rib drives, push the cages ahead (docs/light.md)."""
+    """Without them idle rollers, which the rib drives, push the cages ahead (docs/evidence/light.md)."""
     usual = replace(EffectSet(), rib=Rib(lubrication=RibMixedFilm()), drag=Drag())
     assert load_effects("standard") == usual
 

@@ -15,7 +15,7 @@ import beardyn_core as bd
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 OUTSIDE = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")]
-PAGES = sorted([*DOCS.glob("*.md"), *DOCS.glob("tutorial/*.md"), *OUTSIDE])
+PAGES = sorted([*DOCS.glob("*.md"), *DOCS.glob("tutorial/*.md"), *DOCS.glob("evidence/*.md"), *OUTSIDE])
 LINK = re.compile(r"(?<!\\)\[[^\]\n]*\]\(([^)\s]+)\)")
 
 
@@ -66,7 +66,8 @@ def test_every_page_is_in_the_site_once() -> None:
     text = (DOCS / "index.md").read_text(encoding="utf-8")
     trees = re.findall(r"^```\{toctree\}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
     listed = [line for tree in trees for line in tree.splitlines() if line and not line.startswith(":")]
-    files = [*DOCS.glob("*.md"), *DOCS.glob("tutorial/*.md"), *DOCS.glob("examples/*.ipynb")]
+    kinds = ("*.md", "tutorial/*.md", "evidence/*.md", "examples/*.ipynb")
+    files = [path for kind in kinds for path in DOCS.glob(kind)]
     there = {path.relative_to(DOCS).with_suffix("").as_posix() for path in files} - {"index"}
     assert sorted(listed) == sorted(there)
 

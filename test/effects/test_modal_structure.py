@@ -108,7 +108,7 @@ def test_a_shipped_table_is_of_its_box(name: str) -> None:
 
 
 def test_the_shipped_table_yields_as_its_finite_elements() -> None:
-    """docs/structure.md has 0.2282 um/kN with edges of 18 mm, 1.2 % above that of 25 mm; these were 15."""
+    """docs/evidence/structure.md has 0.2282 um/kN with edges of 18 mm, 1.2 % above that of 25 mm."""
     assert 1e9 * zone_yield(table()) == pytest.approx(0.2282, rel=0.02)
 
 
@@ -311,7 +311,7 @@ def test_the_box_of_a_scene_is_that_of_the_table() -> None:
         ({"effects": {"structure": {"kind": "modes", "table": "none.csv"}}}, "none.csv: cannot be read"),
         (
             {"sensors": [{"name": "a", "position_mm": [0, 0, 170], "measured_paths": [{"path": "a.csv"}]}]},
-            "would hear each of them twice",
+            "would count each of them twice",
         ),
         ({"effects": {"ring_flexibility": True}}, "ring_flexibility is called `structure` now"),
     ],

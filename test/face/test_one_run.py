@@ -191,7 +191,7 @@ def test_a_run_without_blocks_has_arrays_without_samples() -> None:
     run = Run.of_blocks([])
     for name in ARRAYS:
         assert len(getattr(run, name)) == 0, name
-    with pytest.raises(InputError, match="does not say which bearing"):
+    with pytest.raises(InputError, match="does not name its bearing"):
         _ = run.summary
 
 

@@ -79,7 +79,7 @@ def test_every_mistake_of_every_line_is_reported_with_file_and_key(tmp_path: Pat
 
 def test_a_file_that_nothing_names_is_refused_or_told(tmp_path: Path) -> None:
     files(tmp_path, "a.csv", "b.csv")
-    assert "nothing says which axlebox it is of" in problems_of(tmp_path)[0]
+    assert "nothing names its axlebox" in problems_of(tmp_path)[0]
     (tmp_path / "manifest.csv").write_text("file,vehicle,axle,side,time\na.csv,V,1,left,2026-03-01\n")
     listed = list_recordings([tmp_path])
     assert [each.path.name for each in listed.recordings] == ["a.csv"]

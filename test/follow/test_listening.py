@@ -100,7 +100,7 @@ def test_what_the_other_stream_does_not_follow_is_forgotten(first: str, estimato
 def test_an_intake_says_why_it_hears_nothing(estimator: Estimator) -> None:
     values = signal(1.6)
     values[:, :2] = np.nan
-    with pytest.raises(InputError, match="axis x is not measured; the estimator hears x, y, z: train one"):
+    with pytest.raises(InputError, match="axis x is not measured; the estimator needs x, y, z: train one"):
         StretchIntake(estimator).push_vibration(turning(values).vibration.time_ns, values)
     intake, standing = StretchIntake(estimator), turning(signal(1.6), 0.0)
     assert not intake.doubt

@@ -40,7 +40,7 @@ def test_mileages_that_fall_are_refused() -> None:
         (["--at-km", "412000", "400000"], "--at-km: 400000 comes after 412000"),
         (["--at-km", "-1", "400000"], "--at-km: is -1; it must be at least 0"),
         (["--at-km", "400000"], "--at-km: has 1 numbers for 2 recordings"),
-        (["--at-km", "1", "2", "--mileage-km", "1"], "--at-km, --mileage-km: both say the mileage"),
+        (["--at-km", "1", "2", "--mileage-km", "1"], "--at-km, --mileage-km: both give the mileage"),
     ],
 )
 def test_mileages_that_cannot_be_are_refused_by_the_name_of_their_option(

@@ -153,10 +153,10 @@ def test_two_structs_have_their_own_rates_and_two_claims_from_elsewhere_are_refu
     assert bd.read_measured(path, channels="z=vib.acc", unit="g").vibration.rate == RATE
     savemat(path, {"acc": noise(), "one": {"fs": RATE}, "two": {"fs": 1000.0}})
     (found,) = problems(path, unit="g")
-    assert "says one.fs = 12000 (12000 Hz) and two.fs = 1000 (1000 Hz); give --rate-hz" in found
+    assert "states one.fs = 12000 (12000 Hz) and two.fs = 1000 (1000 Hz); give --rate-hz" in found
     savemat(path, {"acc": noise(), "tacho": {"p": noise(), "fs": 1000.0}})
     (found,) = problems(path, channels="z=acc", unit="g")
-    assert "does not say at which rate acc was sampled" in found
+    assert "does not state the rate at which acc was sampled" in found
 
 
 def test_a_unit_beside_a_rate_is_read(tmp_path: Path) -> None:
@@ -193,9 +193,7 @@ def test_a_file_that_claims_one_hertz_does_not_grow(tmp_path: Path) -> None:
     path = tmp_path / "a.npz"
     np.savez(path, a=noise()[:, 0], wf_increment=1.0)
     (found,) = problems(path, unit="g", speed_rpm=1800)
-    assert (
-        "says wf_increment = 1, which is 1 Hz; the sampling rate of a vibration is 200 Hz to 10 MHz" in found
-    )
+    assert "states wf_increment = 1, which is 1 Hz; the sampling rate of a vibration is 200 Hz to" in found
 
 
 def test_a_speed_channel_far_longer_or_faster_than_the_vibration_stays_small(tmp_path: Path) -> None:
@@ -277,7 +275,7 @@ def test_a_ramp_of_time_is_no_axis(first: float, tmp_path: Path) -> None:
     np.testing.assert_allclose(run.vibration.values, noise(axes=3) * 9.80665)
     savemat(tmp_path / "a.mat", {"d": np.column_stack([time, noise(axes=2)])})
     (found,) = problems(tmp_path / "a.mat", unit="g")
-    assert "does not say which channel is the acceleration" in found
+    assert "does not state which channel is the acceleration" in found
     assert "it has d[1], d[2]" in found
 
 

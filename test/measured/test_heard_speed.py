@@ -61,7 +61,7 @@ def test_a_file_without_speed_is_monitored_by_its_own_lines(tmp_path):
     options: dict[str, Any] = {"unit": "m/s2", "rate_Hz": RATE, "speed_range_rpm": "1500:2000"}
     run = bd.read_measured(tmp_path / "motor.csv", bearing=PLATE, **options)
     assert run.measured["speed"]["from"] == "vibration"
-    assert any("the vibration says that the shaft turns" in told for told in run.measured["understood"])
+    assert any("by the vibration the shaft turns" in told for told in run.measured["understood"])
     assert bd.monitor(run).verdict == "cup"
 
 

@@ -116,10 +116,10 @@ def test_what_is_not_known_is_asked_for_with_what_the_file_has(tmp_path: Path) -
     found = problems(path)
     assert len(found) == 3
     assert "give --channels z=NAME (or x=NAME,y=NAME,z=NAME), it has left, right" in found[0]
-    assert "does not say the unit" in found[1]
-    assert "does not say at which rate" in found[2]
+    assert "does not state the unit" in found[1]
+    assert "does not state the rate at which" in found[2]
     found = problems(path, channels="z=left")
-    assert "does not say the unit of left; give --unit" in found[0]
+    assert "does not state the unit of left; give --unit" in found[0]
 
 
 def test_an_unknown_unit_is_never_guessed(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_an_unknown_unit_is_never_guessed(tmp_path: Path) -> None:
 
 def test_a_rate_that_contradicts_the_time_is_told(tmp_path: Path) -> None:
     with pytest.warns(
-        UserWarning, match=r"the time stamps time_s say 12000 Hz; taken are 48000 Hz, as asked"
+        UserWarning, match=r"the time stamps time_s give 12000 Hz; taken are 48000 Hz, as asked"
     ):
         run = bd.read_measured(csv(tmp_path), rate_Hz=48_000.0)
     assert run.vibration.rate == 48_000.0
@@ -149,8 +149,8 @@ def test_a_file_that_says_two_rates_is_refused_until_an_option_decides(tmp_path:
         file["time"], file["az_g"] = TIME, noise()[:, 0]
         file["az_g"].attrs["fs"] = 25_600.0
     (found,) = problems(path)
-    assert "says az_g.fs = 25600 (25600 Hz) and the time stamps time say 12000 Hz; give --rate-hz" in found
-    with pytest.warns(UserWarning, match="says az_g.fs = 25600, 25600 Hz; taken are 12000 Hz"):
+    assert "states az_g.fs = 25600 (25600 Hz) and the time stamps time give 12000 Hz; give --rate-hz" in found
+    with pytest.warns(UserWarning, match="states az_g.fs = 25600, 25600 Hz; taken are 12000 Hz"):
         assert bd.read_measured(path, rate_Hz=RATE).vibration.rate == RATE
 
 
@@ -202,7 +202,7 @@ def test_a_recording_without_speed_is_told_to_be_imported_again(
     made = str(bd.import_measured(csv(tmp_path), tmp_path / "run.mcap"))
     assert main(["monitor", made]) == BAD_INPUT
     said = capsys.readouterr().err
-    assert "does not say which bearing it is of; give --bearing" in said
+    assert "does not name its bearing; give --bearing" in said
     assert "was imported without the speed of the shaft" in said
     assert "import the file that it is of again with one of --speed-rpm" in said
     assert main(["monitor", made, "--speed-rpm", "1800", "--bearing", "6205"]) == BAD_INPUT

@@ -67,7 +67,7 @@ def test_the_page_leads_from_a_csv_file_to_a_verdict_in_three_commands(
     assert "no samples missing" in report
     assert main(three[2]) == EXIT_CODES["cup"]
     verdict, size = capsys.readouterr().out.splitlines()[-2:]
-    assert verdict == "cup: 7 of 7 analyses, confidence 0.99"
+    assert verdict == "outer ring (cup): 7 of 7 analyses, confidence 0.99"
     assert size.startswith("size: not measurable: ")
     assert verdict in PAGE
 
@@ -86,7 +86,8 @@ def test_the_programs_and_other_commands_of_the_page_do_what_it_says(
     inline = re.search(r"`beardyn (monitor motor\.csv [^`]*)`", PAGE)
     assert inline is not None
     assert main(shlex.split(inline[1])) == EXIT_CODES["cup"]
-    assert capsys.readouterr().out.splitlines()[-2].startswith("cup: 7 of 7 analyses, confidence 0.9")
+    verdict = capsys.readouterr().out.splitlines()[-2]
+    assert verdict.startswith("outer ring (cup): 7 of 7 analyses, confidence 0.9")
     (program,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     exec(compile(program, "page", "exec"), {"bd": bd})
     assert "cup" in capsys.readouterr().out.splitlines()
@@ -94,7 +95,7 @@ def test_the_programs_and_other_commands_of_the_page_do_what_it_says(
     assert main(two) == EXIT_CODES["cone"]  # the worst decides
     healthy, cone, size, hidden = capsys.readouterr().out.splitlines()[-4:]
     assert healthy.startswith("drive_end healthy: 7 of 7 analyses, confidence 0.")
-    assert cone.startswith("fan_end cone: 7 of 7 analyses, confidence 0.9")
+    assert cone.startswith("fan_end inner ring (cone): 7 of 7 analyses, confidence 0.9")
     assert size.startswith("fan_end size: not measurable: ")
     assert hidden == "fan_end not judged: rolling elements, whose lines are multiples of the shaft's"
     plate = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
@@ -169,7 +170,7 @@ def test_the_monitor_asks_for_bearing_and_speed_at_once(
     assert main(["monitor", str(motor(tmp_path))]) == BAD_INPUT
     told = capsys.readouterr().err.splitlines()
     assert len(told) == 2
-    assert "does not say which bearing it is of; give --bearing" in told[0]
+    assert "does not name its bearing; give --bearing" in told[0]
     assert "the speed of the shaft is not known, and a monitor needs it; give one of --speed-rpm" in told[1]
     words = ["--speed-rpm", "1800", "--bearing", "a=6205@top", "--bearing", "a=6203", "--bearing", "x=y=z"]
     assert main(["monitor", str(motor(tmp_path)), *words]) == BAD_INPUT

@@ -136,7 +136,7 @@ def test_any_start_of_the_speed_is_kept(
 
 def test_a_start_that_only_one_table_has_and_two_clocks_are_told(tmp_path: Path) -> None:
     path = _tdms(tmp_path / "a.tdms", {"wf_start_time": EPOCH}, {})
-    with pytest.warns(UserWarning, match="does not say when speed began; taken is with the others"):
+    with pytest.warns(UserWarning, match="does not state when speed began; taken is with the others"):
         bd.read_measured(path, channels="z=az", speed_channel="speed")
     path = _tdms(tmp_path / "a.tdms", {"wf_start_time": EPOCH}, {"wf_start_offset": 1.0})
     with pytest.warns(UserWarning, match="az and speed are of different clocks, a date and seconds"):

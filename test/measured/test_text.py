@@ -277,7 +277,7 @@ def test_a_unit_behind_a_space_is_read(heading: str, row: str, name: str, tmp_pa
 def test_a_sentence_above_the_only_column_is_no_heading(line: str, tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("\n".join([line, *(f"{0.25 + number % 7}" for number in range(100))]))
-    with pytest.raises(bd.InputError, match="does not say the unit of 1"):
+    with pytest.raises(bd.InputError, match="does not state the unit of 1"):
         bd.read_measured(path, rate_Hz=1000.0)
 
 

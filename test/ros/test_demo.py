@@ -48,7 +48,7 @@ def test_demo_finds_the_spall_and_leaves_its_files(graph: Graph) -> None:
     graph.processes.start("demo", "-m", "beardyn_ros", "demo", *words)
     assert graph.processes.wait("demo", timeout=280.0) == 0, graph.processes.log("demo")
     log = graph.processes.log("demo")
-    assert "monitor found         cup fault" in log
+    assert "monitor found         fault of the outer ring (cup)" in log
     assert "the monitor is right" in log
     assert "real-time factor" in log
     for name in ("run.mcap", "run.rrd", "summary.png"):

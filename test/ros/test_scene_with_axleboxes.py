@@ -54,7 +54,7 @@ def test_refusals_end_the_nodes_with_2_and_a_sentence(graph: Graph) -> None:
         "load": ({}, "car.launch.py scene:=bogie"),
         "car_twin": (
             {"faulty": "axle_1_left"},
-            "parameter 'faulty': scene 'bogie' says it, axleboxes.faulty",
+            "parameter 'faulty': scene 'bogie' gives it, axleboxes.faulty",
         ),
         "car_load": ({"axle_distance": 2.5}, "parameter 'axle_distance': scene 'bogie' says it"),
         "car_recorder": (
@@ -230,7 +230,7 @@ def test_a_launch_takes_some_of_the_boxes_and_refuses_what_the_scene_says(graph:
         "scene:=bogie", "faulty_box:=axle_1_left", "axle_distance:=2.0",
     )  # fmt: skip
     assert graph.exit_code("refused") != 0
-    assert "its axleboxes say what faulty_box, axle_distance would" in graph.processes.log("refused")
+    assert "its axleboxes set what faulty_box, axle_distance would" in graph.processes.log("refused")
     graph.dismiss("refused")
 
 

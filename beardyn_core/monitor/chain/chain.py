@@ -71,7 +71,7 @@ class Chain:
     Process. 25: the same order of steps.
     """
 
-    select_band: A[Callable[[Stretch, MonitorSettings], Band], "where to listen"] = whole_band
+    select_band: A[Callable[[Stretch, MonitorSettings], Band], "which frequencies are used"] = whole_band
     whiten: A[Callable[[Stretch, MonitorSettings], Stretch], "the same with a weight for every frequency"] = (
         by_cepstrum
     )
@@ -210,7 +210,7 @@ def _doubt_speed(verdict: Verdict, drift: Drift, level: float, fall: float) -> V
         change = f"{size:.0f} dB" if size < _NOTHING_LEFT else f"more than {_NOTHING_LEFT:g} dB"
         reason = (
             f"the level changes by {change} {where}, as where a train stops or starts, passes a bridge, or a "
-            "signal fails: a constant speed is not believed; give a tachometer or a speed channel"
+            "signal fails: a constant speed does not fit; give a tachometer or a speed channel"
         )
     else:
         return verdict

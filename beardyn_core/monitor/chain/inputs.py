@@ -98,9 +98,9 @@ class MonitorSettings:
     are no chance, and no fault. They are smooth: one harmonic holds most of them. What is called must strike:
     beyond its loudest harmonic, others must hold `least_strikes` of the mean power. Of measured analyses that
     name a fault right 99 % have more than 0.33; no surely present line of a healthy bearing, measured next to
-    a faulty one or simulated, had more than 0.27 (docs/monitor_measured.md). Where a loud tone or the track
-    fills the band, `least_sharpest` in one octave does; there healthy ones had up to 0.7 at BPFO, with which
-    their rollers pass, and 0.4 at the lines of cone and roller. How loud a fault is does not count.
+    a faulty one or simulated, had more than 0.27 (docs/evidence/monitor_measured.md). Where a loud tone or
+    the track fills the band, `least_sharpest` in one octave does; there healthy ones had up to 0.7 at BPFO,
+    with which their rollers pass, and 0.4 at the lines of cone and roller. Its level does not count.
 
     Rollers slip, so that lines lie 1 to 2 % next to the orders of the bearing data (Randall, Antoni 2011,
     section 2.2); a roller that spins on through the unloaded side in settled grease does so here, by 1.8 %
@@ -109,7 +109,7 @@ class MonitorSettings:
     EN 15437-2 asks for levels and leaves their values to the vehicle; those here are assumed: 90 and
     120 °C, and 5 K a minute above 60 °C. Healthy boxes with settled grease are silent up to 300 km/h in air
     of 40 °C (freshly greased ones are warm then), and overgreased, preloaded and starved ones are at least
-    warm there (docs/heat.md).
+    warm there (docs/evidence/heat.md).
     """
 
     band: A[tuple[float, float], "of the envelope where no band stands out, [Hz]"] = (2000.0, 10_000.0)
@@ -151,7 +151,7 @@ class MonitorSettings:
     ] = ()
     harmonics: A[int, "multiples of a fault frequency that are added up, the fundamental included"] = 5
     false_alarm_rate: A[float, "probability that noise alone passes the threshold of an analysis, [-]"] = 1e-4
-    strike_harmonics: A[int, "multiples of a fault frequency by which strikes are told from a hum"] = 8
+    strike_harmonics: A[int, "multiples of a fault frequency by which strikes differ from a hum"] = 8
     least_strikes: A[float, "what those but the loudest must make of the mean power for a fault, [-]"] = 0.3
     least_sharpest: A[
         tuple[float, float, float], "or what they must make in one of `strike_bands`: cup, cone, roller, [-]"
@@ -174,7 +174,7 @@ class MonitorSettings:
     ] = 1.0
     foreign_sharpest: A[float, "or what they must make in one of `strike_bands`, [-]"] = 1.5
     clockwork_depth: A[
-        float, "line over the mean power from which the signal is heard as measured, too, [-]"
+        float, "line over the mean power from which the signal is judged as measured, too, [-]"
     ] = 0.25
     clockwork_strikes: A[float, "in place of `least_strikes` there, [-]"] = 1.0
     warm: A[float, "temperature of the axlebox from which it is warm, [K]"] = 363.15

@@ -10,7 +10,7 @@ from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.monitor.chain.cage_turns import WELL_KNOWN
 from beardyn_core.monitor.chain.competing_orders import is_related
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE
-from beardyn_core.monitor.chain.explanations import Explanation, explanations
+from beardyn_core.monitor.chain.explanations import PART_NAMES, Explanation, explanations
 from beardyn_core.monitor.chain.fault_lines import COMB, FAULTS, ROLLER, Candidate, FaultLines
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 
@@ -244,7 +244,7 @@ def _fault_sentence(best: Candidate, shaft_frequency: float, settings: MonitorSe
     deviation = order / expected - 1.0
     symbol = own.sideband_symbol if expected == own.cage else own.symbol
     sentence = (
-        f"{own.fault} fault: {symbol} found at {order * shaft_frequency:.2f} Hz, "
+        f"fault of the {PART_NAMES[own.fault]}: {symbol} found at {order * shaft_frequency:.2f} Hz, "
         f"{expected * shaft_frequency:.2f} Hz from bearing data ({100.0 * deviation:+.2f} %), "
         f"its lines {best.score:.1f} dB over noise, the alarm is at {best.threshold:.1f} dB"
     )

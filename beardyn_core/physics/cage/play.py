@@ -65,7 +65,7 @@ _LIMITING_SHEAR = 0.045  # of an oil film over the pressure, [-]
 _SLIDE = 0.01  # slip over rolling speed at which the film reaches it
 _SLOWEST = 0.05  # [m/s]
 # Surface speed of the rollers [m/s] below which pockets are dry, and from which on they have their film: the
-# explicit cage sways with a film that is slower, by 4 % of its speed at 20 rpm (docs/light.md).
+# explicit cage sways with a film that is slower, by 4 % of its speed at 20 rpm (docs/evidence/light.md).
 _DRY_BELOW, _FILM_FROM = 0.4, 0.6
 _LONGEST_LOOSE_STEP = 1.001 / 25_600.0  # [s]
 

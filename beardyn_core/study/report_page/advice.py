@@ -35,7 +35,7 @@ _CHECK_INPUTS = (
 )
 _PLAN = (
     "If a second record agrees, plan to inspect or exchange the bearing. How far the vehicle may run until "
-    "then is for the rules of its keeper; this page does not say."
+    "then is for the rules of its keeper; this page makes no statement on it."
 )
 _FAULT_ACTIONS = (_CONFIRM, _CHECK_INPUTS, _PLAN)
 _AGAIN = (
@@ -86,7 +86,7 @@ ADVICE: dict[str, Advice] = {
         (
             "Do not read this page as healthy: the strikes are there.",
             "Check the speed (wheel diameter, gear ratio, tachometer) and the designation of the bearing; "
-            "the sentence under the verdict says what would fit.",
+            "the sentence under the verdict names what would fit.",
             "Look for another source: the wheel tread, a gear, a fan, another bearing on the shaft (name it "
             "with --neighbour). Then make this page again.",
         ),
@@ -142,7 +142,7 @@ def headline_of(inspection: Inspection, files: Sequence[str] = ()) -> Headline:
     finding = inspection.conclusion.finding
     if finding is not None and finding.also_fits:
         others = " and ".join(map(in_words, finding.also_fits))
-        sentence += f" The lines fit {others} as well: which of them it is cannot be told."
+        sentence += f" The lines fit {others} as well: which of them it is stays open."
     severity = inspection.severity
     if severity is not None and isfinite(severity.width):
         sentence += f" The spall is about {1e3 * severity.width:.1f} mm wide ({severity.grade})."
