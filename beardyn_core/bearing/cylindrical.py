@@ -26,8 +26,8 @@ _SIDES = {"none": (), "inner": (-1.0,), "outer": (1.0,), "both": (-1.0, 1.0)}
 class CylindricalBearing(RadialBearing):
     """A pair of cylindrical roller bearings, such as NJ and NJP, with a spacer or none between them.
 
-    Sides of ribs are those of a row: ``outer`` is away from the middle of the pair. `sources` states where each
-    number comes from, or ``assumed``.
+    Sides of ribs are those of a row: ``outer`` is away from the middle of the pair. `sources` states where
+    each number comes from, or ``assumed``.
     """
 
     kind: ClassVar[str] = "cylindrical"

@@ -22,8 +22,8 @@ from beardyn_core.bearing.radial_bearing import RadialBearing
 class SphericalBearing(RadialBearing):
     """A double-row spherical roller bearing with symmetric barrels.
 
-    Rollers without load are held by cage and guide ring, which carry nothing in statics. `sources` states where
-    each number comes from, or ``assumed``.
+    Rollers without load are held by cage and guide ring, which carry nothing in statics. `sources` states
+    where each number comes from, or ``assumed``.
     """
 
     kind: ClassVar[str] = "spherical"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -159,7 +160,7 @@ def test_a_scene_made_of_nouns_refuses_them() -> None:
         ({"radial_clearance_mm": 4.0}, "radial_clearance_mm"),
     ],
 )
-def test_a_cylindrical_bearing_that_cannot_be_is_refused(keys: dict[str, object], said: str) -> None:
+def test_a_cylindrical_bearing_that_cannot_be_is_refused(keys: dict[str, Any], said: str) -> None:
     with pytest.raises(bd.InputError, match=said):
         bd.bearing("WJ130x240", **keys)
 
@@ -173,7 +174,7 @@ def test_a_cylindrical_bearing_that_cannot_be_is_refused(keys: dict[str, object]
         ({"end_play_mm": 0.1}, "unknown key"),
     ],
 )
-def test_a_spherical_bearing_that_cannot_be_is_refused(keys: dict[str, object], said: str) -> None:
+def test_a_spherical_bearing_that_cannot_be_is_refused(keys: dict[str, Any], said: str) -> None:
     with pytest.raises(bd.InputError, match=said):
         bd.bearing("SRB120x260", **keys)
 
