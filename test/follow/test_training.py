@@ -166,7 +166,7 @@ def test_options_that_cannot_be_are_refused_at_once(
     assert main(["train", str(tmp_path), "-o", str(tmp_path / "one.txt"), "--axes", "zw"]) == 2
     told = capsys.readouterr().err
     assert "let its name end in .npz" in told
-    assert "--axes 'zw': give one or more of x, y and z, each once" in told
+    assert "--axes: 'zw' is no set of axes; give one or more of x, y and z, each once" in told
     one = tmp_path / "one.npz"
     one.touch()
     assert main(["train", str(tmp_path), "-o", str(one), "--test", str(one), "--force"]) == 2
