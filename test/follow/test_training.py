@@ -46,7 +46,10 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
     found = training.train(runs)
-    check("train", json.loads(json_text("train", {"file": Path("one.npz"), "card": found.card})))
+    check(
+        "train",
+        json.loads(json_text("train", {"file": Path("one.npz"), "card": found.card, "other_files": []})),
+    )
     assert (found.rate, found.stretch) == pytest.approx((RATE, STRETCH))
     assert found.card["runs"] == PARTS["train"]
     assert found.card["condition"]["runs"] == PARTS["test"]
