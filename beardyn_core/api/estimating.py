@@ -259,7 +259,7 @@ def train(
         File to write; default none. It is an NPZ file.
     calibration : sequence of LabelledSet or Path
         Another set that straightens estimates and sets the intervals, such as a small one of a truer
-        tier; the validation part of the set widens them where it needs wider ones.
+        tier; the parts of the set that neither teach nor judge widen them where these need wider ones.
     test : LabelledSet or Path, optional
         Another set, all of it to judge the estimator by; default the test part of the set.
     axes : sequence of str

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from beardyn_core.population.training_sweep import TrainingSweep
 
 _AXES = "xyz"
-_TRAINING_S = 80.0  # processor time of an estimator from its runs, [s]
+_TRAINING_S = 100.0  # processor time of an estimator from its runs, [s]
 _CHOICE_S = 45.0  # of the choice of effects of a sweep, [s]
-_BOX_S = 60.0  # of the modes of a box
+_BOX_S = 150.0  # of the modes of a box
 
 
 class MadeEstimator(NamedTuple):
@@ -231,10 +231,10 @@ def _fitted_box(sweep: TrainingSweep, folder: Path, force: bool, say: Callable[[
 
 def _forecast(sweep: TrainingSweep, folder: Path, count: int) -> str:
     """Say what is done and how long it takes."""
-    from beardyn_core.population.training_sweep import LEARNT, RUNS, TRUER
+    from beardyn_core.population.training_sweep import LEARNT, PARTS, TRUER
 
-    seconds = sweep.seconds + count * _TRAINING_S + len(RUNS) * _CHOICE_S + (_BOX_S if sweep.box else 0.0)
-    runs = f"{RUNS[LEARNT]} runs to learn from and {RUNS[TRUER]} of {TRUER}"
+    seconds = sweep.seconds + count * _TRAINING_S + len(PARTS) * _CHOICE_S + (_BOX_S if sweep.box else 0.0)
+    runs = f"{sweep.count(LEARNT)} runs to learn from and {sweep.count(TRUER)} of {TRUER}"
     return (
         f"{sweep.bearing.name} in the service of {sweep.like}: {runs} in {folder}; all of it takes some "
         f"{seconds / 60.0:.0f} min of one core, and the same command goes on where it was"

@@ -25,10 +25,11 @@ from beardyn_core.structure.mounted_box import modes_of_effects
 ENDING = "_axlebox"  # of the names of shipped sweeps that estimators learn from, one a vehicle class
 LEARNT, TRUER = "learnt", "full"  # runs that teach, in the tier of the sweep; runs of the tier that is true
 PARTS = (LEARNT, TRUER)
-RUNS = {LEARNT: 300, TRUER: 100}
-"""Runs of each part: with them an estimator takes less than 15 min of one core."""
+MOST = {LEARNT: 300, TRUER: 100}
+"""Runs of each part, fewer where the sweep has fewer: with them estimators take some 15 min of one core."""
 SECONDS = {LEARNT: 0.8, TRUER: 1.4}
 """Processor time of a second of signal, [s]; measured with HS130x230, the others take less."""
+_SPLIT = {"train": 0.7, "validation": 0.3, "test": 0.0}  # runs of the true tier judge
 _LOADS = ("operation.vehicle.body_mass_t", "operation.payload_t", "operation.lateral_force_kN")
 _WIDTH, _LENGTH = "defects[0].width_mm", "defects[0].length_mm"
 _TABLE, _TYPE = "effects.structure.table", "sensors[0].type"
@@ -42,6 +43,7 @@ class TrainingSweep:
     bearing: Bearing
     like: A[str, "shipped sweep or file that they are like"]
     keys: A[dict[str, Any], "of the sweep that teaches, as of its file"]
+    duration: A[float, "of a run, [s]"]
     box: A[Box | None, "whose modes are to be computed, fitted to the bearing; none where its own is shipped"]
 
     def of_part(self, part: str, table: Path | None = None) -> dict[str, Any]:
@@ -54,21 +56,26 @@ class TrainingSweep:
         table : Path, optional
             Modes of `box`.
         """
-        keys = {**self.keys, "set": {**self.keys["set"]}, "runs": RUNS[part]}
+        keys = {**self.keys, "set": {**self.keys["set"]}, "runs": self.count(part)}
         if table is not None:
             keys["set"][_TABLE] = str(table)
-        if part == TRUER:
+        if part == LEARNT:
+            keys["split"] = dict(_SPLIT)
+        else:
             keys["set"]["tier"] = TRUER
             keys["sweep"] = f"{keys['sweep']}, {TRUER}"
             keys["seed"] = self.keys.get("seed", 1) + 1
             keys["runs_per_bearing"] = 1
         return keys
 
+    def count(self, part: str) -> int:
+        """Tell how many runs a part has."""
+        return min(MOST[part], int(self.keys.get("runs", MOST[part])))
+
     @property
     def seconds(self) -> float:
         """Processor time of all runs, about, [s]."""
-        length = float(self.keys["set"]["duration_s"])
-        return sum(RUNS[part] * SECONDS[part] * length for part in PARTS)
+        return sum(self.count(part) * SECONDS[part] * self.duration for part in PARTS)
 
 
 def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> TrainingSweep:
@@ -121,7 +128,7 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> Trai
     if sensor:
         kind = find("sensors", sensor)
         changes[_TYPE] = sensor if sensor in shipped_names("sensors") else str(kind.absolute())
-    return TrainingSweep(bearing, like, {**keys, "set": changes}, box)
+    return TrainingSweep(bearing, like, {**keys, "set": changes}, scene.duration, box)
 
 
 def closest_sweep(bearing: Bearing) -> str:

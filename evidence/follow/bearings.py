@@ -17,7 +17,7 @@ from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.labelled import describe_runs, plate_of
 from beardyn_core.follow.shipped import list_shipped
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.training_sweep import LEARNT, RUNS, TRUER
+from beardyn_core.population.training_sweep import LEARNT, MOST, TRUER
 from evidence.follow.boxes import COLUMNS, row_of
 from evidence.pages import DOCS, with_section
 
@@ -30,7 +30,7 @@ beardyn train --bearing mine.yaml --sensor mems_50g --axes xz   # another sensor
 beardyn estimate run.mcap                         # finds what was made so, before what is shipped
 ```
 
-One command simulates {RUNS[LEARNT]} runs of `quasistatic` and {RUNS[TRUER]} of `full` of the bearing in the
+One command simulates {MOST[LEARNT]} runs of `quasistatic` and {MOST[TRUER]} of `full` of the bearing in the
 service of its class (`freight_axlebox`, `high_speed_axlebox`, `metro_axlebox`; `--like` names another sweep)
 and trains two estimators on them, for three axes and for z alone. Where the bearing is not that of the sweep,
 loads go with the rating, spalls with the distance of two rollers, and the box is fitted to the cup

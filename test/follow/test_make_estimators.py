@@ -122,7 +122,7 @@ def test_an_interrupted_call_goes_on_and_an_estimator_of_one_axis_is_found(
 ) -> None:
     """Fewer runs than usual, of a tenth of a minute each; the first call is left while runs are simulated."""
     monkeypatch.setenv("BEARDYN_DATA_DIR", str(tmp_path / "data"))
-    monkeypatch.setattr(training_sweep, "RUNS", {"learnt": 64, "full": 12})
+    monkeypatch.setattr(training_sweep, "MOST", {"learnt": 64, "full": 12})
 
     def leave(now: Any) -> None:
         if now.done >= 16:

@@ -68,8 +68,8 @@ def test_other_sets_calibrate_and_judge(runs: Any) -> None:
         SimpleNamespace(**{**vars(runs), **about, "table": bearings_made(seed)}) for seed in (100, 200)
     )
     found = training.train(runs, calibration=[other], test=judge)  # type: ignore[list-item, arg-type]
-    assert found.card["runs"] == PARTS["train"]  # the validation part calibrates, too
-    assert found.card["calibration"] == ["truer", "made, validation"]
+    assert found.card["runs"] == PARTS["train"]  # the other parts calibrate, too
+    assert found.card["calibration"] == ["truer", "made, validation and test"]
     assert found.card["test"] == "truer"
     assert found.card["condition"]["runs"] == PARTS[None]
 
