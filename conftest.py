@@ -17,6 +17,7 @@ from hypothesis import settings
 REPOSITORY = Path(__file__).resolve().parent
 
 STANDARD_CONFIGURATION = REPOSITORY / ".pytest_cache" / "standard_config"
+NO_DATA = REPOSITORY / ".pytest_cache" / "no_data"  # no estimators of whoever runs the tests
 # Tests of nodes, browsers and signals leave their core idle for two thirds of their time.
 WAITING = ("test/ros/", "test/browser/", "test/cli/test_interrupts.py")
 # Files of these folders share what takes long to make.
@@ -98,6 +99,7 @@ def use_standard_effects() -> None:
 
     automatic.UNNAMED = NAME
     os.environ["BEARDYN_CONFIG"] = str(write_configuration(STANDARD_CONFIGURATION))
+    os.environ["BEARDYN_DATA_DIR"] = str(NO_DATA)
 
 
 def pytest_configure(config: pytest.Config) -> None:

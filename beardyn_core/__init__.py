@@ -70,6 +70,7 @@ if TYPE_CHECKING:
         torque,
     )
     from beardyn_core.api.sweeping import open_set, sweep
+    from beardyn_core.api.training import make_estimators
     from beardyn_core.base.errors import InputError, ValidityError
     from beardyn_core.bearing.cylindrical import CylindricalBearing
     from beardyn_core.bearing.geometry import Bearing
@@ -125,7 +126,8 @@ __all__ += [
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "fleet", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
-__all__ += ["life", "load_distribution", "lubricant", "monitor", "name_plate", "open_set", "rating_life"]
+__all__ += ["life", "load_distribution", "lubricant", "make_estimators", "monitor", "name_plate", "open_set"]
+__all__ += ["rating_life"]
 __all__ += ["read"]
 __all__ += [
     "read_measured",
@@ -157,6 +159,7 @@ _MODULES = {
         *("equilibrium", "fault_frequencies", "film", "life", "load_distribution", "stiffness", "torque"),
     ),
     "api.sweeping": ("open_set", "sweep"),
+    "api.training": ("make_estimators",),
     "bearing.cylindrical": ("CylindricalBearing",),
     "bearing.geometry": ("Bearing",),
     "bearing.lubricant": ("Lubricant",),

@@ -13,7 +13,8 @@ exporting     signals of a recording for other programs
 measuring     read measured files, make recordings of them
 statics       stiffness, torque, life, film and load distribution, no run needed
 sweeping      sets of labelled runs over a population of bearings
-estimating    load, end play and spall from a run, what remains; training
+estimating    load, end play and spall from a run, what remains; an estimator of a set of runs
+training      the estimators of a bearing, whose runs are simulated first
 following     the same over many stretches and runs
 fleets        recordings of many axleboxes in a store, and their ranked list
 twin_residual measured minus twin, at the known state of the bearing

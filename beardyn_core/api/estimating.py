@@ -47,7 +47,8 @@ def estimate(
     run : Run or Path
         Recording to estimate from. Or a run, simulated or measured.
     estimator : Estimator or Path, optional
-        That `train` has made; default a shipped one for the bearing.
+        That `train` has made; default one of the user or a shipped one for the bearing and the axes that are
+        measured. Where there is none, the command that makes one is named.
     bearing : Bearing, NamePlate or str, optional
         Data of the bearing; default that of the recording.
     sensor : str, optional
@@ -79,15 +80,15 @@ def estimate(
     from beardyn_core.api.reading import heard_of
     from beardyn_core.follow.conditioning import condition_estimates
     from beardyn_core.follow.estimator import Estimator, read_estimator
+    from beardyn_core.follow.estimator_choice import estimator_of_run
     from beardyn_core.follow.inference import estimates_of
     from beardyn_core.follow.load_checks import read_axle_loads
     from beardyn_core.follow.run_stretches import whole_bearing
     from beardyn_core.follow.service import Service
-    from beardyn_core.follow.shipped import shipped_for
 
     heard, plate, sensor = heard_of(run, bearing, sensor)
     if estimator is None:
-        estimator = shipped_for(plate)
+        estimator = estimator_of_run(heard, plate, sensor)
     elif not isinstance(estimator, Estimator):
         estimator = read_estimator(Path(estimator))
     known = known_load_in(heard, load_kn, load_sensor)
@@ -258,7 +259,7 @@ def train(
         File to write; default none. It is an NPZ file.
     calibration : sequence of LabelledSet or Path
         Another set that straightens estimates and sets the intervals, such as a small one of a truer
-        tier; the validation part of the set widens them where it needs wider ones.
+        tier; the parts of the set that neither teach nor judge widen them where these need wider ones.
     test : LabelledSet or Path, optional
         Another set, all of it to judge the estimator by; default the test part of the set.
     axes : sequence of str

@@ -75,8 +75,8 @@ class Fleet:
             How the path names the axlebox of a file, such as {vehicle}/{axle}_{side}/{date}.csv;
             default none.
         estimator : str
-            File of an estimator that reads load and width too, shipped for one that is shipped for the
-            bearing, or none.
+            File of an estimator that reads load and width too, shipped for one of the user's own or a
+            shipped one for the bearing, or none.
         workers : int
             Processes that analyse recordings; default 1.
         progress : callable, optional

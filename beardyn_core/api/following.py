@@ -111,6 +111,7 @@ def follow(
     from beardyn_core.api.making import scene as make_scene
     from beardyn_core.api.reading import heard_of
     from beardyn_core.api.twin_residual import residual_beside
+    from beardyn_core.follow.estimator_choice import estimator_of_run
     from beardyn_core.follow.load_checks import read_axle_loads
     from beardyn_core.follow.run_stretches import follower_of, stretches_followed
     from beardyn_core.record.run import Run
@@ -127,6 +128,8 @@ def follow(
     stated = one_each("load_kn", load_kn, len(several))
     sensors = one_each("load_sensor", load_sensor or None, len(several))
     heard, plate, ear = heard_of(several[0], bearing, sensor)
+    if estimator is None:
+        estimator = estimator_of_run(heard, plate, ear)
     follower = follower_of(
         plate, estimator, service=service, law=law, lubricant=lubricant,
         axle_loads=read_axle_loads(axle_load_t, "axle_load_t"), assumptions=assumptions,

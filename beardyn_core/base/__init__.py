@@ -7,6 +7,7 @@ announcements   lines on standard error about what takes long
 arrays          names of array types in signatures
 cache_root      where everything lies that is kept from run to run
 config_folder   where the shipped configuration lies
+data_root       where lies what a user has made and keeps
 edge            unit, limits and words of a number, on the field that holds it
 errors          errors a user sees
 inputs          files that are read: no pipe, no device

@@ -1,4 +1,4 @@
-"""``beardyn train``: an estimator of load, end play and spall from a set of labelled runs."""
+"""``beardyn train``: estimators of load, end play and spall, from a set of labelled runs or for a bearing."""
 
 from __future__ import annotations
 
@@ -6,52 +6,123 @@ import argparse
 from typing import TYPE_CHECKING
 
 from beardyn_core.api.estimating import train
+from beardyn_core.api.training import MadeEstimator, axes_problems, estimator_files, make_estimators
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import file_problems
-from beardyn_core.cli.generated_parser import add_command, add_parameter
+from beardyn_core.cli.generated_parser import add_command, add_parameter, names
 from beardyn_core.cli.json_output import json_text
+from beardyn_core.cli.measured_options import in_options
 from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
     from beardyn_core.follow.estimator import Estimator
     from beardyn_core.study.table import Table
 
+_OF_BEARING = ("sensor", "like", "workers")
+_OF_SET = ("calibration", "test")
+_OF_A_SET = ("xyz",)  # axes, where none are given
+
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = add_command(subparsers, "train", train)
-    add_parameter(parser, train, "runs", "set", metavar="DIR")
-    add_parameter(parser, train, "output", "-o", "--output", metavar="FILE.npz", required=True)
+    more = "With --bearing in place of DIR its runs are simulated first, some 15 min of one core in all."
+    parser = add_command(subparsers, "train", train, more)
+    add_parameter(parser, train, "runs", "set", metavar="DIR", nargs="?", suffix="; needed but for --bearing")
+    add_parameter(
+        parser, make_estimators, "output", "-o", "--output", metavar="FILE.npz", suffix="; needed with DIR"
+    )
     add_parameter(parser, train, "calibration", metavar="DIR")
     add_parameter(parser, train, "test", metavar="DIR")
-    add_parameter(parser, train, "axes", metavar="AXES", type=str, default="xyz")
-    add_parameter(parser, train, "force")
+    add_parameter(
+        parser, make_estimators, "axes", metavar="AXES", type=names, default=None, usual="xyz,z, of DIR xyz"
+    )
+    group = parser.add_argument_group(
+        "a bearing", "runs of it are simulated next to the file; called again, it goes on"
+    )
+    add_parameter(
+        group, make_estimators, "bearing", metavar="NAME", required=False, default=None, usual="none"
+    )
+    add_parameter(group, make_estimators, "sensor", metavar="NAME")
+    add_parameter(group, make_estimators, "like", metavar="SWEEP")
+    add_parameter(group, make_estimators, "workers", metavar="N")
+    add_parameter(parser, make_estimators, "force")
     add_json(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
-    inputs = [args.set, *args.calibration, *([args.test] if args.test else [])]
-    problems = file_problems("--output", args.output, inputs=inputs, force=args.force, ending=".npz")
-    if not args.axes or set(args.axes) - set("xyz") or len(set(args.axes)) < len(args.axes):
-        problems.append(f"--axes {args.axes!r}: give one or more of x, y and z, each once")
-    if problems:
+    if problems := option_problems(args):
         raise InputError(problems)
-    found = train(
-        args.set,
-        args.output,
-        calibration=args.calibration,
-        test=args.test,
-        axes=[each for each in "xyz" if each in args.axes],
-        force=args.force,
-    )
+    made = _of_bearing(args) if args.set is None else _of_set(args)
     if args.json:
-        print(json_text("train", {"file": args.output, "card": found.card}))
-    else:
-        print(table(found).text())
-        print(f"written: {args.output}, {args.output.stat().st_size / 1e3:.0f} kB")
+        first, *others = made
+        content = {
+            "file": first.file,
+            "card": first.estimator.card,
+            "other_files": [each.file for each in others],
+        }
+        print(json_text("train", content))
+        return 0
+    for each in made:
+        print(table(each.estimator).text())
+        size = f"{each.file.stat().st_size / 1e3:.0f} kB"
+        print(
+            f"written: {each.file}, {size}"
+            if each.is_new
+            else f"{each.file} was there before; --force makes it anew"
+        )
     return 0
+
+
+def option_problems(args: argparse.Namespace) -> list[str]:
+    """List what is wrong with the options; nothing is created."""
+    problems = []
+    if args.set is None and args.bearing is None:
+        problems.append("DIR, --bearing: give a set of runs, or a bearing whose runs are simulated")
+    elif args.set is not None and args.bearing is not None:
+        problems.append(
+            f"DIR {args.set}, --bearing: the runs of a set have their bearing; give one of the two"
+        )
+    elif args.set is not None and args.output is None:
+        problems.append("--output: is missing; give the file of the estimator")
+    idle = _OF_BEARING if args.bearing is None else _OF_SET
+    for name in idle:
+        if getattr(args, name):
+            which = "a bearing that is simulated" if args.bearing is None else "a set of runs"
+            problems.append(f"--{name}: is of {which}; leave it out")
+    wrong = [] if args.axes is None else axes_problems(args.axes, "--axes")
+    if args.set is not None and args.output is not None:
+        inputs = [args.set, *args.calibration, *([args.test] if args.test else [])]
+        files = [args.output] if wrong else estimator_files(args.output, args.axes or _OF_A_SET).values()
+        for file in files:
+            problems += file_problems("--output", file, inputs=inputs, force=args.force, ending=".npz")
+    return problems + wrong
+
+
+def _of_bearing(args: argparse.Namespace) -> list[MadeEstimator]:
+    given = {} if args.axes is None else {"axes": args.axes}
+    try:
+        with last_words(lambda: "the same command goes on"):
+            return list(
+                make_estimators(
+                    args.bearing, args.output, sensor=args.sensor, like=args.like,
+                    workers=args.workers, force=args.force, progress=True, **given,
+                )
+            )  # fmt: skip
+    except InputError as error:
+        raise InputError([in_options(each, ["bearing", "output"]) for each in error.problems]) from None
+
+
+def _of_set(args: argparse.Namespace) -> list[MadeEstimator]:
+    made = []
+    for axes, file in estimator_files(args.output, args.axes or _OF_A_SET).items():
+        found = train(
+            args.set, file, calibration=args.calibration, test=args.test, axes=tuple(axes), force=args.force
+        )
+        made.append(MadeEstimator(file, found, is_new=True))
+    return made
 
 
 def table(estimator: Estimator) -> Table:

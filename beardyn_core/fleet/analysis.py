@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from math import nan
@@ -93,7 +92,8 @@ def analyse(recording: FleetRecording, estimator: str = SHIPPED) -> Analysis:
     ----------
     recording : FleetRecording
     estimator : str
-        `SHIPPED`: one that is shipped for the bearing, where there is one; `NO_ESTIMATOR`; or a file.
+        `SHIPPED`: one of the user or a shipped one for the bearing, where there is one;
+        `NO_ESTIMATOR`; or a file.
 
     Raises
     ------
@@ -275,16 +275,9 @@ def read_evidence(blob: bytes) -> Evidence | None:
 def _estimators(name: str) -> tuple[Estimator, ...]:
     """Read estimators once a process."""
     from beardyn_core.follow.estimator import read_estimator
-    from beardyn_core.follow.shipped import list_shipped
+    from beardyn_core.follow.estimator_choice import readable_estimators
 
-    return tuple(read_estimator(path) for path in (list_shipped() if name == SHIPPED else [Path(name)]))
-
-
-def _fitting(name: str, plate: NamePlate) -> Iterator[Estimator]:
-    from beardyn_core.follow.inference import doubt_of
-
-    if name != NO_ESTIMATOR:
-        yield from (each for each in _estimators(name) if not doubt_of(each, plate))
+    return tuple(readable_estimators()) if name == SHIPPED else (read_estimator(Path(name)),)
 
 
 def _with_estimate(
@@ -292,13 +285,15 @@ def _with_estimate(
 ) -> Analysis:
     """Add what an estimator says, and its width where the monitor has none; what it refuses is a note."""
     from beardyn_core.follow.estimate_json import estimates_object
-    from beardyn_core.follow.inference import estimates_of
+    from beardyn_core.follow.estimator_choice import sort_fitting
+    from beardyn_core.follow.inference import estimates_of, measured_axes
 
-    fitting = next(_fitting(name, plate), None)
-    if fitting is None:
+    known = () if name == NO_ESTIMATOR else _estimators(name)
+    fitting = sort_fitting(known, plate, measured_axes(run, recording.sensor))
+    if not fitting:
         return analysis
     try:
-        found = estimates_of(run, fitting, plate, recording.sensor)
+        found = estimates_of(run, fitting[0], plate, recording.sensor)
     except InputError as error:
         note = f"no estimate: {'; '.join(error.problems)}".replace(str(recording.path), recording.path.name)
         return replace(analysis, assumed=(*analysis.assumed, note))

@@ -19,6 +19,7 @@ estimator           the numbers that make an estimator, its card, and the file t
 mounting_search     what must be undone of a mounting for a strange signal to be familiar
 inference           what an estimator makes of a run
 shipped             estimators that are shipped, found by the bearing
+estimator_choice    the user's own or the shipped estimator of a bearing, or the command that makes one
 growth              how a spall grows with mileage, with its scatter
 service             what a forecast must know: mileage, wheel, widest spall
 known_load          a vertical load that somebody knows, stated or of several sources that must agree

@@ -132,6 +132,14 @@ def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[
             yield Stretch(estimator.rate, *forward, np.nan, end_ns)
 
 
+def measured_axes(run: Run, sensor: str = "") -> tuple[str, ...]:
+    """List the axes of an accelerometer of a run that are measured; all where it has no samples."""
+    signal = run.sensors.get(sensor, run.vibration)
+    if not len(signal):
+        return AXES
+    return tuple(axis for k, axis in enumerate(AXES) if not np.isnan(signal.values[:, k]).all())
+
+
 def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:
     """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
     for axis, values in zip(estimator.axes, heard.T, strict=True):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import wraps
 from itertools import product
 from typing import Annotated as A
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +39,8 @@ from beardyn_core.sensors.labels import HEALTHY
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 FEWEST = 40  # runs to learn a number from
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 _FOLDS = 5
 # what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
@@ -61,6 +65,18 @@ class Judged(NamedTuple):
         return float(np.mean(self.errors**2))
 
 
+def in_one_thread(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """Keep the linear algebra of a function in one thread: its matrices are small, and threads only wait."""
+
+    @wraps(function)
+    def limited(*given: _P.args, **named: _P.kwargs) -> _R:
+        with library("threadpoolctl", "training", "sweep").threadpool_limits(1):
+            return function(*given, **named)
+
+    return limited
+
+
+@in_one_thread
 def train_estimator(
     train: Described, plate: NamePlate, axes: tuple[str, ...], rate: float, stretch: float
 ) -> Estimator:
@@ -97,6 +113,7 @@ def train_estimator(
     )  # fmt: skip
 
 
+@in_one_thread
 def calibrate_intervals(estimator: Estimator, runs: Described, *, straightened: bool = False) -> Estimator:
     """Set the widths of the intervals by runs that were not learnt from.
 

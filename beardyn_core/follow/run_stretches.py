@@ -15,13 +15,13 @@ from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimator, read_estimator
+from beardyn_core.follow.estimator_choice import estimator_for
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import doubt_of, stretches_of
 from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.load_checks import AxleLoads
 from beardyn_core.follow.service import Service
-from beardyn_core.follow.shipped import shipped_for
 from beardyn_core.record.run import Run
 
 
@@ -44,7 +44,7 @@ def follower_of(
         The estimator is for another bearing.
     """
     if estimator is None:
-        estimator = shipped_for(plate)
+        estimator = estimator_for(plate)
     elif not isinstance(estimator, Estimator):
         estimator = read_estimator(Path(estimator))
     if doubt := doubt_of(estimator, plate):

@@ -19,7 +19,7 @@ def list_shipped() -> list[Path]:
 
 
 def shipped_for(bearing: Bearing | NamePlate) -> Estimator:
-    """Read the shipped estimator of a bearing.
+    """Read the shipped estimator of a bearing, that of the most axes.
 
     Raises
     ------
@@ -29,11 +29,7 @@ def shipped_for(bearing: Bearing | NamePlate) -> Estimator:
     if bearing.name in shipped_names("bearings"):
         load_bearing(bearing.name)
     known = [read_estimator(path) for path in list_shipped()]
-    for each in known:
-        if not doubt_of(each, bearing):
-            return each
+    if fitting := [each for each in known if not doubt_of(each, bearing)]:
+        return max(fitting, key=lambda each: len(each.axes))
     names = ", ".join(sorted({each.plate.name for each in known})) or "none"
-    raise InputError(
-        f"no estimator is shipped for {bearing.name}; there are those of {names}: make a set with "
-        "`beardyn sweep` and train one with `beardyn train`, then give it with --estimator"
-    )
+    raise InputError(f"no estimator is shipped for {bearing.name}; there are those of {names}")

@@ -38,7 +38,7 @@ def train(
     runs : LabelledSet
     calibration : sequence of LabelledSet
         Sets by which the widths of the intervals are set, such as one in a truer tier, beside the validation
-        part of `runs`: the wider ones count.
+        part of `runs` and its test part where that does not judge: the wider ones count.
     test : LabelledSet, optional
         All of it judges the estimator; by default `calibration` crosswise, or the test part of `runs`.
     axes : tuple of str
@@ -54,7 +54,13 @@ def train(
     for place, other in enumerate([*calibration, *([] if test is None else [test])]):
         check_alike(runs, other)
         check_unseen([runs, *calibration[:place]], other)
-    seen, own = describe_runs(runs, TRAIN, axes), describe_runs(runs, VALIDATION, axes)
+    across = bool(calibration) and test is None
+    judges = TEST if test is None and not calibration else None  # part of `runs`
+    spare = [part for part in (VALIDATION, TEST) if part != judges]
+    seen, own = (
+        describe_runs(runs, TRAIN, axes),
+        join_sets([describe_runs(runs, part, axes) for part in spare]),
+    )
     if len(seen.bearings) < FEWEST:
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {FEWEST} are needed"
@@ -64,11 +70,10 @@ def train(
     found = calibrate_intervals(learnt, held, straightened=bool(calibration))
     if calibration:
         found = widen_intervals(found, own)
-    across = bool(calibration) and test is None
     if across:
         judged = judged_crosswise(learnt, held, own=own)
     else:
-        others = describe_runs(runs, TEST, axes) if test is None else describe_runs(test, None, axes)
+        others = describe_runs(runs if test is None else test, judges, axes)
         judged = judged_by(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.scores.items():
@@ -81,7 +86,10 @@ def train(
         "set": about["sweep"],
         "runs": len(seen.bearings),
         "bearings": 1 if is_one_bearing(runs) else len(set(seen.bearings)),
-        "calibration": [*(each.about["sweep"] for each in calibration), f"{about['sweep']}, {VALIDATION}"],
+        "calibration": [
+            *(each.about["sweep"] for each in calibration),
+            f"{about['sweep']}, {' and '.join(spare)}",
+        ],
         "test": "calibration, crosswise" if across else judge,
         "levels": LEVELS,
         "code": about["code"],

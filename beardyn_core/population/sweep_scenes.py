@@ -133,7 +133,7 @@ def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: N
         With every mistake in the sweep, in its scene, and in the scenes of its runs.
     """
     try:
-        scenes, opened = _begun(sweep, label)
+        scenes, opened = open_base(sweep, label)
     except InputError:
         raise InputError(mistakes_of(sweep, label)) from None
     rows = rows_of(sweep)
@@ -152,7 +152,7 @@ def mistakes_of(sweep: Sweep, label: str) -> list[str]:
     Keys that are wrong by themselves are told, and left out of the scenes that the others are looked at in.
     """
     try:
-        scenes, opened = _begun(sweep, label)
+        scenes, opened = open_base(sweep, label)
     except InputError as error:
         changes = {key: each for key, each in sweep.changes.items() if _alone(sweep, label, {key: each})}
         vary: list[Variable] = []
@@ -176,13 +176,13 @@ def _once(rows: Iterable[Row]) -> list[Row]:
 def _alone(sweep: Sweep, label: str, changes: dict[str, Any]) -> bool:
     """Tell whether a scene takes one change by itself."""
     try:
-        _begun(replace(sweep, changes=changes, vary=()), label)
+        open_base(replace(sweep, changes=changes, vary=()), label)
     except InputError:
         return False
     return True
 
 
-def _begun(sweep: Sweep, label: str) -> tuple[SweepScenes, OpenScene]:
+def open_base(sweep: Sweep, label: str) -> tuple[SweepScenes, OpenScene]:
     """Read the scene of a sweep with what the sweep sets in it."""
     problems: list[str] = []
     places: dict[str, Place] = {}

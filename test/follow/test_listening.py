@@ -235,6 +235,6 @@ def test_options_of_a_forecast_that_cannot_be_are_refused(
     assert "--growth-mm2: is 0; it must be above 0" in told
 
 
-def test_a_bearing_without_a_shipped_estimator_is_told_which_there_are(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no estimator is shipped for METRO120x220"):
-        bd.estimate(measured(tmp_path, signal(2.0)), bearing="METRO120x220")
+def test_a_bearing_without_an_estimator_gets_the_command_that_makes_one(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"`beardyn train --bearing AARK_6\.5x9` makes one"):
+        bd.estimate(measured(tmp_path, signal(2.0)), bearing="AARK_6.5x9")

@@ -46,7 +46,10 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 def test_card_says_what_was_learnt_from_and_what_judged_it(runs: Any) -> None:
     found = training.train(runs)
-    check("train", json.loads(json_text("train", {"file": Path("one.npz"), "card": found.card})))
+    check(
+        "train",
+        json.loads(json_text("train", {"file": Path("one.npz"), "card": found.card, "other_files": []})),
+    )
     assert (found.rate, found.stretch) == pytest.approx((RATE, STRETCH))
     assert found.card["runs"] == PARTS["train"]
     assert found.card["condition"]["runs"] == PARTS["test"]
@@ -65,8 +68,8 @@ def test_other_sets_calibrate_and_judge(runs: Any) -> None:
         SimpleNamespace(**{**vars(runs), **about, "table": bearings_made(seed)}) for seed in (100, 200)
     )
     found = training.train(runs, calibration=[other], test=judge)  # type: ignore[list-item, arg-type]
-    assert found.card["runs"] == PARTS["train"]  # the validation part calibrates, too
-    assert found.card["calibration"] == ["truer", "made, validation"]
+    assert found.card["runs"] == PARTS["train"]  # the other parts calibrate, too
+    assert found.card["calibration"] == ["truer", "made, validation and test"]
     assert found.card["test"] == "truer"
     assert found.card["condition"]["runs"] == PARTS[None]
 
@@ -166,7 +169,7 @@ def test_options_that_cannot_be_are_refused_at_once(
     assert main(["train", str(tmp_path), "-o", str(tmp_path / "one.txt"), "--axes", "zw"]) == 2
     told = capsys.readouterr().err
     assert "let its name end in .npz" in told
-    assert "--axes 'zw': give one or more of x, y and z, each once" in told
+    assert "--axes: 'zw' is no set of axes; give one or more of x, y and z, each once" in told
     one = tmp_path / "one.npz"
     one.touch()
     assert main(["train", str(tmp_path), "-o", str(one), "--test", str(one), "--force"]) == 2

@@ -1,0 +1,98 @@
+"""Which estimator is for a bearing: one that the user has made, or a shipped one; else how to make it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from beardyn_core.base.data_root import data_root
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_bearing
+from beardyn_core.config.folders import shipped_names
+from beardyn_core.follow.descriptors import AXES
+from beardyn_core.follow.estimator import Estimator, read_estimator
+from beardyn_core.follow.inference import alike, doubt_of, measured_axes
+from beardyn_core.follow.shipped import list_shipped
+from beardyn_core.record.run import Run
+
+ENDING = ".npz"
+USUAL_AXES = ("xyz", "z")
+"""Axes of the estimators that are made of a bearing where nothing else is asked for."""
+
+
+def own_folder() -> Path:
+    """Name the folder of the estimators that a user has made; `estimate` and `follow` look there first."""
+    return data_root() / "estimators"
+
+
+def list_own() -> list[Path]:
+    """List the files of the user's own estimators, the newest first."""
+    return sorted(own_folder().glob(f"*{ENDING}"), key=lambda path: -path.stat().st_mtime)
+
+
+def readable_estimators() -> Iterator[Estimator]:
+    """Read the user's own and the shipped estimators; files of other versions of beardyn are passed over."""
+    for path in list_own():
+        try:
+            yield read_estimator(path)
+        except InputError:  # made by another version, or no estimator: the user's folder is theirs
+            continue
+    yield from map(read_estimator, list_shipped())
+
+
+def sort_fitting(
+    known: Sequence[Estimator], bearing: Bearing | NamePlate, axes: Sequence[str]
+) -> list[Estimator]:
+    """Take the estimators of a bearing: first those whose axes are measured, of these first the most axes."""
+    fitting = [each for each in known if not doubt_of(each, bearing)]
+    return sorted(fitting, key=lambda each: (not set(each.axes) <= set(axes), -len(each.axes)))
+
+
+def estimator_for(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, recording: str = "") -> Estimator:
+    """Read the estimator of a bearing that takes most of the axes that are measured; the user's own first.
+
+    Parameters
+    ----------
+    bearing : Bearing or NamePlate
+    axes : sequence of str, optional
+        Of the accelerometer that are measured.
+    recording : str, optional
+        Path of the recording that has the bearing.
+
+    Raises
+    ------
+    InputError
+        There is none, with the command that makes one.
+    """
+    fitting = sort_fitting(list(readable_estimators()), bearing, axes)
+    if fitting and set(fitting[0].axes) <= set(axes):
+        return fitting[0]
+    if fitting:
+        taken = " and of ".join(", ".join(each.axes) for each in fitting)
+        what = f"has estimators of the axes {taken}; measured are {', '.join(axes)}"
+    else:
+        what = "has no estimator yet"
+    raise InputError(f"{bearing.name} {what}: {how_to_train(bearing, axes, recording)}")
+
+
+def estimator_of_run(run: Run, bearing: Bearing | NamePlate, sensor: str = "") -> Estimator:
+    """Read the estimator of the bearing and of the measured axes of a run; see `estimator_for`."""
+    return estimator_for(bearing, measured_axes(run, sensor), "" if run.path is None else str(run.path))
+
+
+def how_to_train(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, recording: str = "") -> str:
+    """Say which command makes an estimator of a bearing, that is found without further options."""
+    one = "".join(each for each in AXES if each in axes)
+    option = f" --axes {one}" if one not in ("", *USUAL_AXES) else ""
+    if bearing.name in shipped_names("bearings") and alike(bearing, load_bearing(bearing.name)):
+        named = bearing.name
+    elif isinstance(bearing, Bearing):
+        named = recording or "FILE.yaml"
+    else:
+        return (
+            "describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
+            f"start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
+        )
+    return f"`beardyn train --bearing {named}{option}` makes one, in some 15 min of one core"

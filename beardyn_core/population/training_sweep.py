@@ -1,0 +1,173 @@
+"""The runs that an estimator learns from: the sweep of a vehicle class, fitted to a bearing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import dist, log
+from pathlib import Path
+from typing import Annotated as A
+from typing import Any
+
+from beardyn_core.base.edge import Vector, write_noun
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.life import dynamic_rating
+from beardyn_core.config import load_bearing, load_box, read_sweep
+from beardyn_core.config.folders import find, shipped_names
+from beardyn_core.config.yaml_text import read_file
+from beardyn_core.effects import ModalStructure
+from beardyn_core.population.sweep_scenes import open_base
+from beardyn_core.structure.box import Box
+from beardyn_core.structure.fitting import fit_box
+from beardyn_core.structure.mounted_box import modes_of_effects
+
+ENDING = "_axlebox"  # of the names of shipped sweeps that estimators learn from, one a vehicle class
+LEARNT, TRUER = "learnt", "full"  # runs that teach, in the tier of the sweep; runs of the tier that is true
+PARTS = (LEARNT, TRUER)
+MOST = {LEARNT: 300, TRUER: 100}
+"""Runs of each part, fewer where the sweep has fewer: with them estimators take some 15 min of one core."""
+SECONDS = {LEARNT: 0.8, TRUER: 1.4}
+"""Processor time of a second of signal, [s]; measured with HS130x230, the others take less."""
+_SPLIT = {"train": 0.7, "validation": 0.3, "test": 0.0}  # runs of the true tier judge
+_LOADS = ("operation.vehicle.body_mass_t", "operation.payload_t", "operation.lateral_force_kN")
+_WIDTH, _LENGTH = "defects[0].width_mm", "defects[0].length_mm"
+_TABLE, _TYPE = "effects.structure.table", "sensors[0].type"
+_DIGITS = 4
+
+
+@dataclass(frozen=True)
+class TrainingSweep:
+    """Sweeps of one bearing: one that teaches, one of the true tier."""
+
+    bearing: Bearing
+    like: A[str, "shipped sweep or file that they are like"]
+    keys: A[dict[str, Any], "of the sweep that teaches, as of its file"]
+    duration: A[float, "of a run, [s]"]
+    box: A[Box | None, "whose modes are to be computed, fitted to the bearing; none where its own is shipped"]
+
+    def of_part(self, part: str, table: Path | None = None) -> dict[str, Any]:
+        """Give the keys of the sweep of a part.
+
+        Parameters
+        ----------
+        part : str
+            `LEARNT` or `TRUER`: no bearing is in both.
+        table : Path, optional
+            Modes of `box`.
+        """
+        keys = {**self.keys, "set": {**self.keys["set"]}, "runs": self.count(part)}
+        if table is not None:
+            keys["set"][_TABLE] = str(table)
+        if part == LEARNT:
+            keys["split"] = dict(_SPLIT)
+        else:
+            keys["set"]["tier"] = TRUER
+            keys["sweep"] = f"{keys['sweep']}, {TRUER}"
+            keys["seed"] = self.keys.get("seed", 1) + 1
+            keys["runs_per_bearing"] = 1
+        return keys
+
+    def count(self, part: str) -> int:
+        """Tell how many runs a part has."""
+        return min(MOST[part], int(self.keys.get("runs", MOST[part])))
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of all runs, about, [s]."""
+        return sum(self.count(part) * SECONDS[part] * self.duration for part in PARTS)
+
+
+def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> TrainingSweep:
+    """Fit the sweep of a vehicle class to a bearing.
+
+    Loads go with the dynamic rating, widths of spalls with the distance of two rollers, their lengths with
+    the length of the rollers, and sizes of the box with those of the cup. The bearing of the sweep itself has
+    what is in the sweep.
+
+    Parameters
+    ----------
+    bearing : Bearing
+    sensor : str, optional
+        Kind of the accelerometer, shipped or a file; default that of the sweep.
+    like : str, optional
+        Sweep of a vehicle class, shipped or a file; default that whose bearing is most like this one.
+
+    Raises
+    ------
+    InputError
+        With every mistake; the sweep is none of an axlebox, or its box cannot be fitted.
+    """
+    like = like or closest_sweep(bearing)
+    path = find("sweeps", like)
+    keys = read_file(path)
+    sweep, label = read_sweep(path)
+    scene = open_base(sweep, label)[1].scene
+    own, structure = scene.bearing, scene.effects.structure
+    if not isinstance(structure, ModalStructure):
+        raise InputError(f"{label}: its scene {sweep.scene} has no box that rings; an estimator needs one")
+    if sweep.scene not in shipped_names("scenes"):
+        keys["scene"] = str(find("scenes", sweep.scene, sweep.folder).absolute())
+    changes: dict[str, Any] = {**sweep.changes}
+    box = None
+    if bearing != own:
+        keys["sweep"] = f"{keys['sweep']} of {bearing.name}"[:80]
+        keys["vary"] = [_fitted(each, bearing, own) for each in keys["vary"]]
+        changes["bearing"] = bearing.name if _is_shipped(bearing) else write_noun(bearing)
+        modes = modes_of_effects(scene.effects)
+        assert modes is not None
+        if list(modes.cup.differences(bearing)):
+            drawn = load_box(structure.table)
+            if not isinstance(drawn, Box):
+                raise InputError(
+                    f"{label}: its box {structure.table} is not in figures; it fits {own.name} alone"
+                )
+            box = fit_box(drawn, load_bearing(drawn.bearing), bearing)
+            for number, each in enumerate(scene.sensors):
+                changes[f"sensors[{number}].position_mm"] = _seat(each.position, drawn, box)
+    if sensor:
+        kind = find("sensors", sensor)
+        changes[_TYPE] = sensor if sensor in shipped_names("sensors") else str(kind.absolute())
+    return TrainingSweep(bearing, like, {**keys, "set": changes}, scene.duration, box)
+
+
+def closest_sweep(bearing: Bearing) -> str:
+    """Find the shipped sweep whose bearing is most like another one: rollers, contact angle and envelope."""
+    names = [name for name in shipped_names("sweeps") if name.endswith(ENDING)]
+    return min(names, key=lambda name: _unlikeness(bearing, bearing_of(name)))
+
+
+def bearing_of(name: str) -> Bearing:
+    """Find the bearing of the scene of a shipped sweep."""
+    return load_bearing(read_file(find("scenes", read_sweep(name)[0].scene))["bearing"])
+
+
+def _unlikeness(one: Bearing, other: Bearing) -> float:
+    sizes = ("roller_count", "contact_angle", "outer_diameter", "width")
+    return sum(log(getattr(one, name) / getattr(other, name)) ** 2 for name in sizes)
+
+
+def _is_shipped(bearing: Bearing) -> bool:
+    return bearing.name in shipped_names("bearings") and load_bearing(bearing.name) == bearing
+
+
+def _seat(position: Vector, drawn: Box, fitted: Box) -> list[float]:
+    """Find where the seat of a sensor is in the fitted box, [mm]."""
+    number = min(range(len(drawn.sensors)), key=lambda k: dist(drawn.sensors[k].position, position))
+    return [round(1e3 * each, _DIGITS) for each in fitted.sensors[number].position]
+
+
+def _fitted(entry: Mapping[str, Any], bearing: Bearing, own: Bearing) -> dict[str, Any]:
+    """Scale the ends of what is drawn for one bearing to another."""
+    factor = 1.0
+    if entry["key"] in _LOADS:
+        factor = dynamic_rating(bearing).radial / dynamic_rating(own).radial
+    elif entry["key"] == _LENGTH:
+        factor = bearing.effective_length / own.effective_length
+    elif entry["key"] == _WIDTH:
+        spacing, usual = (each.pitch_diameter / each.roller_count for each in (bearing, own))
+        factor = spacing / usual
+    ends = {name: float(f"{factor * entry[name]:.{_DIGITS}g}") for name in ("low", "high") if name in entry}
+    if entry["key"] == _WIDTH:
+        ends.pop("low", None)  # the smallest spall is as large in any bearing
+    return {**entry, **(ends if factor != 1.0 else {})}

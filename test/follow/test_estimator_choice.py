@@ -1,0 +1,90 @@
+"""Which estimator is found for a bearing and for the axes that are measured, and what is said without one."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import beardyn_core as bd
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_bearing
+from beardyn_core.follow import estimator_choice
+from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.estimator_choice import estimator_for, how_to_train, list_own, own_folder
+from beardyn_core.follow.shipped import shipped_for
+from test.follow.synthetic import PLATE
+from test.follow.test_listening import measured, signal
+
+MINE = replace(load_bearing("HS130x230"), name="mine", roller_count=15)
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of the user's own estimators, empty; nothing is shipped."""
+    monkeypatch.setenv("BEARDYN_DATA_DIR", str(tmp_path / "data"))
+    monkeypatch.setattr(estimator_choice, "list_shipped", list)
+    own_folder().mkdir(parents=True)
+    return own_folder()
+
+
+def of_axes(axes: str = "xyz", plate: NamePlate = PLATE) -> Estimator:
+    """An estimator that takes some axes; its numbers are those of a shipped one of three."""
+    shipped = shipped_for(PLATE)
+    count = len(names_of(tuple(axes)))
+    return replace(shipped, axes=tuple(axes), plate=plate, middle=shipped.middle[:count])
+
+
+def test_the_most_axes_that_are_measured_are_taken(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    several = [of_axes("z"), of_axes("xyz"), of_axes("xz"), of_axes("xyz", replace(PLATE, roller_count=9))]
+    monkeypatch.setattr(estimator_choice, "readable_estimators", lambda: iter(several))
+    assert estimator_for(PLATE) is several[1]
+    assert estimator_for(PLATE, ("x", "z")) is several[2]
+    assert estimator_for(PLATE, ("z",)) is several[0]
+    with pytest.raises(
+        InputError, match="estimators of the axes x, y, z and of x, z and of z; measured are y"
+    ):
+        estimator_for(PLATE, ("y",))
+
+
+def test_an_own_estimator_is_found_and_the_newest_first(own: Path) -> None:
+    for k, name in enumerate(("old", "new")):
+        of_axes().save(own / f"{name}.npz")
+        os.utime(own / f"{name}.npz", (k, k))
+    (own / "other.npz").write_bytes(b"of another version")
+    assert [path.stem for path in list_own()] == ["other", "new", "old"]
+    assert estimator_for(PLATE).axes == ("x", "y", "z")
+
+
+def test_a_recording_is_estimated_with_the_own_estimator(own: Path, tmp_path: Path) -> None:
+    path = measured(tmp_path, signal(2.0))
+    with pytest.raises(
+        InputError, match="HS130x230 has no estimator yet: `beardyn train --bearing HS130x230`"
+    ):
+        bd.estimate(path)
+    of_axes().save(own / "mine.npz")
+    assert bd.estimate(path).stretches == 1
+    assert bd.follow(path).steps
+
+
+def test_the_command_that_makes_one_has_the_axis_that_is_measured(own: Path, tmp_path: Path) -> None:
+    of_axes().save(own / "mine.npz")
+    path = measured(tmp_path, signal(2.0, axes=1))
+    for ask in (bd.estimate, bd.follow):
+        with pytest.raises(InputError, match="measured are z: `beardyn train --bearing HS130x230` makes one"):
+            ask(path)
+    told = how_to_train(PLATE, ("x", "y"))
+    assert told.startswith("`beardyn train --bearing HS130x230 --axes xy` makes one, in some 15 min")
+
+
+def test_the_command_names_what_has_the_whole_bearing() -> None:
+    assert how_to_train(MINE, recording="run.mcap").startswith("`beardyn train --bearing run.mcap` makes one")
+    assert how_to_train(MINE).startswith("`beardyn train --bearing FILE.yaml` makes one")
+    data = replace(PLATE, name="6205", roller_count=9)
+    assert how_to_train(data).startswith("describe the whole bearing in a file (`beardyn new ")
+    imitation = replace(data, name="HS130x230")
+    assert "--bearing FILE.yaml" in how_to_train(imitation)

@@ -1,0 +1,94 @@
+"""The sweep that an estimator of a bearing learns from, composed from that of its vehicle class."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.life import dynamic_rating
+from beardyn_core.config import load_bearing, read_sweep
+from beardyn_core.config.folders import shipped_names
+from beardyn_core.population.draw import rows_of
+from beardyn_core.population.request import make_plan
+from beardyn_core.population.sweep_scenes import open_base
+from beardyn_core.population.training_sweep import LEARNT, MOST, PARTS, TRUER, bearing_of, compose_sweep
+
+OWN = {"FR130x230x150": "freight_axlebox", "HS130x230": "high_speed_axlebox", "METRO120x220": "metro_axlebox"}
+
+
+def varied(keys: dict[str, Any], key: str) -> dict[str, Any]:
+    return next(each for each in keys["vary"] if each["key"] == key)
+
+
+@pytest.mark.parametrize(("bearing", "sweep"), OWN.items())
+def test_the_bearing_of_a_shipped_sweep_has_that_sweep(bearing: str, sweep: str) -> None:
+    assert bearing_of(sweep).name == bearing
+    composed = compose_sweep(load_bearing(bearing))
+    shipped = yaml.safe_load(Path(read_sweep(sweep)[1]).read_text(encoding="utf-8"))
+    assert (composed.like, composed.box, composed.keys) == (sweep, None, shipped)
+
+
+@pytest.mark.parametrize("bearing", OWN)
+def test_runs_of_a_bearing_have_its_box_and_ten_turns_at_the_least_speed(bearing: str) -> None:
+    keys = compose_sweep(load_bearing(bearing)).of_part(TRUER)
+    sweep, label = read_sweep(keys)
+    scene = open_base(sweep, label)[1].scene
+    assert (scene.bearing.name, scene.tier) == (bearing, TRUER)
+    speed = varied(keys, "operation.speed_profile[0].speed_kmh")["low"] / 3.6
+    wheel = varied(keys, "operation.wheel_diameter_mm")["high"] * 1e-3
+    assert speed / (3.1416 * wheel) * keys["set"]["duration_s"] > 10.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bearing", OWN)
+@pytest.mark.parametrize("part", PARTS)
+def test_every_run_of_a_shipped_bearing_can_be_simulated(bearing: str, part: str) -> None:
+    composed = compose_sweep(load_bearing(bearing))
+    plan = make_plan(composed.of_part(part))
+    assert len(rows_of(plan.sweep)) == composed.count(part) <= MOST[part]
+    assert plan.frame is not None
+
+
+def test_no_bearing_is_in_both_tiers() -> None:
+    composed = compose_sweep(load_bearing("FR130x230x150"))
+    lots = [{row.lot for row in rows_of(read_sweep(composed.of_part(part))[0])} for part in PARTS]
+    assert len(lots[0]) == composed.count(LEARNT) / 2  # two runs of a bearing
+    assert not lots[0] & lots[1]
+
+
+def test_another_bearing_has_the_box_the_loads_and_the_spalls_of_its_size() -> None:
+    assert "AARK_6.5x9" in shipped_names("bearings")
+    bearing, usual = load_bearing("AARK_6.5x9"), load_bearing("FR130x230x150")
+    composed = compose_sweep(bearing, sensor="piezo_axlebox")
+    assert composed.like == "freight_axlebox"
+    assert composed.box is not None
+    assert composed.box.outer_diameter / bearing.outer_diameter == pytest.approx(280.0 / 230.0)
+    keys = composed.keys
+    assert keys["set"]["bearing"] == bearing.name
+    assert keys["set"]["sensors[0].type"] == "piezo_axlebox"
+    assert keys["set"]["sensors[0].position_mm"][2] == pytest.approx(170.0 * 250.8 / 230.0, abs=1e-3)
+    ratio = dynamic_rating(bearing).radial / dynamic_rating(usual).radial
+    assert varied(keys, "operation.payload_t")["high"] == pytest.approx(70.0 * ratio, rel=1e-3)
+    width = varied(keys, "defects[0].width_mm")
+    spacing = (bearing.pitch_diameter / bearing.roller_count) / (usual.pitch_diameter / usual.roller_count)
+    assert (width["low"], width["high"]) == (1.5, pytest.approx(28.0 * spacing, rel=1e-3))
+
+
+def test_a_bearing_with_the_same_cup_keeps_the_box_and_the_loads() -> None:
+    usual = load_bearing("METRO120x220")
+    mine = replace(usual, name="mine", end_play=usual.end_play + 2e-5)
+    keys, shipped = (compose_sweep(each).keys for each in (mine, usual))
+    assert keys["vary"] == shipped["vary"]
+    assert keys["set"].keys() - shipped["set"].keys() == {"bearing"}
+    sweep, label = read_sweep(keys)
+    assert open_base(sweep, label)[1].scene.bearing == mine
+
+
+def test_a_sweep_without_a_box_that_rings_is_refused() -> None:
+    with pytest.raises(InputError, match="smooth_run has no box that rings"):
+        compose_sweep(load_bearing("HS130x230"), like="spalls")
