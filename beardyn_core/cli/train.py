@@ -26,11 +26,19 @@ _OF_A_SET = ("xyz",)  # axes, where none are given
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    more = "With --bearing in place of DIR its runs are simulated first, some 15 min of one core in all."
+    more = "With --bearing or --scene its runs are simulated first, some 15 min of one core in all."
     parser = add_command(subparsers, "train", train, more)
-    add_parameter(parser, train, "runs", "set", metavar="DIR", nargs="?", suffix="; needed but for --bearing")
     add_parameter(
-        parser, make_estimators, "output", "-o", "--output", metavar="FILE.npz", suffix="; needed with DIR"
+        parser, train, "runs", "set", metavar="DIR", nargs="?", suffix="; needed but for --bearing, --scene"
+    )
+    add_parameter(
+        parser,
+        make_estimators,
+        "output",
+        "-o",
+        "--output",
+        metavar="FILE.npz",
+        suffix="; needed with DIR, --scene",
     )
     add_parameter(parser, train, "calibration", metavar="DIR")
     add_parameter(parser, train, "test", metavar="DIR")
@@ -38,11 +46,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         parser, make_estimators, "axes", metavar="AXES", type=names, default=None, usual="xyz,z, of DIR xyz"
     )
     group = parser.add_argument_group(
-        "a bearing", "runs of it are simulated next to the file; called again, it goes on"
+        "a bearing, an axlebox", "runs of it are simulated next to the file; called again, it goes on"
     )
     add_parameter(
         group, make_estimators, "bearing", metavar="NAME", required=False, default=None, usual="none"
     )
+    add_parameter(group, make_estimators, "scene", metavar="SCENE")
     add_parameter(group, make_estimators, "sensor", metavar="NAME")
     add_parameter(group, make_estimators, "like", metavar="SWEEP")
     add_parameter(group, make_estimators, "workers", metavar="N")
@@ -79,15 +88,18 @@ def run(args: argparse.Namespace) -> int:
 def option_problems(args: argparse.Namespace) -> list[str]:
     """List what is wrong with the options; nothing is created."""
     problems = []
-    if args.set is None and args.bearing is None:
-        problems.append("DIR, --bearing: give a set of runs, or a bearing whose runs are simulated")
-    elif args.set is not None and args.bearing is not None:
+    simulated = [name for name in ("bearing", "scene") if getattr(args, name) is not None]
+    if args.set is None and not simulated:
+        problems.append("DIR, --bearing, --scene: give a set of runs, or what is simulated")
+    elif len(simulated) > 1:
+        problems.append("--bearing, --scene: a scene has its bearing; give one of the two")
+    elif args.set is not None and simulated:
         problems.append(
-            f"DIR {args.set}, --bearing: the runs of a set have their bearing; give one of the two"
+            f"DIR {args.set}, --{simulated[0]}: the runs of a set have their bearing; give one of the two"
         )
-    elif args.set is not None and args.output is None:
+    elif args.output is None and (args.set is not None or args.scene is not None):
         problems.append("--output: is missing; give the file of the estimator")
-    idle = _OF_BEARING if args.bearing is None else _OF_SET
+    idle = _OF_SET if simulated else _OF_BEARING
     for name in idle:
         if getattr(args, name):
             which = "a bearing that is simulated" if args.bearing is None else "a set of runs"
@@ -107,12 +119,14 @@ def _of_bearing(args: argparse.Namespace) -> list[MadeEstimator]:
         with last_words(lambda: "the same command goes on"):
             return list(
                 make_estimators(
-                    args.bearing, args.output, sensor=args.sensor, like=args.like,
+                    args.bearing, args.output, scene=args.scene, sensor=args.sensor, like=args.like,
                     workers=args.workers, force=args.force, progress=True, **given,
                 )
             )  # fmt: skip
     except InputError as error:
-        raise InputError([in_options(each, ["bearing", "output"]) for each in error.problems]) from None
+        raise InputError(
+            [in_options(each, ["bearing", "scene", "output"]) for each in error.problems]
+        ) from None
 
 
 def _of_set(args: argparse.Namespace) -> list[MadeEstimator]:

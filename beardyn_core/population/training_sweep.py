@@ -13,7 +13,7 @@ from beardyn_core.base.edge import Vector, write_noun
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import dynamic_rating
-from beardyn_core.config import load_bearing, load_box, read_sweep
+from beardyn_core.config import load_bearing, load_box, read_scene, read_sweep
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.effects import ModalStructure
@@ -32,6 +32,9 @@ SECONDS = {LEARNT: 0.8, TRUER: 1.4}
 _SPLIT = {"train": 0.7, "validation": 0.3, "test": 0.0}  # runs of the true tier judge
 _LOADS = ("operation.vehicle.body_mass_t", "operation.payload_t", "operation.lateral_force_kN")
 _WIDTH, _LENGTH = "defects[0].width_mm", "defects[0].length_mm"
+_OF_BOX = ("effects.", "sensors[")  # beginnings of keys that a calibrated scene has its own values of
+# what a calibration leaves open of them: stiffness and damping as factors, end play, [mm]
+_STIFFNESS, _DAMPING, _PLAY = 0.02, 1.6, 0.03
 _TABLE, _TYPE = "effects.structure.table", "sensors[0].type"
 _DIGITS = 4
 
@@ -78,8 +81,8 @@ class TrainingSweep:
         return sum(self.count(part) * SECONDS[part] * self.duration for part in PARTS)
 
 
-def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> TrainingSweep:
-    """Fit the sweep of a vehicle class to a bearing.
+def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: str = "") -> TrainingSweep:
+    """Fit the sweep of a vehicle class to a bearing, or to one axlebox.
 
     Loads go with the dynamic rating, widths of spalls with the distance of two rollers, their lengths with
     the length of the rollers, and sizes of the box with those of the cup. The bearing of the sweep itself has
@@ -92,6 +95,9 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> Trai
         Kind of the accelerometer, shipped or a file; default that of the sweep.
     like : str, optional
         Sweep of a vehicle class, shipped or a file; default that whose bearing is most like this one.
+    scene : str, optional
+        Scene of one axlebox, such as a calibration has written: its box and its sensor are varied by as much
+        as a calibration leaves open of them.
 
     Raises
     ------
@@ -102,8 +108,8 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> Trai
     path = find("sweeps", like)
     keys = read_file(path)
     sweep, label = read_sweep(path)
-    scene = open_base(sweep, label)[1].scene
-    own, structure = scene.bearing, scene.effects.structure
+    model = open_base(sweep, label)[1].scene
+    own, structure = model.bearing, model.effects.structure
     if not isinstance(structure, ModalStructure):
         raise InputError(f"{label}: its scene {sweep.scene} has no box that rings; an estimator needs one")
     if sweep.scene not in shipped_names("scenes"):
@@ -114,21 +120,59 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "") -> Trai
         keys["sweep"] = f"{keys['sweep']} of {bearing.name}"[:80]
         keys["vary"] = [_fitted(each, bearing, own) for each in keys["vary"]]
         changes["bearing"] = bearing.name if _is_shipped(bearing) else write_noun(bearing)
-        modes = modes_of_effects(scene.effects)
+        modes = modes_of_effects(model.effects)
         assert modes is not None
-        if list(modes.cup.differences(bearing)):
+        if not scene and list(modes.cup.differences(bearing)):
             drawn = load_box(structure.table)
             if not isinstance(drawn, Box):
                 raise InputError(
                     f"{label}: its box {structure.table} is not in figures; it fits {own.name} alone"
                 )
             box = fit_box(drawn, load_bearing(drawn.bearing), bearing)
-            for number, each in enumerate(scene.sensors):
+            for number, each in enumerate(model.sensors):
                 changes[f"sensors[{number}].position_mm"] = _seat(each.position, drawn, box)
+    if scene:
+        changes.pop("bearing", None)
+        keys |= _of_axlebox(keys, find("scenes", scene).absolute())
     if sensor:
         kind = find("sensors", sensor)
         changes[_TYPE] = sensor if sensor in shipped_names("sensors") else str(kind.absolute())
-    return TrainingSweep(bearing, like, {**keys, "set": changes}, scene.duration, box)
+    return TrainingSweep(bearing, like, {**keys, "set": changes}, model.duration, box)
+
+
+def _of_axlebox(keys: Mapping[str, Any], path: Path) -> dict[str, Any]:
+    """Replace what is drawn of boxes and sensors by what a calibration leaves open of one.
+
+    Raises
+    ------
+    InputError
+        The scene has no box that rings.
+    """
+    scene = read_scene(path).scene
+    structure = scene.effects.structure
+    if not isinstance(structure, ModalStructure):
+        raise InputError(f"{path}: its axlebox has no modes; estimators need a box that rings")
+    factors = {"stiffness_factor": 1.0 + _STIFFNESS, "damping_factor": _DAMPING}
+    drawn: list[dict[str, Any]] = [
+        _around(f"effects.structure.{name}", getattr(structure, name), factor)
+        for name, factor in factors.items()
+    ]
+    play = 1e3 * scene.end_play
+    drawn.append({"key": "end_play_mm", "kind": "uniform", "low": play - _PLAY, "high": play + _PLAY})
+    rides = [
+        each for each in keys["vary"] if not each["key"].startswith(_OF_BOX) and each["key"] != "end_play_mm"
+    ]
+    name = f"{keys['sweep']} in {scene.name}"[:80]
+    return {
+        "sweep": name,
+        "scene": str(path),
+        "vary": [*rides, *({**each, "per": "bearing"} for each in drawn)],
+    }
+
+
+def _around(key: str, middle: float, factor: float) -> dict[str, Any]:
+    ends = {"low": round(middle / factor, _DIGITS), "high": round(middle * factor, _DIGITS)}
+    return {"key": key, "kind": "log_uniform", **ends}
 
 
 def closest_sweep(bearing: Bearing) -> str:

@@ -83,7 +83,10 @@ def test_mistakes_are_told_before_anything_runs(
 ) -> None:
     runs, file = tmp_path / "runs", str(tmp_path / "one.npz")
     for words, sentences in (
-        (("-o", file), ["DIR, --bearing: give a set of runs, or a bearing"]),
+        (("-o", file), ["DIR, --bearing, --scene: give a set of runs, or what is simulated"]),
+        (("--scene", "smooth_run"), ["--output: is missing"]),
+        (("--scene", "smooth_run", "--bearing", BEARING), ["a scene has its bearing; give one of the two"]),
+        (("--scene", "service_hihg", "-o", file), ["there is no scene 'service_hihg'"]),
         ((str(runs), "--bearing", BEARING, "-o", file), ["give one of the two"]),
         ((str(runs),), ["--output: is missing"]),
         ((str(runs), "-o", file, "--like", "fifty"), ["--like: is of a bearing that is simulated"]),
@@ -98,6 +101,15 @@ def test_mistakes_are_told_before_anything_runs(
         told = capsys.readouterr().err
         assert all(sentence in told for sentence in sentences), told
     assert not calls
+
+
+def test_the_scene_of_one_axlebox_gives_its_bearing(calls: list[Any], tmp_path: Path) -> None:
+    made = bd.make_estimators(scene="service_metro", output=tmp_path / "mine.npz", axes=["z"])
+    assert [each.file.name for each in made] == ["mine.npz"]
+    assert calls[0][1] == "METRO120x220"
+    for bearing, scene in ((BEARING, "service_metro"), (None, None)):
+        with pytest.raises(InputError, match="give one of the two"):
+            bd.make_estimators(bearing, tmp_path / "other.npz", scene=scene)
 
 
 def test_the_command_prints_a_table_or_json(calls: list[Any], capsys: pytest.CaptureFixture[str]) -> None:

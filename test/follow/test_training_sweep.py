@@ -12,7 +12,7 @@ import yaml
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.life import dynamic_rating
 from beardyn_core.config import load_bearing, read_sweep
-from beardyn_core.config.folders import shipped_names
+from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.request import make_plan
 from beardyn_core.population.sweep_scenes import open_base
@@ -87,6 +87,40 @@ def test_a_bearing_with_the_same_cup_keeps_the_box_and_the_loads() -> None:
     assert keys["set"].keys() - shipped["set"].keys() == {"bearing"}
     sweep, label = read_sweep(keys)
     assert open_base(sweep, label)[1].scene.bearing == mine
+
+
+def test_one_axlebox_has_its_box_and_what_a_calibration_leaves_open(tmp_path: Path) -> None:
+    scene = tmp_path / "mine.yaml"
+    keys = yaml.safe_load(find("scenes", "service_high_speed").read_text(encoding="utf-8"))
+    keys |= {"scene": "mine", "end_play_mm": 0.05}
+    keys["effects"] = {
+        "preset": "auto",
+        "structure": {"kind": "modes", "table": "high_speed", "stiffness_factor": 1.4, "damping_factor": 0.7},
+    }
+    scene.write_text(yaml.safe_dump(keys), encoding="utf-8")
+    composed = compose_sweep(load_bearing("HS130x230"), scene=str(scene))
+    assert composed.keys["scene"] == str(scene)
+    stiffness = varied(composed.keys, "effects.structure.stiffness_factor")
+    assert stiffness["low"] < 1.4 < stiffness["high"] < 1.43
+    assert stiffness["per"] == "bearing"
+    assert varied(composed.keys, "end_play_mm")["high"] == pytest.approx(0.08)
+    usual = compose_sweep(load_bearing("HS130x230")).keys["vary"]
+    own = {each["key"]: each for each in composed.keys["vary"]}
+    assert not [key for key in own if key.startswith("sensors[0]")]
+    for each in usual:
+        if each["key"].startswith(("operation.", "defects", "temperature", "scatter")):
+            assert own[each["key"]] == each
+    sweep, label = read_sweep(composed.of_part(LEARNT))
+    assert open_base(sweep, label)[1].scene.end_play == pytest.approx(5e-5)
+
+
+def test_an_axlebox_without_modes_is_refused(tmp_path: Path) -> None:
+    scene = tmp_path / "rigid.yaml"
+    text = find("scenes", "service_high_speed").read_text(encoding="utf-8")
+    keys = yaml.safe_load(text) | {"effects": {"preset": "auto", "structure": False}}
+    scene.write_text(yaml.safe_dump(keys), encoding="utf-8")
+    with pytest.raises(InputError, match=r"rigid\.yaml: its axlebox has no modes"):
+        compose_sweep(load_bearing("HS130x230"), scene=str(scene))
 
 
 def test_a_sweep_without_a_box_that_rings_is_refused() -> None:
