@@ -108,7 +108,7 @@ def test_the_page_tells_what_every_method_says(
     assert "| CWRU 130 | cup 7 at 6 | 0 | Y1 | cup 4/4 | cup 4/4 | cup 4/4 | healthy 4/4 |" in written
     assert "| CWRU 97 | healthy | 0 |  | healthy 2/2, healthy 2/2 |" in written
     assert "| CWRU 12 kHz, drive end | cup | 1/0/0 | 24/1/3 | 1/0/0 | 1/0/0 |" in written
-    assert "this page had 3 files" in written
+    assert "this page had 3 of them" in written
     assert f"59 of {CWRU_12_DRIVE}, 45 of {CWRU_12_FAN}" in written
     before = page.read_bytes()
 
