@@ -59,6 +59,14 @@ def whole_pages(app: Any, name: str, source: list[str]) -> None:
     source[0] = text
 
 
+class _Anything:
+    """A type that is known to a type checker alone; of anything, too."""
+
+    def __class_getitem__(cls, _of: Any) -> type[_Anything]:
+        """Give the same."""
+        return cls
+
+
 class _ForTypesAlone(dict[str, Any]):
     """What a module imports for its types alone, which is nothing at run time."""
 
@@ -69,7 +77,7 @@ class _ForTypesAlone(dict[str, Any]):
         """Take any type for a name that is neither in the module nor built in."""
         if name in self.there or hasattr(builtins, name):
             raise KeyError(name)
-        return Any
+        return _Anything
 
 
 def words_of_fields(app: Any, what: str, name: str, found: Any, options: Any, lines: list[str]) -> None:
