@@ -160,7 +160,7 @@ def thrust_by_small_motions(
         next(face for face in rib_faces(bearing) if (face.ring, face.side) == which)
         for which in (("cone", 1.0), ("cup", -1.0))
     )
-    stiff = cone_rib.contact.factor, cup_rib.contact.factor
+    stiff = cone_rib.factor, cup_rib.factor
     lever = 0.5 * bearing.roller_diameter - bearing.rib_contact_height
     count = bearing.roller_count
     cosine = np.cos(2.0 * math.pi * np.arange(count) / count)
