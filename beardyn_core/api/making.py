@@ -100,7 +100,7 @@ def _derive_missing_keys(
 ) -> dict[str, Any]:
     """Derive the keys that a bearing in code may leave out, each with its source.
 
-    The proportions are those of the four shipped bearings.
+    The proportions are those of the four shipped tapered bearings.
     """
     pitch, roller, length = pitch_diameter_mm, roller_diameter_mm, roller_length_mm
     row_spacing, outer, bore = length + 25.0, pitch + 1.7 * roller, pitch - 2.0 * roller

@@ -138,7 +138,7 @@ def stiffness(
     if radial_clearance_mm is None:
         return _each("end_play_mm", end_play_mm, lambda play: one(end_play_mm=play))
     if end_play_mm is not None and not isinstance(end_play_mm, Real):
-        raise InputError("end_play_mm and radial_clearance_mm are both sequences; one of them can be one")
+        raise InputError("end_play_mm is a sequence; with radial_clearance_mm it must be a number")
     return _each(
         "radial_clearance_mm",
         radial_clearance_mm,

@@ -158,11 +158,13 @@ def estimator_files(base: Path, axes: Sequence[str], *, always: bool = False) ->
 
 def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
     from beardyn_core.api.reading import heard_of
+    from beardyn_core.bearing.any_bearing import require_tapered
     from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.config import load_bearing
 
-    if isinstance(bearing, Bearing):
-        return bearing
+    if isinstance(bearing, RollerBearing):
+        return require_tapered(bearing, "runs")
     if Path(bearing).suffix != ".mcap":
         return load_bearing(bearing)
     found = heard_of(bearing, None, "")[1]

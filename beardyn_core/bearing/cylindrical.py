@@ -33,6 +33,7 @@ class CylindricalBearing(RadialBearing):
     kind: ClassVar[str] = "cylindrical"
     element: ClassVar[str] = "cylinder"
     words: ClassVar[str] = "cylindrical roller bearing"
+    largest_thrust: ClassVar[float] = 0.4  # FAG and INA, catalogue, cylindrical roller bearings
 
     row_spacing: A[float, At("mm", gt=0.0), "between the roller mid-lengths of both rows"]
     profile: A[Profile, "of the roller generator"] = Profile()

@@ -140,6 +140,12 @@ def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, st
             f"the force is {size:.4g} N, less than a thousandth of the dynamic load rating of {bearing.name} "
             f"({rating / 1e3:.0f} kN): check the unit"
         )
+    across, along = math.hypot(force[0], force[2]), abs(force[1])
+    if along > bearing.largest_thrust * across:
+        return "", (
+            f"the axial force of {along / 1e3:.4g} kN is more than {bearing.largest_thrust:g} of the radial "
+            f"one ({across / 1e3:.4g} kN): rollers of a {bearing.words} tip, and catalogues allow no more"
+        )
     return "", ""
 
 

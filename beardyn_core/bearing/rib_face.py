@@ -6,7 +6,7 @@ import math
 from functools import cache
 from typing import NamedTuple
 
-from beardyn_core.bearing.contact_law import ExactPointContact, PointContact, rib_contact
+from beardyn_core.bearing.contact_law import ExactPointContact, rib_contact_factor
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
@@ -26,7 +26,7 @@ class RibFace(NamedTuple):
     sphere_place: tuple[float, float]  # radius and axial place of that centre [m]
     edges: tuple[float, float]  # of the face along its generator from the nominal contact [m]
     gap: float  # between end and face along the normal [m]
-    contact: PointContact
+    factor: float  # stiffness factor K of its contact, Q = K delta^1.5 [N/m^1.5]
 
 
 @cache
@@ -45,6 +45,12 @@ def rib_faces(bearing: RollerBearing) -> tuple[RibFace, ...]:
     return (*cone, *cup)
 
 
+@cache
+def faces_of_ring(bearing: RollerBearing, ring: str) -> tuple[RibFace, ...]:
+    """List the faces of ``cup`` or ``cone``."""
+    return tuple(face for face in rib_faces(bearing) if face.ring == ring)
+
+
 def _large_rib(bearing: Bearing) -> RibFace:
     """Work out the rib against which the large ends of tapered rollers rest."""
     return RibFace(
@@ -56,7 +62,7 @@ def _large_rib(bearing: Bearing) -> RibFace:
         bearing.end_sphere,
         bearing.rib_face,
         0.0,
-        rib_contact(bearing),
+        rib_contact_factor(bearing),
     )
 
 
@@ -81,5 +87,5 @@ def _flat_rib(bearing: CylindricalBearing, ring: str, side: float, play: float) 
         (0.5 * bearing.pitch_diameter, 0.5 * bearing.row_spacing + on_axis),
         edges,
         play * math.cos(lean),
-        ExactPointContact(radius, around, bearing.material.contact_modulus),
+        ExactPointContact(radius, around, bearing.material.contact_modulus).factor,
     )

@@ -27,6 +27,8 @@ class RollerBearing:
     self_aligning: ClassVar[bool] = False
     # b_m of ISO 281: 1.1 for cylindrical and tapered rollers, 1.15 for barrels
     steel_factor: ClassVar[float] = 1.1
+    # axial force over the radial one that catalogues allow at most
+    largest_thrust: ClassVar[float] = math.inf
     # laminae that a static answer takes when nobody says how many
     usual_laminae: ClassVar[int] = 1
 

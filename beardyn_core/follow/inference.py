@@ -15,6 +15,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.follow.mounting_search import mountings_of
@@ -55,10 +56,10 @@ def doubt_of(estimator: Estimator, bearing: Bearing | NamePlate) -> str:
     )
 
 
-def alike(one: Bearing | NamePlate, other: Bearing | NamePlate) -> bool:
+def alike(one: RollerBearing | NamePlate, other: RollerBearing | NamePlate) -> bool:
     """Tell whether two bearings are of the same sizes."""
     sizes = ("roller_count", "pitch_diameter", "roller_diameter")
-    if not all(isinstance(each, Bearing) or each.has_dimensions for each in (one, other)):
+    if not all(isinstance(each, RollerBearing) or each.has_dimensions for each in (one, other)):
         return False
     return all(abs(getattr(one, name) / getattr(other, name) - 1.0) < _ALIKE for name in sizes)
 

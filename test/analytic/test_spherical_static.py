@@ -19,7 +19,13 @@ from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import ConePose, ContactSet, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 from beardyn_core.physics.statics.static import StaticSolution, solve
-from evidence.validation.roller_kinds import half_space_load, hertz_of, hertz_rows, sliced_load
+from evidence.validation.roller_kinds import (
+    half_space_load,
+    hertz_of,
+    hertz_rows,
+    moment_of_grooves,
+    sliced_load,
+)
 from test.bearings import SPHERICAL
 from test.kernels.naive import Float
 
@@ -96,22 +102,22 @@ def test_tilt_changes_no_load_and_meets_no_moment(tilt: tuple[float, float]) -> 
 
 @pytest.mark.parametrize("force", [(0.0, 0.0, 80e3), (0.0, 15e3, 60e3)])
 def test_grooves_press_the_cone_through_the_middle_of_the_sphere(force: tuple[float, float, float]) -> None:
-    """Moment of what the rollers do to their grooves, about the sphere's middle; what the cup does has none.
+    """To 1e-4 of load times radius: a cage holds rollers that lie next to the load line by as much."""
+    assert moment_of_grooves(*force) < 1e-4
 
-    To 1e-4 of load times radius: a cage holds rollers that lie beside the load line by as much.
-    """
+
+@pytest.mark.parametrize("change", [2e-6, -3e-6])
+def test_a_roller_of_another_size_takes_another_load(change: float) -> None:
     bearing = shipped()
-    displacement = rest(bearing, *force).displacement
-    model = contact_model(bearing, 0.0, LAMINAE, 0.0, 0.0)
-    state = solve_rollers(model, ConePose(displacement, np.eye(3)), None)
-    pressed = np.einsum("rkl,rklm->rkm", state.cone.force, state.cone.by_roller)
-    on_cone = pressed[..., 0:1] * model.radial + pressed[..., 1:2] * model.axial
-    moved = state.position[..., 0:1] * model.radial + state.position[..., 1:2] * model.axial
-    arm = model.centre + moved + displacement
-    moment = np.sum(np.cross(arm, on_cone) + pressed[..., 2:3] * model.tilt_axis, axis=(0, 1))
-    size = np.linalg.norm(force) * bearing.sphere_radius
-    assert np.abs(on_cone.sum(axis=(0, 1)) + force).max() < 1e-3 * np.linalg.norm(force)
-    assert np.abs(moment[[0, 2]]).max() < 1e-4 * size
+    oversize = np.zeros((2, bearing.roller_count))
+    oversize[1, 0] = change
+    force = (0.0, 0.0, 60e3)
+    plain, changed = (
+        rest(bearing, *force),
+        solve(bearing, force, end_play=None, laminae=LAMINAE, oversize=oversize),
+    )
+    assert bool(changed.cup_load[1, 0] > plain.cup_load[1, 0]) is (change > 0.0)
+    assert changed.cup_load[1, 0] != pytest.approx(plain.cup_load[1, 0], rel=0.02)
 
 
 def test_tilt_has_no_stiffness() -> None:

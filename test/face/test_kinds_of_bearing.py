@@ -184,7 +184,7 @@ def test_a_tapered_file_may_say_its_kind(tmp_path: Path) -> None:
     assert bd.scene(bearing={**_keys("HS130x230"), "kind": "tapered"}).bearing.name == "HS130x230"
 
 
-def _keys(name: str) -> dict[str, object]:
+def _keys(name: str) -> dict[str, Any]:
     from beardyn_core.base.edge import write_noun
 
     return write_noun(bd.bearing(name))
@@ -218,3 +218,10 @@ def test_the_page_of_a_pair_has_ribs_and_clearance(capsys: pytest.CaptureFixture
     ):
         assert part in shown
     assert "from its inner to its outer end" in shown
+
+
+def test_thrust_that_tips_cylinders_is_doubted(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bearing", "WJ130x240", "--load", "0", "30", "60"]) == 0
+    assert "more than 0.4 of the radial one" in capsys.readouterr().err
+    assert main(["bearing", "SRB120x260", "--load", "0", "30", "60"]) == 0
+    assert "radial one" not in capsys.readouterr().err

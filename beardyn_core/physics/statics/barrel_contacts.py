@@ -161,7 +161,7 @@ def _slices(model: ContactModel, ring: str, middle: _Middle) -> ContactSet:
     bearing = _spherical(model)
     law = barrel_ellipse(bearing, ring)
     from_middle = model.abscissa - middle.place[..., None]
-    approach = middle.approach[..., None] - (from_middle / law.reach) ** 2
+    approach = middle.approach[..., None] - (from_middle / law.reach) ** 2 - model.drop + model.oversize
     slope = (2.0 / law.reach**2) * from_middle[..., None]
 
     def changes(of_approach: Float, of_place: Float) -> Float:

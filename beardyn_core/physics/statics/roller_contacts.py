@@ -23,7 +23,7 @@ from beardyn_core.bearing.contact_law import (
 )
 from beardyn_core.bearing.kinematics import cage_speed, centrifugal_force, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
-from beardyn_core.bearing.rib_face import RibFace, rib_faces
+from beardyn_core.bearing.rib_face import RibFace, faces_of_ring
 from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
@@ -50,7 +50,6 @@ class ContactModel:
     drop: Float  # [lamina], or with errors of the profiles [row, roller, lamina]: of the profile [m]
     clearance: float  # normal gap at the cup raceway with the cone centred [m]
     lamina_factor: float  # stiffness factor of one lamina contact [N/m^(10/9)]
-    rib_factors: tuple[float, ...]  # of each of `rib_faces` [N/m^1.5]
     inertia_load: Float  # [3], radial, axial and tilting, of the orbiting roller at mid-length [N, N, N m]
     bending: Float  # [row, roller, mode], how far the raceway opens per amplitude of a mode [1/sqrt(kg)]
     missing: NDArray[np.bool_]  # [row, roller], rollers that are not there
@@ -119,7 +118,6 @@ def contact_model(
         drop=drop,
         clearance=bearing.normal_gap(end_play),
         lamina_factor=line_contact_factor(bearing.material, bearing.effective_length) / laminae,
-        rib_factors=tuple(face.contact.factor for face in rib_faces(bearing)),
         inertia_load=_inertia_load(bearing, speed),
         coupling=None if coupling is None else bearing_lamina_root(bearing, coupling, laminae),
         bending=np.zeros((*radial.shape[:2], 0)) if body is None else body.openings(azimuth),
@@ -245,12 +243,7 @@ def cup_rib_contacts(model: ContactModel, roller: Float, pose: ConePose, by_cone
 
 def _faces_of(ring: str, model: ContactModel, roller: Float, pose: ConePose, by_cone: bool) -> ContactSet:
     """Work out the contacts with every rib of a ring, one behind the other; none is a set without laminae."""
-    faces = zip(rib_faces(model.bearing), model.rib_factors, strict=True)
-    sets = [
-        _face_contacts(model, roller, pose, face, factor, by_cone)
-        for face, factor in faces
-        if face.ring == ring
-    ]
+    sets = [_face_contacts(model, roller, pose, face, by_cone) for face in faces_of_ring(model.bearing, ring)]
     if len(sets) == 1:
         return sets[0]
     if not sets:
@@ -268,7 +261,7 @@ def _faces_of(ring: str, model: ContactModel, roller: Float, pose: ConePose, by_
 
 
 def _face_contacts(
-    model: ContactModel, roller: Float, pose: ConePose, face: RibFace, factor: float, by_cone: bool
+    model: ContactModel, roller: Float, pose: ConePose, face: RibFace, by_cone: bool
 ) -> ContactSet:
     """Work out contacts of the roller ends with one rib of every row."""
     sine, cosine = math.sin(face.lean), math.cos(face.lean)
@@ -297,7 +290,7 @@ def _face_contacts(
         normal[..., k] = normal_radial * direction
     normal[..., 1] = normal_axial * outwards
     point = sphere + face.sphere_radius * normal
-    force, stiffness, energy = power_law(approach, factor, POINT_EXPONENT)
+    force, stiffness, energy = power_law(approach, face.factor, POINT_EXPONENT)
     return _assemble_contacts(
         model,
         pose,

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
-from beardyn_core.bearing.rib_face import rib_faces
+from beardyn_core.bearing.rib_face import faces_of_ring
 from beardyn_core.physics.roller_spring import SpringParams, lever_of_cup
 from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import (
@@ -224,7 +224,7 @@ class _Rollers:
             cone_contacts(model, position, pose, by_cone),
             ribs,
         )
-        if any(face.ring == "cup" for face in rib_faces(model.bearing)):
+        if faces_of_ring(model.bearing, "cup"):
             return (*found, cup_rib_contacts(model, position, pose, by_cone))
         return found
 
@@ -368,7 +368,7 @@ def _on_cup_and_rib(model: ContactModel, pose: ConePose) -> Float:
     wanted = np.array(
         [
             (cup_load / (model.lamina_factor * model.abscissa.size)) ** (1.0 / LINE_EXPONENT),
-            (rib_load / model.rib_factors[0]) ** (1.0 / POINT_EXPONENT),
+            (rib_load / faces_of_ring(bearing, "cone")[0].factor) ** (1.0 / POINT_EXPONENT),
         ]
     )
     position = np.zeros_like(model.centre)
