@@ -302,7 +302,9 @@ MONITOR = (
 
 FOLLOWER = (
     BEARING,
-    NodeParameter("estimator", "", "file of `beardyn train`; empty: the one shipped for the bearing"),
+    NodeParameter(
+        "estimator", "", "file of `beardyn train`; empty: the own or the shipped one of the bearing"
+    ),
     NodeParameter("mileage", 0.0, "of the bearing so far", "km", minimum=0.0, maximum=1e8),
     NodeParameter(
         "wheel_diameter", 920.0, "running diameter of the wheel", "mm", minimum=300.0, maximum=1500.0

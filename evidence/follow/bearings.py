@@ -54,7 +54,8 @@ def rows(folder: Path, known: Sequence[tuple[str, Estimator]]) -> Iterator[str]:
             continue
         described = describe_runs(runs, None, estimator.axes)
         found = [estimator.estimates(row[None]) for row in described.descriptors]
-        words = f"`{name}`: {estimator.plate.name}, {', '.join(estimator.axes)}"
+        tier = runs.about["identity"]["base"]["tier"]
+        words = f"`{name}`: {estimator.plate.name}, {', '.join(estimator.axes)}; runs of `{tier}`"
         yield row_of(words, described, found, np.ones(len(found), bool))
 
 
