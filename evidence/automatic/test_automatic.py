@@ -141,7 +141,7 @@ def test_the_worst_band_of_each_range_stands_with_its_frequency() -> None:
     apart = np.zeros(len(NOMINAL_BANDS))
     for band, decibels in ((100, -0.4), (400, 0.2), (630, 1.0), (800, -2.0), (5000, 3.0), (6300, 9.0)):
         apart[NOMINAL_BANDS.index(band)] = decibels
-    assert bands.worst(apart) == ["-0.4 at 100", "+0.2 at 400", "-2.0 at 800", "+3.0 at 5000"]
+    assert bands.worst(apart) == ["-0.4 at 100", "+0.2 at 400", "-2.0 at 800", "+3.0 at 5000", "+9.0 at 6300"]
 
 
 def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
