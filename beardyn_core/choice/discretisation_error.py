@@ -43,7 +43,7 @@ POCKETS = {"quasistatic": 0.8, "lumped": 2.0}
 # bearing, to 5 kHz and above. See evidence/automatic/bands.py, whose table is held against them.
 QUIET_BAND, IN_QUIET_BAND = 400.0, 1.1
 LOW_BAND, IN_LOW_BAND = 1000.0, 2.0
-MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 6.0, "lumped": 12.0}
+MIDDLE_BAND, IN_MIDDLE_BAND = 5000.0, {"quasistatic": 6.0, "lumped": 6.0}
 BEYOND = {"quasistatic": 9.0, "lumped": 22.0}
 COUPLED_IN_MIDDLE_BAND, COUPLED_BEYOND = 6.0, 9.0  # of `quasistatic` with coupled laminae
 
