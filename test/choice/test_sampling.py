@@ -105,7 +105,7 @@ def test_named_effects_leave_nothing_to_choose() -> None:
 def test_it_is_told_with_its_reason() -> None:
     scene = asked()
     assert {sensor.rate for sensor in scene.sensors} == {3200.0} == {scene.waveform_rate}
-    said = "the third octave at 1 kHz ends at 1.122 kHz, and 3.2 kHz is heard to 1.28 kHz"
+    said = "the third octave at 1 kHz ends at 1.122 kHz, and 3.2 kHz measures to 1.28 kHz"
     assert f"rate 3.2 kHz: {said}" in scene.chosen
     found = explain_scene("smooth_run", tier="lumped", effects="auto", vibration_to=ASKED)
     assert "rate                 3.2 kHz" in text(found)
