@@ -140,13 +140,20 @@ def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, st
             f"the force is {size:.4g} N, less than a thousandth of the dynamic load rating of {bearing.name} "
             f"({rating / 1e3:.0f} kN): check the unit"
         )
-    across, along = math.hypot(force[0], force[2]), abs(force[1])
-    if along > bearing.largest_thrust * across:
-        return "", (
-            f"the axial force of {along / 1e3:.4g} kN is more than {bearing.largest_thrust:g} of the radial "
-            f"one ({across / 1e3:.4g} kN): rollers of a {bearing.words} tip, and catalogues allow no more"
-        )
+    if math.isfinite(bearing.largest_thrust) and (tipping := _tipping_thrust(bearing, *force)):
+        return "", tipping
     return "", ""
+
+
+def _tipping_thrust(bearing: RollerBearing, x: float, y: float, z: float) -> str:
+    """Say that an axial force [N] is more than rollers can take next to the radial one, empty when it is not."""
+    across, along = math.hypot(x, z), abs(y)
+    if along <= bearing.largest_thrust * across:
+        return ""
+    return (
+        f"the axial force of {along / 1e3:.4g} kN is more than {bearing.largest_thrust:g} of the radial "
+        f"one ({across / 1e3:.4g} kN): rollers of a {bearing.words} tip, and catalogues allow no more"
+    )
 
 
 def fatigue_load_limit(bearing: RollerBearing) -> float:
