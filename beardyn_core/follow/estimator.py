@@ -50,7 +50,7 @@ _KINDS: dict[str, tuple[type[Regression] | type[Forest], tuple[str, ...], tuple[
 _PART = ("slope", "offset", "least")
 AS_WIDE = 0.8  # of the range that 90 % of the runs learnt from have: an interval says nothing more than it
 _BLURRED = "not identifiable from this signal: the interval is as wide as the range learnt from"
-_UNPROVEN = "not reported: too few runs of its kind judge the interval"
+_UNPROVEN = "not reported: no runs prove its interval"
 AT_EDGE = 0.97  # of the largest value learnt from: what reaches it may be any larger one
 UNLIKE = (
     "the signal is unlike all that was learnt from (strangeness {:.1f}, familiar up to 1): another box, "

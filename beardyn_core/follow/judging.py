@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float, Int
-from beardyn_core.follow.conformal import Guess
+from beardyn_core.follow.conformal import LEVELS, Guess
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.labelled import Described, select_runs
 from beardyn_core.follow.learning import calibrate_intervals, true_values, widen_intervals
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 
+_CHANCE = 0.025  # that fewer runs than so many lie inside of an interval that is right
 CROSSWISE = 10  # parts of a calibration set, each judged by the others
 
 
@@ -26,6 +27,13 @@ class Score(NamedTuple):
     error: float  # median, relative or in SI
     bias: float  # median, the same
     coverage: tuple[float, ...]  # share of runs whose truth lies inside of the intervals of 50 and 90 %
+
+
+def is_held(score: Score) -> bool:
+    """Tell whether as many runs lie inside of the last interval as it promises, but for chance (97.5 %)."""
+    from scipy.stats import binom
+
+    return score.coverage[-1] * score.runs >= float(binom.ppf(_CHANCE, score.runs, LEVELS[-1]))
 
 
 class Guessed(NamedTuple):

@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from beardyn_core.base.errors import InputError
 from beardyn_core.follow.conformal import LEVELS
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
-from beardyn_core.follow.judging import judged_by, judged_crosswise
+from beardyn_core.follow.judging import is_held, judged_by, judged_crosswise
 from beardyn_core.follow.labelled import (
     check_alike,
     check_unseen,
@@ -77,8 +79,9 @@ def train(
         judged = judged_by(found, others)
     quantities: Mapping[str, dict[str, Any]] = found.card["quantities"]
     for name, each in judged.scores.items():
-        if name in found.regressions:
+        if name in found.regressions and is_held(each):
             quantities[name]["test"] = each._asdict()
+    found = withhold(found, [name for name, each in judged.scores.items() if not is_held(each)])
     judge = f"{about['sweep']}, {TEST}" if test is None else test.about["sweep"]
     card = {
         "condition": judged.part,
@@ -96,3 +99,12 @@ def train(
         "licence": about["licence"],
     }
     return replace(found, card=card)
+
+
+def withhold(estimator: Estimator, names: Sequence[str]) -> Estimator:
+    """Leave the numbers out of an estimator whose intervals do not hold: no interval has an end then."""
+    kept = {
+        name: replace(each, reach=np.full(len(LEVELS), np.inf)) if name in names else each
+        for name, each in estimator.regressions.items()
+    }
+    return replace(estimator, regressions=kept)

@@ -8,7 +8,7 @@ page      the table of docs/evidence/estimator.md and its picture, from a run of
 drift     a load that steps, a spall that grows, warming, healthy bearings over mileage, and the lag of each
 judged    coverage and errors by size, speed, noise and box, of sets that are made beforehand
 boxes     the shipped estimator in its own box, a stiffer one and with another sensor place
-bearings  the shipped estimators of every bearing
+bearings  what the data cards of the shipped estimators say
 axlebox   estimators of one axlebox, trained after a calibration
 mountings a sensor that is not mounted as stated
 load_gain what a vertical load that is known buys for lateral load, end play, width and rating life

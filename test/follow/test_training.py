@@ -190,3 +190,22 @@ def test_a_calibration_of_one_bearing_is_not_learnt_from_alone() -> None:
     one = drawn(60, 3)
     one.bearings[:] = one.bearings[0]
     assert taught(one, straightened=True).regressions
+
+
+def test_a_number_whose_interval_does_not_hold_is_not_reported(
+    runs: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 60 runs an interval of 90 % may miss 10 by chance; half of them are too many."""
+    right = training.train(runs)
+    monkeypatch.setattr(judging, "score_of", lambda *_: judging.Score(60, 0.9, 0.1, 0.0, (0.3, 0.5)))
+    found = training.train(runs)
+    described = drawn(5, 50).descriptors
+    assert right.estimates(described)["vertical_load"].reason == ""
+    assert found.estimates(described)["vertical_load"].reason == "not reported: no runs prove its interval"
+    assert "test" not in found.card["quantities"]["vertical_load"]
+
+
+def test_chance_may_leave_some_runs_outside() -> None:
+    shares = {48: False, 49: True, 60: True}
+    scores = {count: judging.Score(60, 0.9, 0.1, 0.0, (0.5, count / 60)) for count in shares}
+    assert {count: judging.is_held(each) for count, each in scores.items()} == shares
