@@ -146,7 +146,7 @@ def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, st
 
 
 def _tipping_thrust(bearing: RollerBearing, x: float, y: float, z: float) -> str:
-    """Say that an axial force [N] is more than rollers can take next to the radial one, empty when it is not."""
+    """Say that the axial part of a force [N] is more than rollers can take, empty when it is not."""
     across, along = math.hypot(x, z), abs(y)
     if along <= bearing.largest_thrust * across:
         return ""
