@@ -148,4 +148,4 @@ def test_an_interval_is_the_widest_of_those_of_the_sets_that_calibrate_it() -> N
 def test_too_few_runs_that_judge_an_interval_give_no_number() -> None:
     found = widen_intervals(taught(drawn(200, 12)), drawn(5, 16)).estimates(drawn(1, 9).descriptors)
     assert np.isnan(found["vertical_load"].value)
-    assert "not reported: too few runs" in found["vertical_load"].sentence
+    assert "not reported: no runs prove its interval" in found["vertical_load"].sentence
