@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from beardyn_core.population.training_sweep import TrainingSweep
 
 _AXES = "xyz"
+_DIGEST = "training"  # key of a card
 _TRAINING_S = 100.0  # processor time of an estimator from its runs, [s]
 _CHOICE_S = 45.0  # of the choice of effects of a sweep, [s]
 _BOX_S = 150.0  # of the modes of a box
@@ -102,22 +104,25 @@ def make_estimators(
     base = own_folder() / _name(whole, sensor) if output is None else Path(output)
     problems = axes_problems(axes)
     files = estimator_files(base, axes, always=output is None)
-    kept = (
-        {} if force else {each: found for each, file in files.items() if (found := _kept(file, each, whole))}
-    )
+    try:
+        sweep = compose_sweep(whole, sensor=sensor, like=like, scene="" if scene is None else str(scene))
+    except InputError as error:
+        raise InputError([*problems, *error.problems]) from None
+    problems += missing("gmsh", "fitting a box to a bearing", "structure") if sweep.box else []
+    there = {} if force else {each: _kept(file, each, sweep) for each, file in files.items()}
+    kept = {each: found for each, found in there.items() if found is not None}
     missed = [each for each in files if each not in kept]
     for each in missed:
         if output is not None:
             problems += file_problems("output", files[each], force=force, ending=".npz")
+        elif files[each].exists() and not force:
+            problems.append(
+                f"output: {files[each]} is of another sweep or sensor; take --force to replace it"
+            )
     cluster = cluster_of(workers, "", None, None)
     problems += cluster.problems()
     for module in ("zarr", "sklearn"):
         problems += missing(module, "training", "sweep")
-    try:
-        sweep = compose_sweep(whole, sensor=sensor, like=like, scene="" if scene is None else str(scene))
-        problems += missing("gmsh", "fitting a box to a bearing", "structure") if sweep.box else []
-    except InputError as error:
-        problems += error.problems
     if problems:
         raise InputError(problems)
     made = {each: MadeEstimator(files[each], found, is_new=False) for each, found in kept.items()}
@@ -131,6 +136,7 @@ def make_estimators(
         for each in missed:
             say(f"learning from axes {each} of {len(sets[0])} runs, put right by {len(sets[1])}")
             found = training.train(sets[0], calibration=sets[1:], axes=tuple(each))
+            found = replace(found, card={**found.card, _DIGEST: sweep.digest})
             found.save(files[each], replace=force)
             made[each] = MadeEstimator(files[each], found, is_new=True)
     return tuple(made[each] for each in files)
@@ -189,16 +195,16 @@ def _name(bearing: Bearing, sensor: str) -> str:
     return re.sub(r"[^\w.-]+", "_", "_".join(parts)) + ".npz"
 
 
-def _kept(file: Path, axes: str, bearing: Bearing) -> Estimator | None:
-    """Read the estimator of a bearing and of axes that a call before has made; none of another file."""
+def _kept(file: Path, axes: str, sweep: TrainingSweep) -> Estimator | None:
+    """Read the estimator that a call before has made of the same sweep and axes; none of another file."""
     from beardyn_core.follow.estimator import read_estimator
-    from beardyn_core.follow.inference import doubt_of
 
     try:
         found = read_estimator(file)
     except InputError:
         return None
-    return None if doubt_of(found, bearing) or "".join(found.axes) != axes else found
+    same = found.card.get(_DIGEST) == sweep.digest and "".join(found.axes) == axes
+    return found if same else None
 
 
 def _simulate(

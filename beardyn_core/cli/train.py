@@ -102,7 +102,7 @@ def option_problems(args: argparse.Namespace) -> list[str]:
     idle = _OF_SET if simulated else _OF_BEARING
     for name in idle:
         if getattr(args, name):
-            which = "a bearing that is simulated" if args.bearing is None else "a set of runs"
+            which = "a set of runs" if simulated else "a bearing that is simulated"
             problems.append(f"--{name}: is of {which}; leave it out")
     wrong = [] if args.axes is None else axes_problems(args.axes, "--axes")
     if args.set is not None and args.output is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import dist, log
@@ -37,6 +39,7 @@ _OF_BOX = ("effects.", "sensors[")  # beginnings of keys that a calibrated scene
 _STIFFNESS, _DAMPING, _PLAY = 0.02, 1.6, 0.03
 _TABLE, _TYPE = "effects.structure.table", "sensors[0].type"
 _DIGITS = 4
+_DIGEST = 16  # letters
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,13 @@ class TrainingSweep:
     like: A[str, "shipped sweep or file that they are like"]
     keys: A[dict[str, Any], "of the sweep that teaches, as of its file"]
     box: A[Box | None, "whose modes are to be computed, fitted to the bearing; none where its own is shipped"]
+    scene: A[str, "text of the scene of one axlebox; empty of a vehicle class"] = ""
+
+    @property
+    def digest(self) -> str:
+        """What an estimator of it depends on, but for the code."""
+        keys = json.dumps([self.keys, self.scene], sort_keys=True, default=str)
+        return hashlib.sha256(keys.encode()).hexdigest()[:_DIGEST]
 
     def of_part(self, part: str, table: Path | None = None) -> dict[str, Any]:
         """Give the keys of the sweep of a part.
@@ -136,7 +146,8 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: 
     if sensor:
         kind = find("sensors", sensor)
         changes[_TYPE] = sensor if sensor in shipped_names("sensors") else str(kind.absolute())
-    return TrainingSweep(bearing, like, {**keys, "set": changes}, box)
+    text = find("scenes", scene).read_text(encoding="utf-8") if scene else ""
+    return TrainingSweep(bearing, like, {**keys, "set": changes}, box, text)
 
 
 def _of_axlebox(keys: Mapping[str, Any], path: Path) -> dict[str, Any]:
@@ -156,7 +167,7 @@ def _of_axlebox(keys: Mapping[str, Any], path: Path) -> dict[str, Any]:
         _around(f"effects.structure.{name}", getattr(structure, name), factor)
         for name, factor in factors.items()
     ]
-    play = 1e3 * scene.end_play
+    play = float(write_noun(scene)["end_play_mm"])  # as mounted, not when it is warm
     drawn.append({"key": "end_play_mm", "kind": "uniform", "low": play - _PLAY, "high": play + _PLAY})
     rides = [
         each for each in keys["vary"] if not each["key"].startswith(_OF_BOX) and each["key"] != "end_play_mm"

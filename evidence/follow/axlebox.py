@@ -59,24 +59,24 @@ def true_scene(box: Hidden) -> dict[str, Any]:
 
 def rides_of(box: Hidden, folder: Path) -> LabelledSet:
     """Simulate rides of a box in `full`; what the folder has is not done again."""
+    done = folder / f"{box.name}_rides"
+    if (done / "runs.parquet").is_file():
+        return LabelledSet(done)
     scene = folder / f"{box.name}_true.yaml"
     scene.write_text(yaml.safe_dump(true_scene(box), sort_keys=False), encoding="utf-8")
     keys = compose_sweep(load_bearing("HS130x230"), scene=str(scene)).of_part(TRUER)
     keys["vary"] = [each for each in keys["vary"] if each.get("per") != "bearing"]
     keys |= {"seed": SEED + BOXES.index(box), "runs": RIDES, "sweep": f"rides of box {box.name}"}
-    return bd.sweep(keys, folder / f"{box.name}_rides", workers=1, progress=True)
+    return bd.sweep(keys, done, workers=1, progress=True)
 
 
 def estimator_of(box: Hidden, folder: Path) -> Estimator:
     """Calibrate a scene to a recording of a box, and train an estimator for it."""
+    scene, file = (folder / f"{box.name}{ending}" for ending in (".yaml", ".npz"))
+    if file.is_file():
+        return read_estimator(file)
     found_of(box, folder)
-    made = bd.make_estimators(
-        scene=folder / f"{box.name}.yaml",
-        output=folder / f"{box.name}.npz",
-        axes=["xyz"],
-        workers=1,
-        progress=True,
-    )
+    made = bd.make_estimators(scene=scene, output=file, axes=["xyz"], workers=1, progress=True)
     return made[0].estimator
 
 

@@ -14,6 +14,7 @@ from beardyn_core.api import training as making
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_bearing
+from beardyn_core.config.folders import find
 from beardyn_core.follow import training
 from beardyn_core.follow.estimator_choice import own_folder
 from beardyn_core.population import training_sweep
@@ -52,9 +53,8 @@ def test_every_set_of_axes_learns_from_the_same_runs(calls: list[Any]) -> None:
 
 
 def test_what_is_there_is_kept_and_made_anew_where_that_is_asked_for(calls: list[Any]) -> None:
-    folder = own_folder()
-    folder.mkdir(parents=True)
-    of_axes().save(folder / "HS130x230_xyz.npz")
+    bd.make_estimators(BEARING, axes=["xyz"])
+    calls.clear()
     made = bd.make_estimators(BEARING)
     assert [each.is_new for each in made] == [False, True]
     assert calls[1:] == ["z"]
@@ -63,6 +63,22 @@ def test_what_is_there_is_kept_and_made_anew_where_that_is_asked_for(calls: list
     assert not calls
     bd.make_estimators(BEARING, axes=["xyz"], force=True)
     assert calls[1:] == ["xyz"]
+
+
+def test_an_estimator_of_another_scene_sweep_or_sensor_is_not_taken_for_it(
+    calls: list[Any], tmp_path: Path
+) -> None:
+    file, scene = tmp_path / "box.npz", tmp_path / "mine.yaml"
+    keys = yaml.safe_load(find("scenes", "service_high_speed").read_text(encoding="utf-8"))
+    scene.write_text(yaml.safe_dump(keys), encoding="utf-8")
+    assert bd.make_estimators(scene=scene, output=file, axes=["xyz"])[0].is_new
+    assert not bd.make_estimators(scene=scene, output=file, axes=["xyz"])[0].is_new
+    scene.write_text(yaml.safe_dump(keys | {"end_play_mm": 0.2}), encoding="utf-8")
+    for bearing, sensor in ((None, ""), (BEARING, ""), (BEARING, "mems_50g")):
+        mine = scene if bearing is None else None
+        with pytest.raises(InputError, match="the file exists"):
+            bd.make_estimators(bearing, file, scene=mine, sensor=sensor, axes=["xyz"])
+    assert len(calls) == 2
 
 
 def test_a_file_of_ones_own_has_the_axes_in_its_name_where_there_are_several(
@@ -87,6 +103,7 @@ def test_mistakes_are_told_before_anything_runs(
         (("--scene", "smooth_run"), ["--output: is missing"]),
         (("--scene", "smooth_run", "--bearing", BEARING), ["a scene has its bearing; give one of the two"]),
         (("--scene", "service_hihg", "-o", file), ["there is no scene 'service_hihg'"]),
+        (("--scene", "smooth_run", "-o", file, "--test", str(runs)), ["--test: is of a set of runs"]),
         ((str(runs), "--bearing", BEARING, "-o", file), ["give one of the two"]),
         ((str(runs),), ["--output: is missing"]),
         ((str(runs), "-o", file, "--like", "fifty"), ["--like: is of a bearing that is simulated"]),
