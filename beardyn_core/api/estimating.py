@@ -40,7 +40,7 @@ def estimate(
 
     Estimate from vibration and shaft of a recording what no sensor measures: load, end play, which part is
     spalled and how wide, with intervals of 50 and 90 %; what these sensors do not identify is named (with the
-    shipped estimators vertical load and temperature).
+    shipped estimators temperature, and vertical load but for freight).
 
     Parameters
     ----------

@@ -67,7 +67,7 @@ def make_estimators(
     scene : Path or str, optional
         Scene of one axlebox, such as `calibrate` writes: simulate rides in its box and train on them; default
         boxes of the vehicle class. Its stiffness is varied by 2 %, its damping by 60 %, its end play by 0.03
-        mm, for a calibration leaves so much open.
+        mm, about what calibrations of simulated boxes left open; damping by a factor of up to 2.6 in one.
     sensor : str, optional
         Kind of the accelerometer, shipped or a file; default that of the vehicle class.
     like : str, optional

@@ -66,18 +66,46 @@ def _large_rib(bearing: Bearing) -> RibFace:
     )
 
 
+def flat_rib_truncation(bearing: CylindricalBearing, load: float) -> list[str]:
+    """Say where the contact of a roller end under a load [N] reaches beyond the face of its rib.
+
+    The Hertz contact does not know these borders: pressure and stiffness are off where they are passed.
+    """
+    found = []
+    for ring, words in (("cone", "inner ring"), ("cup", "outer ring")):
+        if not faces_of_ring(bearing, ring):
+            continue
+        below, above = faces_of_ring(bearing, ring)[0].edges
+        reach, room = _flat_contact(bearing, ring).semi_axes(load)[1], min(-below, above)
+        if reach > room:
+            found.append(
+                f"under {load:.0f} N the contact of a roller end reaches {reach * 1e3:.2f} mm along the rib "
+                f"of the {words}, whose face ends {room * 1e3:.2f} mm from its middle."
+            )
+    return found
+
+
+def _flat_contact(bearing: CylindricalBearing, ring: str) -> ExactPointContact:
+    """Work out the contact of a roller end: along the face the rib is straight, around the ring a cone."""
+    radius, height = bearing.end_radius, bearing.rib_contact_height
+    if ring == "cone":
+        lean, place = -bearing.rib_opening, bearing.cone_radius + height
+    else:
+        lean, place = bearing.rib_opening, bearing.cup_radius - height
+    around = 1.0 / (1.0 / radius - math.sin(lean) / place)
+    return ExactPointContact(radius, around, bearing.material.contact_modulus)
+
+
 def _flat_rib(bearing: CylindricalBearing, ring: str, side: float, play: float) -> RibFace:
     """Work out a rib of a cylindrical roller bearing, an axial play [m] away from the roller end."""
     height, undercut, radius = bearing.rib_contact_height, bearing.rib_undercut, bearing.end_radius
     on_axis = side * (0.5 * bearing.roller_length - radius)
     if ring == "cone":
-        lean, place = -bearing.rib_opening, bearing.cone_radius + height
+        lean = -bearing.rib_opening
         edges = undercut - height, bearing.cone_rib_height - height
     else:
-        lean, place = bearing.rib_opening, bearing.cup_radius - height
+        lean = bearing.rib_opening
         edges = height - bearing.cup_rib_height, height - undercut
-    # along the face the rib is straight; around the ring it is a cone
-    around = 1.0 / (1.0 / radius - math.sin(lean) / place)
     return RibFace(
         ring,
         side,
@@ -87,5 +115,5 @@ def _flat_rib(bearing: CylindricalBearing, ring: str, side: float, play: float) 
         (0.5 * bearing.pitch_diameter, 0.5 * bearing.row_spacing + on_axis),
         edges,
         play * math.cos(lean),
-        ExactPointContact(radius, around, bearing.material.contact_modulus).factor,
+        _flat_contact(bearing, ring).factor,
     )

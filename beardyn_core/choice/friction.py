@@ -31,7 +31,7 @@ _VISCOSITY_POWER = 0.66
 _CREEP, _DRY_CREEP = 0.05, 0.07
 # What the fast tiers add to the third octaves around the resonance along the axle, all axes together, where
 # no creep along the cup damps it, [dB]: docs/effects_auto.md, rows without creep.
-_UNDAMPED_DB, _UNDAMPED_QUIET_DB = 8.5, 2.0
+UNDAMPED_DB, UNDAMPED_QUIET_DB = 8.5, 2.0
 # Torque that the fast tiers miss besides where the box bends in modes: 4 to 6 % with every effect
 # (docs/evidence/ladder.md, service_high_speed and its cup), 1 % where it bends in rings (wheel_flat).
 _BY_MODES = 0.05
@@ -79,7 +79,7 @@ def traction(evidence: Evidence) -> Rule:
     rolling = f"the tier's rollers roll without slip; {reason}"
     without = _without_slip(evidence, reference)
     creeps = effects.traction is not None and effects.film is not None
-    undamped = _UNDAMPED_DB if evidence.band > QUIET_BAND else _UNDAMPED_QUIET_DB
+    undamped = UNDAMPED_DB if evidence.band > QUIET_BAND else UNDAMPED_QUIET_DB
     # a film stays: it is what starves the rolling resistance
     found.append(
         Alternative(

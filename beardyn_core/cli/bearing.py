@@ -379,18 +379,22 @@ def _tapered_entries(bearing: Bearing) -> list[tuple[str, str]]:
 def _rib_lines(bearing: RollerBearing, solution: StaticSolution, speed: float) -> list[str]:
     """Describe the contact of the heaviest rib: ellipse, pressure, sliding speed, and its limits."""
     from beardyn_core.bearing.contact_law import rib_ellipse, rib_truncation
+    from beardyn_core.bearing.cylindrical import CylindricalBearing
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.kinematics import roller_cone_spin
+    from beardyn_core.bearing.rib_face import flat_rib_truncation
 
     load = float(solution.rib_load.max())
     if load <= 0.0:
         return []
     if not isinstance(bearing, Bearing):
         pressed = (solution.rib_load > 0.0).sum(axis=1)
+        found = flat_rib_truncation(bearing, load) if isinstance(bearing, CylindricalBearing) else []
         return [
             "",
             f"  ribs of the inner ring carry {solution.rib_load.sum():,.1f} N along the axle on "
             f"{pressed[0]} rollers inboard, {pressed[1]} outboard; heaviest rib {load:,.1f} N",
+            *_warnings(found),
         ]
     ellipse = rib_ellipse(bearing, load)
     sliding = abs(roller_cone_spin(bearing, speed * math.pi / 30.0)) * bearing.rib_contact_height
@@ -401,9 +405,15 @@ def _rib_lines(bearing: RollerBearing, solution: StaticSolution, speed: float) -
         f"{2e3 * ellipse.along:.2f} mm, {ellipse.largest_pressure * 1e-6:.1f} MPa",
         f"  it slides with {sliding:.3f} m/s, p v {product * 1e-6:.1f} MPa m/s",
     ]
-    for sentence in rib_truncation(bearing, load):
-        lines += textwrap.wrap(f"warning: {sentence}", 96, initial_indent="  ", subsequent_indent="    ")
-    return lines
+    return lines + _warnings(rib_truncation(bearing, load))
+
+
+def _warnings(sentences: list[str]) -> list[str]:
+    return [
+        line
+        for sentence in sentences
+        for line in textwrap.wrap(f"warning: {sentence}", 96, initial_indent="  ", subsequent_indent="    ")
+    ]
 
 
 def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:

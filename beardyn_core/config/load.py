@@ -136,8 +136,12 @@ class _Reading:
     def _require_tapered(self) -> None:
         """Refuse a bearing of another kind at once: no other key of the scene is about it."""
         bearing = self.data.get("bearing")
-        if not isinstance(bearing, dict) or bearing.get("kind") not in BEARING_OF_KIND:
+        if not isinstance(bearing, dict) or "kind" not in bearing:
             return
+        if not isinstance(bearing["kind"], str) or bearing["kind"] not in BEARING_OF_KIND:
+            allowed = ", ".join(BEARING_OF_KIND)
+            where = self.origins[0].label
+            raise InputError(f"{where}: bearing.kind is {bearing['kind']!r}; allowed are {allowed}")
         if bearing["kind"] != Bearing.kind:
             label = f"{self.origins[0].label}: bearing"
             refuse_kind(str(bearing.get("name", "the bearing")), bearing["kind"], "runs", label)

@@ -52,7 +52,7 @@ def load_any_bearing(name: str | Path) -> AnyBearing:
 def bearing_from_mapping(data: dict[str, Any], label: str) -> AnyBearing:
     """Make a bearing of the mapping in its file, tapered where it names no kind; see `load_any_bearing`."""
     kind = data.get("kind", Bearing.kind)
-    if kind not in BEARING_OF_KIND:
+    if not isinstance(kind, str) or kind not in BEARING_OF_KIND:
         raise InputError(f"{label}: kind is {kind!r}; allowed are {', '.join(BEARING_OF_KIND)}")
     if kind == Bearing.kind:
         data = {key: value for key, value in data.items() if key != "kind"}

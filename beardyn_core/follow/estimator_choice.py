@@ -92,7 +92,8 @@ def how_to_train(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, recor
         named = recording or "FILE.yaml"
     else:
         return (
-            "describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
+            "estimators exist for double-row tapered roller units only; if it is one, describe the whole "
+            "bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
             f"start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
         )
     return f"`beardyn train --bearing {named}{option}` makes one, in some 15 min of one core"

@@ -96,6 +96,7 @@ def train(
         "test": "calibration, crosswise" if across else judge,
         "levels": LEVELS,
         "code": about["code"],
+        "training": "",  # of a set that was given
         "licence": about["licence"],
     }
     return replace(found, card=card)

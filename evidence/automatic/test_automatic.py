@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.choice import discretisation_error, load_scene
+from beardyn_core.choice import discretisation_error, friction, load_scene
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
@@ -148,6 +148,12 @@ def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
     text = bands.PAGE.read_text(encoding="utf-8")
     section = text[text.index(bands.TITLE) : text.index(bands.NEXT)]
     rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
+    undamped = [cells for cells in rows if cells[1] == bands.UNDAMPED]
+    assert len(undamped) == len(bands.SCENES)
+    for name, _, *cells in undamped:
+        found = [abs(float(cell.split()[0])) for cell in cells[:3]]
+        assert max(found[:2]) <= friction.UNDAMPED_QUIET_DB, name
+        assert found[2] <= friction.UNDAMPED_DB, name
     rows = [cells for cells in rows if cells[1] != bands.UNDAMPED]
     assert len(rows) == len(bands.SCENES) * (len(bands.TIERS) + 1)
     middle_of = {f"`{tier}`": error for tier, error in discretisation_error.IN_MIDDLE_BAND.items()}

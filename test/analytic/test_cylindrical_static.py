@@ -13,6 +13,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.any_bearing import AnyBearing
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.profile import Profile
+from beardyn_core.bearing.rib_face import flat_rib_truncation
 from beardyn_core.config import load_any_bearing
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from evidence.validation.roller_kinds import standard_loads, thrust_by_small_motions
@@ -98,6 +99,19 @@ def test_thrust_of_ribs_is_that_of_small_motions() -> None:
     heavy = found.rib_load[0] > 0.1 * found.rib_load.max()
     assert_allclose(found.cone_load[0][heavy], loads[heavy], rtol=0.03)
     assert_allclose(found.rib_load[0][heavy], ribs[heavy], rtol=0.03)
+
+
+def test_a_contact_beyond_its_rib_face_is_told_with_both_lengths() -> None:
+    """Next to the cube root of Hertz: eight times the load is twice as long."""
+    bearing = shipped()
+    assert not flat_rib_truncation(bearing, 200.0)
+    lengths = [
+        [float(sentence.split(" reaches ")[1].split()[0]) for sentence in flat_rib_truncation(bearing, load)]
+        for load in (1000.0, 8000.0)
+    ]
+    assert len(lengths[0]) == len(lengths[1]) == 2  # of the inner ring and of the outer ring
+    assert_allclose(lengths[1], 2.0 * np.array(lengths[0]), rtol=0.01)
+    assert all("ends 1.50 mm from its middle" in sentence for sentence in flat_rib_truncation(bearing, 1e3))
 
 
 @pytest.mark.parametrize("tilt", ["locked", "free"])

@@ -115,12 +115,12 @@ def test_what_is_made_of_runs_is_refused(
     text = find("scenes", "healthy_140").read_text(encoding="utf-8")
     assert "bearing: HS130x230" in text
     scene.write_text(text.replace("bearing: HS130x230", f"bearing: {name}"), encoding="utf-8")
-    sweep.write_text(f"sweep: mine\npurpose: x\nscene: {scene}\nruns: 2\n", encoding="utf-8")
+    sweep.write_text("sweep: mine\npurpose: x\nscene: train.yaml\nruns: 2\n", encoding="utf-8")
     assert main(["sweep", str(sweep), "-o", str(tmp_path / "set")]) == 2
     assert refused(capsys.readouterr().err, name)
     assert main(["new", "quick", "--kind", "trials", "-o", str(trial)]) == 0
     lines = trial.read_text(encoding="utf-8").splitlines()
-    changed = [f"scene: {scene}" if line.startswith("scene:") else line for line in lines]
+    changed = ["scene: train.yaml" if line.startswith("scene:") else line for line in lines]
     trial.write_text("\n".join(changed) + "\n", encoding="utf-8")
     assert main(["trial", str(trial), "-o", str(tmp_path / "trial")]) == 2
     assert refused(capsys.readouterr().err, name)

@@ -20,7 +20,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ from beardyn_core.choice import load_scene, load_trial
 from beardyn_core.config import (
     SCHEMA_KINDS,
     json_schema,
-    load_bearing,
+    load_any_bearing,
     load_box,
     load_effects,
     load_lubricant,
@@ -170,8 +170,8 @@ def _bytes_of(value: Any) -> bytes:
 
 def digests_of_nouns() -> dict[str, str]:
     """Digest every shipped file as the noun it becomes, and every schema."""
-    kinds = {
-        "bearings": load_bearing,
+    kinds: dict[str, Callable[[str], Any]] = {
+        "bearings": load_any_bearing,
         "effects": load_effects,
         "lubricants": load_lubricant,
         "scenes": lambda name: read_scene(name).scene,

@@ -164,9 +164,9 @@ def test_a_twin_that_cannot_run_beside_is_refused_at_once(twin: str, sentence: s
     assert sentence in log
 
 
-def test_a_bearing_without_an_estimator_is_refused_with_those_there_are(graph: Graph) -> None:
+def test_a_bearing_without_an_estimator_is_refused_with_the_command_that_makes_one(graph: Graph) -> None:
     graph.node_process("follower", bearing="AARK_6.5x9")
     assert graph.exit_code("follower") == 2
     log = graph.processes.log("follower")
     assert "parameter 'estimator'" in log
-    assert "HS130x230" in log
+    assert "beardyn train --bearing AARK_6.5x9" in log

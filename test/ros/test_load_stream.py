@@ -142,7 +142,7 @@ def test_a_twin_that_was_told_to_stop_is_recorded_as_interrupted(graph: Graph) -
     assert graph.exit_code("twin") == 0
     assert graph.exit_code("recorder") == 0
     run = read_run(path)
-    assert "told to stop" in (run.status or "")
+    assert "asked to stop" in (run.status or "")
     last = graph.statuses("twin")[-1]
     assert last.value("state") == "interrupted"
     assert len(run.vibration) == int(last.value("waveform_samples"))

@@ -56,7 +56,7 @@ def test_refusals_end_the_nodes_with_2_and_a_sentence(graph: Graph) -> None:
             {"faulty": "axle_1_left"},
             "parameter 'faulty': scene 'bogie' gives it, axleboxes.faulty",
         ),
-        "car_load": ({"axle_distance": 2.5}, "parameter 'axle_distance': scene 'bogie' says it"),
+        "car_load": ({"axle_distance": 2.5}, "parameter 'axle_distance': scene 'bogie' gives it"),
         "car_recorder": (
             {"boxes": "axle_3_left"},
             f"'axle_3_left' is none of the axleboxes; allowed are {FOUR[0]}",
