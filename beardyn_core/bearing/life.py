@@ -152,7 +152,8 @@ def _tipping_thrust(bearing: RollerBearing, x: float, y: float, z: float) -> str
         return ""
     return (
         f"the axial force of {along / 1e3:.4g} kN is more than {bearing.largest_thrust:g} of the radial "
-        f"one ({across / 1e3:.4g} kN): rollers of a {bearing.words} tip, and catalogues allow no more"
+        f"one ({across / 1e3:.4g} kN): rollers of a {bearing.words} tip, and catalogues allow no more; "
+        "the equivalent load of ISO 281 leaves the axial force out, so its lives do not hold"
     )
 
 
