@@ -49,7 +49,9 @@ def traction(evidence: Evidence) -> Rule:
         if reference.needed > 0.0
         else "nothing has to be driven"
     )
-    if reference.slip > LOST_GRIP:
+    if effects.traction is None:
+        reason = "no law of friction is given"
+    elif reference.slip > LOST_GRIP:
         reason += ": they skid, and the law of friction decides the torque"
     costs = evidence.costs
 
