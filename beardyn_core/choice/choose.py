@@ -187,7 +187,7 @@ def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count
 
 def _stage(evidence: Evidence, name: str, count: int, asked: tuple[str, ...]) -> Stage | None:
     """Judge a tier with a lamina count before any effect; ``None`` where no spring fits."""
-    lamina = discretisation_error.laminae(evidence, count)
+    lamina = discretisation_error.laminae(evidence, count, name)
     verdict = discretisation_error.tier(evidence, name, count)
     if verdict is None:
         return None

@@ -11,8 +11,8 @@ from beardyn_core.physics.cage.rubbing import bar_weight
 
 _NOTABLE = 0.01  # of the torque
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile
-# What independent laminae add to third octaves behind a fault in `full`: 1.5 dB at 8 kHz (`cup_spall`), 1.6 at
-# 10 kHz and 0.5 at 5 kHz (`roller_spall`, where the whole choice was 2.8 dB off).
+# What independent laminae add to third octaves behind a fault in `full`: 1.5 dB at 8 kHz (`cup_spall`), 1.6
+# at 10 kHz and 0.5 at 5 kHz (`roller_spall`, where the whole choice was 2.8 dB off).
 _UNCOUPLED_FROM, _UNCOUPLED_BELOW_DB, _UNCOUPLED_DB = 5000.0, 0.5, 2.8
 
 

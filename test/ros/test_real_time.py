@@ -92,10 +92,9 @@ def test_where_rings_bend_quasistatic_with_coupled_laminae_comes_before_without(
 
     found = keep_pace(read_spall("full"), read_spall, 1.0, measure)
     assert asked == measured
-    assert (found.tier, found.scene.effects.lamina_coupling is not None) == (
-        taken.partition(",")[0],
-        taken == COUPLED,
-    )
+    assert found.tier == taken.partition(",")[0]
+    if found.tier == PLAIN:
+        assert (found.scene.effects.lamina_coupling is not None) == (taken == COUPLED)
     if taken == COUPLED:
         bounds = f"up to {COUPLED_IN_MIDDLE_BAND:g} dB to 5 kHz, {COUPLED_BEYOND:g} dB above"
         assert "tier quasistatic with coupled laminae runs 7.0 times" in found.note
