@@ -13,7 +13,7 @@ from typing import Any
 
 import numba
 
-from beardyn_core import kernels
+from beardyn_core import physics
 from beardyn_core.base.jit import LANE_WIDTH, OPTIONS, inline
 from beardyn_core.choice import load_scene
 from beardyn_core.physics.tiers import imex
@@ -35,12 +35,12 @@ def _anew(name: str, replacement: Callable[..., Any]) -> Iterator[Kernel]:
     """Make `advance` with all kernels anew around another function of a name; the first call compiles."""
     modules = [
         importlib.import_module(found.name)
-        for found in pkgutil.iter_modules(kernels.__path__, f"{kernels.__name__}.")
+        for found in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}.")
     ]
     kept: list[tuple[Any, str, Any]] = []
     built: dict[int, Any] = {}
     try:
-        for module in (*modules, imex):
+        for module in modules:
             for each, value in list(vars(module).items()):
                 if each == name:
                     new = inline(replacement)
@@ -50,6 +50,8 @@ def _anew(name: str, replacement: Callable[..., Any]) -> Iterator[Kernel]:
                     continue
                 kept.append((module, each, value))
                 setattr(module, each, new)
+        if not any(each == name for _, each, _ in kept):
+            raise LookupError(f"no module of physics has a function {name}")
         yield numba.njit(**OPTIONS)(imex.advance.py_func)
     finally:
         for module, each, value in kept:
@@ -74,7 +76,9 @@ def kernel_levers(turns: int) -> Table:
     """
     scenes = {name: load_scene("static_80kN", effects=name) for name in SETS}
     ratios = {name: _ratios(scene, turns) for name, scene in scenes.items()}
-    rows = [(lever, *(ratios[name][lever] for name in SETS)) for lever in ratios[SETS[0]]]
+    rows: list[tuple[str | float, ...]] = [
+        (lever, *(ratios[name][lever] for name in SETS)) for lever in ratios[SETS[0]]
+    ]
     return Table(
         "levers",
         "Time of a step without a lever over that of the step as it is",
