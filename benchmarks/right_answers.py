@@ -10,6 +10,7 @@ import tempfile
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from beardyn_core.choice import load_scene
 from beardyn_core.record.messages import typestore
@@ -20,6 +21,7 @@ from beardyn_core.study import train_run
 from benchmarks.real_time_factor import chosen_steps
 from benchmarks.runs import SETTLING_BLOCKS, Table, started
 
+THIN_RINGS = {"preset": "auto", "structure": {"kind": "rings"}}
 CORES = 2  # of the machine that a train is to run on in real time
 _TRAIN_S = 3.2
 
@@ -37,6 +39,7 @@ ASKED = {
     "full, spall, vibration to 10 kHz": Asked(1.2, 2.5),
     "quasistatic, vibration to 5 kHz": Asked(15.0, 40.0),
     "lumped, vibration to 1 kHz": Asked(150.0, 500.0),
+    "lumped, the same in thin rings": Asked(150.0, 500.0),
     "full, preset all, converged step": Asked(1.5, 2.5),
 }
 TRAIN = Asked(64.0, 128.0)
@@ -50,10 +53,16 @@ def _scenes() -> dict[str, Scene]:
         load_scene("smooth_run", tier="full", effects="auto"),
         load_scene("cup_spall", tier="full", effects="auto"),
         load_scene("smooth_run", tier="quasistatic", effects="auto", vibration_to=5000.0),
-        load_scene("smooth_run", tier="lumped", effects="auto", vibration_to=1000.0),
+        _lumped("auto"),
+        _lumped(THIN_RINGS),
         replace(preset, numerics=steps),
     )
     return dict(zip(ASKED, found, strict=True))
+
+
+def _lumped(effects: Any) -> Scene:
+    """Make the healthy scene in `lumped`, for vibration to 1 kHz."""
+    return load_scene("smooth_run", tier="lumped", effects=effects, vibration_to=1000.0)
 
 
 def full_scenes() -> dict[str, Scene]:
@@ -98,11 +107,15 @@ def right_answers(turns: int) -> Table:
 
 def train(axles: int) -> Table:
     """Run the boxes of a train in `lumped` with a recording, with bodies and contacts in it and without."""
-    scene = load_scene("smooth_run", tier="lumped", effects="auto", vibration_to=1000.0, duration=_TRAIN_S)
     rows = []
     typestore()  # once a process, not for a box
-    for pictures in (False, True):
-        whole = replace(scene, axleboxes=Axleboxes(axles=axles, pictures=pictures))
+    for what, effects, pictures in (
+        ("signals alone", "auto", False),
+        ("with bodies and contacts", "auto", True),
+        ("signals alone, thin rings", THIN_RINGS, False),
+    ):
+        boxes_of = Axleboxes(axles=axles, pictures=pictures)
+        whole = replace(_lumped(effects), duration=_TRAIN_S, axleboxes=boxes_of)
         boxes = train_run.start(whole)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "train.mcap"
@@ -110,7 +123,6 @@ def train(axles: int) -> Table:
             size = 1e-6 * path.stat().st_size
         each = done.processor_time / (len(boxes) * done.duration)
         in_time = CORES / each
-        what = "with bodies and contacts" if pictures else "signals alone"
         rows.append(
             (
                 what, len(boxes), TRAIN.floor, TRAIN.goal, 1e3 * each, in_time, verdict(in_time, TRAIN),
