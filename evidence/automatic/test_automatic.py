@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.choice import discretisation_error, friction, load_scene
+from beardyn_core.choice.load import explain_scene
 from beardyn_core.config import load_effects
 from beardyn_core.study.ladder_levels import chosen_for
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
@@ -167,3 +168,20 @@ def test_the_choice_expects_what_the_table_of_third_octaves_has() -> None:
         assert beyond <= beyond_of[tier], name
         if not load_scene(name.strip("`"), effects="standard").faults:
             assert max(low, quiet) <= discretisation_error.IN_QUIET_BAND, name
+
+
+@pytest.mark.slow
+def test_where_one_spring_a_roller_misses_the_deflection_the_bound_of_lumped_is_wider() -> None:
+    chosen = load_scene("oversize_roller", tier="lumped", effects="auto", vibration_to=1e3)
+    apart = bands.levels(chosen) - bands.levels(load_scene("oversize_roller", tier="full", effects="auto"))
+    to_1_kHz = [abs(float(each)) for each, band in zip(apart, NOMINAL_BANDS, strict=True) if band <= 1e3]
+    expected = explain_scene(
+        "oversize_roller", tier="lumped", effects="auto", vibration_to=1e3
+    ).current.expected
+    assert max(to_1_kHz) > discretisation_error.IN_LOW_BAND  # so that the wider one is needed
+    assert max(to_1_kHz) < expected["vibration"]
+
+
+def test_a_roller_of_another_size_widens_the_bound_of_lumped() -> None:
+    chosen = explain_scene("oversize_roller", tier="lumped", effects="auto", vibration_to=1e3)
+    assert "where springs fit; here they may be off by 22 dB" in chosen.current.tier_reason
