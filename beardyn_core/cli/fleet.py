@@ -229,7 +229,7 @@ def status_lines(status: FleetStatus, *, everything: bool = False) -> list[str]:
         )
         lines += [f"{'':8}{sentence}" for sentence in (*health.why, *(f"note: {n}" for n in health.notes))]
         if health.part:
-            lines += [f"{'':8}mileage left: {sentence}" for sentence in each.left.sentences]
+            lines += [f"{'':8}{sentence}" for sentence in each.left.sentences]
         if health.state != "ok":
             lines.append(f"{'':8}do: {each.advice}")
     if hidden := len(status.standings) - len(shown):

@@ -41,8 +41,8 @@ class GrowthFit:
     begin: A[Float, "area at the first width, shape [draw], [m^2]"]
     rate: A[Float, "of growth, shape [draw], [m^2/m]"]
     weight: A[Float, "shape [draw], sum 1"]
-    evidence: A[float, "logarithm of how likely the widths are by the law; of laws the larger is the better"]
-    misfit: A[float, "of a width, by the draw that fits best, [-]"]
+    likelihood: A[float, "of the widths by the draw that fits best, logarithm, but for a constant"]
+    misfit: A[float, "of a width by that draw, [-]"]
 
     @property
     def is_sound(self) -> bool:
@@ -96,11 +96,11 @@ def fit_growth(law: GrowthLaw | PowerLaw, rates: GrowthLaw, widths: Widths) -> G
         misfit = _misfits(law, points, widths)
         likely = _log_assumed(points, assumed) - 2.5 * misfit - proposed
         weight = np.exp(likely - likely.max())
-        evidence = float(likely.max() + log(weight.mean()))
         weight /= weight.sum()
         parts = _shaped(parts, points, origin, _tempered(likely))
     across, begin, rate = np.exp(points[:, 0]), np.exp(points[:, 0] + points[:, 1]), np.exp(points[:, 2])
-    return GrowthFit(across, begin, rate, weight, evidence, float(misfit.min()) / len(widths.width))
+    least = float(misfit.min())
+    return GrowthFit(across, begin, rate, weight, -2.5 * least, least / len(widths.width))
 
 
 def _assumed(rates: GrowthLaw) -> tuple[Float, Float]:

@@ -68,7 +68,8 @@ class MileageLeft:
     @property
     def sentences(self) -> list[str]:
         """List what is known: by the assumed law, and the range over the laws."""
-        return [self.sentence, *filter(None, [self.laws_sentence])]
+        several = f"mileage left by several laws: {self.laws_sentence}" if self.laws else ""
+        return [f"mileage left: {self.sentence}", *filter(None, [several])]
 
     @property
     def laws_sentence(self) -> str:
@@ -102,9 +103,9 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
 
     Notes
     -----
-    See `growth_fit.fit_growth`. A law agrees with the widths where it can have made them, and is not twenty
-    times less likely than the law that explains them best. Where the assumed one does not agree, it states
-    nothing.
+    See `growth_fit.fit_growth`. A law agrees with the widths where it can have made them, and where they are
+    not twenty times less likely by the spall of it that fits best than by that of the best law: the rate of
+    growth, which is assumed, has no part in it. Where the assumed law does not agree, it states nothing.
     """
     law = law or GrowthLaw()
     known = [
@@ -127,7 +128,7 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
     pace = _pace(history)
     every: dict[str, GrowthLaw | PowerLaw] = {ASSUMED_LAW: law, **other_laws(law)}
     fits = {name: fit_growth(each, law, widths) for name, each in every.items()}
-    best = max(each.evidence for each in fits.values())
+    best = max(each.likelihood for each in fits.values())
     laws = []
     for name, fit in fits.items():
         distance = _distance(every[name], fit, last.mileage - known[0].mileage)
@@ -135,7 +136,7 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
             LawMileage(
                 name,
                 name == ASSUMED_LAW,
-                fit.is_sound and fit.evidence >= best + log(_LEAST_LIKELY),
+                fit.is_sound and fit.likelihood >= best + log(_LEAST_LIKELY),
                 distance,
                 _dates(last.time, distance, pace),
             )

@@ -147,7 +147,7 @@ def _axlebox_page(store: FleetStore, status: FleetStatus, standing: Standing) ->
     health, last = standing.health, standing.last
     details = [*(f"{each}." for each in health.why[1:]), *(f"Note: {each}." for each in health.notes)]
     if health.part:
-        details += [f"Mileage left: {each}." for each in standing.left.sentences]
+        details += [f"{each[0].upper()}{each[1:]}." for each in standing.left.sentences]
     entry = standing.acknowledged
     if entry is not None:
         note = f": {entry.note}" if entry.note else ""

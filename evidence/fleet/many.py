@@ -34,8 +34,8 @@ AXLEBOXES, TRAIN = 500, 20  # and those of a train
 BEGIN, EVERY_DAYS = datetime(2025, 1, 6, 10, 0, tzinfo=UTC), 7
 KM_A_WEEK = 4200
 PATTERN = "{vehicle}/{axle}_{side}/{date}_{mileage_km}.npz"
-SOONEST_S, LATEST_S = 3.0, 25.0  # after which a process is killed
-PATIENCE_S, LOOK_S = 60.0, 0.1
+LATEST_S = 15.0  # after its first recording, within which a process is killed
+PATIENCE_S, LOOK_S = 240.0, 0.1
 REFUSED = "another process is writing it"
 
 
@@ -86,6 +86,8 @@ def write_many(folder: Path, count: int, faulty: int, kept: Path) -> None:
                 spalls[width] = twin_run(f"cup_{width:g}", kept)
             run = spalls[width]
         path = folder / path_of(every[place], week)
+        if path.exists():
+            continue
         path.parent.mkdir(parents=True, exist_ok=True)
         write_recording(path, run, 1.0, random)
 
@@ -134,32 +136,22 @@ def largest_memory(process: int) -> float:
     return next((int(line.split()[1]) / 1024.0 for line in lines if line.startswith("VmHWM")), 0.0)
 
 
-def kill_at_random(words: Sequence[str], random: np.random.Generator) -> float:
-    """Begin a command and kill it with all its processes after a random time; gives that time, [s]."""
+def begun(words: Sequence[str], store: Path) -> subprocess.Popen[bytes]:
+    """Begin a command, and wait until it has added a recording or has ended."""
+    before, until = counted(store), time.monotonic() + PATIENCE_S
     process = subprocess.Popen(
         command(*words), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
-    after = float(random.uniform(SOONEST_S, LATEST_S))
-    try:
-        process.wait(after)
-    except subprocess.TimeoutExpired:
+    while counted(store) == before and process.poll() is None and time.monotonic() < until:
+        time.sleep(LOOK_S)
+    return process
+
+
+def kill(process: subprocess.Popen[bytes]) -> None:
+    """Kill a command with all its processes."""
+    if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait(PATIENCE_S)
-    return after
-
-
-def refuse_second_writer(words: Sequence[str], store: Path) -> bool:
-    """Tell whether a second writer is refused while the first one writes; the first one is killed then."""
-    first = subprocess.Popen(
-        command(*words), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
-    )
-    count, until = counted(store), time.monotonic() + PATIENCE_S
-    while counted(store) == count and time.monotonic() < until:
-        time.sleep(0.1)
-    second = take(*words)
-    os.killpg(first.pid, signal.SIGKILL)
-    first.wait(PATIENCE_S)
-    return second.code == 2 and REFUSED in second.errors
 
 
 def counted(store: Path) -> int:
@@ -207,17 +199,21 @@ def main() -> None:
         *("--channels", "z=z", "--unit", "m/s2", "--scale", str(STEP), "--rate-hz", str(RATE)),
         *("--tacho-channel", "tacho", "--estimator", args.estimator, "--workers", str(args.workers)),
     ]
-    random, before = np.random.default_rng(2), 0
+    random = np.random.default_rng(2)
     for number in range(args.kills):
-        after = kill_at_random(words, random)
-        now = counted(store)
-        print(f"killed after {after:.0f} s: {now} recordings, {now - before} more", flush=True)
-        assert now >= before, "recordings are lost"
-        before = now
+        process, before = begun(words, store), counted(store)
         if number == 0:
-            assert refuse_second_writer(words, store), "a second writer is not refused"
+            second = take(*words)
+            assert second.code == 2, second
+            assert REFUSED in second.errors, second
             print("a second writer is refused", flush=True)
-    before = counted(store)
+        after = float(random.uniform(0.0, LATEST_S))
+        time.sleep(after)
+        seen = counted(store)
+        kill(process)
+        now = counted(store)
+        print(f"killed {after:.1f} s after its first one: {now} recordings, {now - before} more", flush=True)
+        assert now >= seen >= before, "recordings are lost"
     added = take(*words, "--json")
     told = json.loads(added.out)
     found = faults_of(store, recordings)

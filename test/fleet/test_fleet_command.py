@@ -102,7 +102,7 @@ def test_mileage_left_by_several_laws_in_text_json_and_page(
 ) -> None:
     store, page = grown(tmp_path), tmp_path / "fleet.html"
     out = fleet(capsys, "status", "--store", store)[1]
-    (several,) = [line for line in out.splitlines() if "over the laws of growth" in line]
+    (several,) = [line for line in out.splitlines() if "by several laws" in line]
     assert "assumed: slow, then linear" in several
     (box,) = json.loads(fleet(capsys, "status", "--store", store, "--json")[1])["axleboxes"]
     laws = {each["law"]: each for each in box["growth_laws"]}

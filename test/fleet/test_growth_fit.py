@@ -69,8 +69,8 @@ def test_the_law_that_a_spall_grows_by_explains_its_widths(name: str) -> None:
     widths = Widths(at, true + random.normal(0.0, deviation), deviation)
     fits = {each: fit_growth(LAWS[each], LAW, widths) for each in LAWS}
     assert fits[name].is_sound
-    best = max(fits.values(), key=lambda each: each.evidence)
-    assert fits[name].evidence >= best.evidence + np.log(0.05)
+    best = max(fits.values(), key=lambda each: each.likelihood)
+    assert fits[name].likelihood >= best.likelihood + np.log(0.05)
     far = {"linear": "exponential", "exponential": "linear"}.get(name)
     if far is not None:
-        assert fits[far].evidence < best.evidence + np.log(0.05)
+        assert fits[far].likelihood < best.likelihood + np.log(0.05)
