@@ -24,12 +24,16 @@ from beardyn_core.config import load_plate
 from beardyn_core.follow.conditioning import known_load_of
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimate_json import residual_object, step_object
-from beardyn_core.follow.estimator import Estimates
+from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.follow.follower_values import follower_values
 from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.known_load import KnownLoad, combine_loads
+from beardyn_core.follow.live_choice import LiveChoice
 from beardyn_core.follow.load_checks import read_axle_loads
+from beardyn_core.follow.mounting import Mounting
+from beardyn_core.follow.mounting_search import search_mountings
+from beardyn_core.follow.mounting_watch import MountingWatch
 from beardyn_core.follow.residual import Residual
 from beardyn_core.follow.run_stretches import follower_of
 from beardyn_core.follow.service import Service
@@ -83,8 +87,6 @@ class FollowerNode(Node):
         self._signals = TrainSignals(self, hearer, further)
         self._reported_at = 0.0
         wall_timer(self, TICK_S, self._tick)
-        known = ", ".join(self._follower.names)
-        self.get_logger().info(f"{self._follower.estimator.plate.name}: follows {known}")
 
     def _make_load(self) -> KnownLoad | None:
         """Read the load that is known from the parameters, or prepare to receive it."""
@@ -127,10 +129,14 @@ class FollowerNode(Node):
             raise InputError(
                 [f"node follower, parameter 'bearing': {each}" for each in error.problems]
             ) from None
+        self._plate = plate
+        self._choice: LiveChoice | None = None  # of an estimator that is not stated
         try:
-            self._follower = follower_of(
-                plate, self._values.estimator or None, service=self._service, axle_loads=self._axle_loads
-            )
+            if self._values.estimator:
+                self._follow_by(self._values.estimator)
+            else:
+                self._choice = LiveChoice(plate)
+                self._follow_by(self._choice.estimator)
         except InputError as error:
             problems = [f"node follower, parameter 'estimator': {each}" for each in error.problems]
             raise InputError(problems) from None
@@ -138,6 +144,8 @@ class FollowerNode(Node):
             self._load_heard.clear()
         self._twin = self._scene_of_twin()
         self._stretches = StretchIntake(self._follower.estimator)
+        self._mounting = MountingWatch(self._follower.estimator)
+        self._searching: Future[tuple[Mounting, ...]] | None = None
         self._rows: list[Float] = []
         self._latest: Followed | None = None
         self._temperature = math.nan
@@ -149,6 +157,14 @@ class FollowerNode(Node):
         self._trouble = ""  # of the twin beside
         self._summed_up = False
         self._ended_at: float | None = None
+
+    def _follow_by(self, estimator: Estimator | str) -> None:
+        """Begin to follow by an estimator, or its file."""
+        self._follower = follower_of(
+            self._plate, estimator, service=self._service, axle_loads=self._axle_loads
+        )
+        known, axes = ", ".join(self._follower.names), ", ".join(self._follower.estimator.axes)
+        self.get_logger().info(f"{self._plate.name}: follows {known} by an estimator of the axes {axes}")
 
     def _scene_of_twin(self) -> Scene | None:
         """Make the scene of the twin beside, which must be of this bearing and on a track."""
@@ -170,10 +186,24 @@ class FollowerNode(Node):
 
     def _hear_vibration(self, time_ns: Int, acceleration: Float) -> None:
         try:
+            self._choose_by_axes(acceleration)
             self._stretches.push_vibration(time_ns, acceleration)
             self._unheard = ""
         except InputError as error:
             self._unheard = str(error)
+
+    def _choose_by_axes(self, acceleration: Float) -> None:
+        """Take the estimator of the axes that come, until a stretch has been followed.
+
+        From then on an axis that stays away is a doubt: what is believed belongs to its estimator.
+        """
+        if self._choice is None or self._follower.stretches:
+            return
+        estimator = self._choice.take(acceleration)
+        if estimator.axes != self._follower.estimator.axes:
+            self._follow_by(estimator)
+            self._stretches = self._stretches.of(estimator)
+            self._mounting = MountingWatch(estimator)
 
     def _hear_shaft(self, time_ns: Int, angle: Float) -> None:
         self._stretches.push_shaft(time_ns, angle)
@@ -191,10 +221,12 @@ class FollowerNode(Node):
             self._way += abs(stretch.revolutions) * math.pi * self._service.wheel_diameter
             self._follower.know_load(self._load_of(stretch.end_ns))
             self._take(row, 1e-9 * stretch.end_ns)
+            self._mounting.take(stretch)
+        self._look_at_mounting()
         self._hear_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
-        if self._signals.ended and self._twin_is_done() and not self._summed_up:
+        if self._signals.ended and self._worker_is_done() and not self._summed_up:
             self._summed_up = True
             self._numbers.wait_until_received(LAST_VALUES_S)
             self._publish(self._latest, final=True)
@@ -203,10 +235,11 @@ class FollowerNode(Node):
         if self._summed_up or self._signals.vanished:
             self.finished = bool(self._values.exit_when_done)
 
-    def _twin_is_done(self) -> bool:
-        """Check whether nothing more is to come of the twin beside, once the run has ended."""
+    def _worker_is_done(self) -> bool:
+        """Check whether nothing more is to come of twin and mounting, once the run has ended."""
         self._ended_at = self._ended_at or time.monotonic()
-        return self._comparing is None or time.monotonic() - self._ended_at > LAST_COMPARISON_S
+        idle = self._comparing is None and self._searching is None
+        return idle or time.monotonic() - self._ended_at > LAST_COMPARISON_S
 
     def _take(self, row: Float, end: float) -> None:
         earlier = WAITING if self._latest is None else self._latest.health
@@ -230,6 +263,14 @@ class FollowerNode(Node):
     def _compare(self, base: Scene, known: Estimates, rows: Float) -> Residual:
         """Run the twin beside, in the thread of the worker."""
         return residual_beside(self._follower.estimator, rows, known, base, self._values.twin_tier)
+
+    def _look_at_mounting(self) -> None:
+        """Search what of the mounting would explain a strange signal, in the thread of the worker."""
+        if self._searching is not None and self._searching.done():
+            self._mounting.found = self._searching.result()
+            self._searching = None
+        if self._searching is None and (powers := self._mounting.due()):
+            self._searching = self._worker.submit(search_mountings, powers, self._follower.estimator)
 
     def _hear_twin(self) -> None:
         """Publish what the twin beside has come to, when it is done."""
@@ -262,7 +303,8 @@ class FollowerNode(Node):
                 self._signals.clock_note,
             ],
         )
-        told = "; ".join([*doubts, *unexplained, *troubles])
+        mounting = self._mounting.sentence
+        told = "; ".join([*doubts, *filter(None, [mounting]), *unexplained, *troubles])
         status = Diagnostic(
             diagnostic_name(namespace, FOLLOWER),
             OK if health in (WAITING, HEALTHY) and not told and not self._signals.guard.total else WARN,
@@ -274,6 +316,8 @@ class FollowerNode(Node):
                 ("unfit_stretches", str(self._stretches.unfit)),
                 ("gaps_in_vibration", str(self._stretches.gaps)),
                 ("surprise", "" if step is None else f"{step.surprise:.2f}"),
+                ("axes", " ".join(self._follower.estimator.axes)),
+                ("mounting", mounting),
                 ("temperature", "" if math.isnan(self._temperature) else f"{self._temperature:.1f}"),
                 ("explained_by_twin", "" if self._residual is None else f"{self._residual.explained:.3f}"),
                 *self._signals.guard.values(),

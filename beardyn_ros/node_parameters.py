@@ -303,7 +303,9 @@ MONITOR = (
 FOLLOWER = (
     BEARING,
     NodeParameter(
-        "estimator", "", "file of `beardyn train`; empty: the own or the shipped one of the bearing"
+        "estimator",
+        "",
+        "file of `beardyn train`; empty: the own or the shipped one of the bearing and of the axes that come",
     ),
     NodeParameter("mileage", 0.0, "of the bearing so far", "km", minimum=0.0, maximum=1e8),
     NodeParameter(

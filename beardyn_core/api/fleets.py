@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -57,8 +58,11 @@ class Fleet:
         manifest: Path | str | None = None,
         pattern: str = "",
         estimator: str = "shipped",
-        workers: int = 1,
+        workers: int | None = None,
+        scheduler: str = "",
+        tls: Mapping[str, str | Path] | None = None,
         progress: Callable[[int, int], None] | None = None,
+        say: Callable[[str], None] = lambda _: None,
         warnings: list[str] | None = None,
         **defaults: Any,
     ) -> Intake:
@@ -77,10 +81,17 @@ class Fleet:
         estimator : str
             File of an estimator that reads load and width too, shipped for one of the user's own or a
             shipped one for the bearing, or none.
-        workers : int
-            Processes that analyse recordings; default 1.
+        workers : int, optional
+            Processes of this machine that analyse recordings; default 1. One process writes the store.
+        scheduler : str, optional
+            Address of the Dask scheduler whose workers analyse them and read the files by the same paths,
+            tcp://host:8786; default this machine.
+        tls : mapping, optional
+            ``ca``, ``cert`` and ``key``: files that a scheduler at ``tls://`` is reached with.
         progress : callable, optional
             Called with how many are done, and of how many there are.
+        say : callable, optional
+            Called with sentences about workers that come and go.
         warnings : list of str, optional
             Files that were left out are added to it, a sentence each.
         **defaults
@@ -91,12 +102,16 @@ class Fleet:
         InputError
             With every mistake and contradiction; then nothing is added.
         """
+        from beardyn_core.api.sweeping import cluster_of
         from beardyn_core.fleet.intake import add_recordings
         from beardyn_core.fleet.manifest import list_recordings
         from beardyn_core.fleet.store import open_store
 
-        if workers < 1:
-            raise InputError(f"--workers is {workers}; it must be at least 1")
+        cluster = cluster_of(workers, scheduler, tls, None)
+        if problems := cluster.problems() if scheduler or tls else cluster.worker_problems():
+            raise InputError(problems)
+        if workers is None and not scheduler:
+            cluster = replace(cluster, workers=1)
         paths = [inputs] if isinstance(inputs, str | Path) else list(inputs)
         listed = list_recordings(
             [Path(each) for each in paths],
@@ -108,7 +123,7 @@ class Fleet:
             warnings += listed.warnings
         with open_store(self.store, write=True, make=True) as store:
             return add_recordings(
-                store, listed.recordings, estimator=estimator, workers=workers, progress=progress
+                store, listed.recordings, estimator=estimator, cluster=cluster, progress=progress, say=say
             )
 
     def status(
@@ -136,15 +151,25 @@ class Fleet:
         with open_store(self.store) as store:
             return rank_fleet(store, as_of=at, settings=settings, law=law)
 
-    def report(self, html: Path | str, *, as_of: str = "", force: bool = False) -> FleetStatus:
+    def report(
+        self,
+        html: Path | str,
+        *,
+        as_of: str = "",
+        law: GrowthLaw | None = None,
+        pages: int = 100,
+        force: bool = False,
+    ) -> FleetStatus:
         """Write a page: the ranked list, and for each axlebox over `watch` the evidence.
 
         Parameters
         ----------
         html : Path
             HTML file to write; it needs no other file.
-        as_of : str
+        as_of, law
             See `status`.
+        pages : int
+            Axleboxes at most that have a page of their own, the first of the list; default 100.
         force : bool
             Replace the file when it exists; default refuse.
         """
@@ -155,6 +180,8 @@ class Fleet:
 
         path = Path(html)
         problems = missing("matplotlib", "--html", "plot")
+        if pages < 0:
+            problems.append(f"--pages is {pages}; it must be at least 0")
         problems += file_problems("--html", path, inputs=[self.store], force=force, ending=".html")
         if problems:
             raise InputError(problems)
@@ -162,8 +189,8 @@ class Fleet:
 
         at = None if not as_of else _time("as_of", as_of)
         with open_store(self.store) as store:
-            status = rank_fleet(store, as_of=at)
-            write_fleet_page(store, status, path, force=force)
+            status = rank_fleet(store, as_of=at, law=law)
+            write_fleet_page(store, status, path, most=pages, force=force)
         return status
 
     def acknowledge(self, vehicle: str, axle: str, side: str, *, by: str, note: str = "") -> str:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from beardyn_core.follow.growth import GrowthLaw
     from beardyn_core.follow.known_load import KnownLoad
     from beardyn_core.follow.life_assumptions import LifeAssumptions
+    from beardyn_core.follow.mounting import LastingMounting
     from beardyn_core.follow.residual import Residual
     from beardyn_core.follow.service import Service
     from beardyn_core.record.run import Run
@@ -33,13 +34,22 @@ class Following:
 
     steps: A[tuple[Followed, ...], "after every stretch"]
     residual: A[Residual | None, "measured minus twin at the end; none without a twin"]
+    recordings: A[int, "that were followed"] = 1
+    mountings: A[
+        tuple[LastingMounting, ...],
+        "of the sensor that would make a strange signal familiar, in most of the recordings",
+    ] = ()
 
     @property
     def sentences(self) -> list[str]:
         """List everything, a line each."""
+        from beardyn_core.follow.mounting import check_mounting
+
         lines = [each.sentence for each in self.steps]
         last = self.steps[-1]
         lines += ["at the end:", *last.estimates.sentences]
+        if self.mountings:
+            lines.append(check_mounting([each.sentence_of(self.recordings) for each in self.mountings]))
         lines += [] if last.remains is None else last.remains.sentences
         if self.residual is not None:
             lines.append(f"twin: {100 * self.residual.explained:.0f} % of the third octaves explained")
@@ -69,7 +79,8 @@ def follow(
 
     Follow one bearing over its recordings in the order of time: a filter puts together the estimates of each
     stretch of load, end play and spall, lets loads wander and spalls grow, and reports what it does not
-    explain.
+    explain. Where signals are unlike all that was learnt from, it looks for a sensor that is mounted
+    otherwise than stated, and reports a finding that most of the recordings have.
 
     Parameters
     ----------
@@ -113,6 +124,8 @@ def follow(
     from beardyn_core.api.twin_residual import residual_beside
     from beardyn_core.follow.estimator_choice import estimator_of_run
     from beardyn_core.follow.load_checks import read_axle_loads
+    from beardyn_core.follow.mounting import lasting_mountings
+    from beardyn_core.follow.mounting_search import search_mountings
     from beardyn_core.follow.run_stretches import follower_of, stretches_followed
     from beardyn_core.record.run import Run
     from beardyn_core.scene.scene import Scene
@@ -137,6 +150,7 @@ def follow(
     )  # fmt: skip
     steps: list[Followed] = []
     rows: list[Float] = []
+    mountings = []
     time = distance = 0.0
     for k, run in enumerate(several):
         if k:
@@ -144,9 +158,12 @@ def follow(
             follower.begin()
         follower.know_load(known_load_in(heard, stated[k], sensors[k] or ()))
         begin = distance if mileages is None else mileages[k]
-        for row, end, metres in stretches_followed(heard, follower, plate, ear):
-            rows.append(row)
-            steps.append(follower.take(row, time + end, begin + metres))
+        powers: list[Float] = []
+        for each in stretches_followed(heard, follower, plate, ear):
+            rows.append(each.descriptors)
+            powers += [] if each.powers is None else [each.powers]
+            steps.append(follower.take(each.descriptors, time + each.end, begin + each.distance))
+        mountings.append(search_mountings(powers, follower.estimator))
         time, distance = (steps[-1].time, steps[-1].distance) if steps else (0.0, begin)
     if not steps:
         raise InputError(f"{heard.label}: has no stretch of {follower.estimator.stretch:.2f} s to follow")
@@ -154,7 +171,7 @@ def follow(
     if twin is not None:
         base = twin if isinstance(twin, Scene) else make_scene(twin)
         residual = residual_beside(follower.estimator, np.stack(rows), steps[-1].estimates, base, tier)
-    return Following(tuple(steps), residual)
+    return Following(tuple(steps), residual, len(several), lasting_mountings(mountings))
 
 
 def one_each(name: str, given: Any, count: int) -> list[Any]:

@@ -12,6 +12,7 @@ from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.cli.generated_parser import add_command, add_field, add_parameter, flag
+from beardyn_core.cli.growth_option import add_growth, growth_of, growth_problems
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import in_options
 from beardyn_core.cli.options import add_box, add_json
@@ -112,13 +113,7 @@ def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> No
     group.add_argument("--mileage-km", metavar="KM", type=float, help=mileage)
     for place in places(Service)[1:]:
         add_field(group, place)
-    group.add_argument(
-        "--growth-mm2",
-        metavar="MM2",
-        type=float,
-        default=100.0,
-        help="growth of a spall in 1000 km, mm2, beyond 250 mm2, median of the fleet; default 100, assumed",
-    )
+    add_growth(group)
     add_parameter(group, estimating.forecast, "lubricant", metavar="NAME")
 
 
@@ -158,13 +153,10 @@ def run(args: argparse.Namespace) -> int:
 
 def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, GrowthLaw]:
     """Read the options of the forecast, at a mileage."""
-    from beardyn_core.follow.growth import GrowthLaw
-
     wrong = []
     if args.mileage_km is not None and not args.mileage_km >= 0.0:
         wrong.append(f"--mileage-km: is {args.mileage_km:g}; it must be at least 0")
-    if not args.growth_mm2 > 0.0:
-        wrong.append(f"--growth-mm2: is {args.growth_mm2:g}; it must be above 0")
+    wrong += growth_problems(args)
     known = places(Service)[1:]
     given = {
         place.field: place.at.scale.to_si(value)
@@ -180,7 +172,7 @@ def service_of(args: argparse.Namespace, mileage_km: float) -> tuple[Service, Gr
         ]
     if wrong:
         raise InputError(wrong)
-    return service, GrowthLaw(rate=args.growth_mm2 * 1e-12)
+    return service, growth_of(args)
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from math import isfinite
 from pathlib import Path
@@ -11,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.fleets import Fleet, fleet
 from beardyn_core.base.interrupts import last_words
+from beardyn_core.base.plain_json import keyed_fields
 from beardyn_core.cli.generated_parser import add_command, add_parameter
+from beardyn_core.cli.growth_option import add_growth, growth_of
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.measured_options import add_reading
-from beardyn_core.cli.options import add_force, add_json
+from beardyn_core.cli.options import add_force, add_json, add_tls, tls_of
 
 if TYPE_CHECKING:
     from beardyn_core.fleet.ranking import FleetStatus, Standing
@@ -48,6 +49,8 @@ def _add_add(parts: argparse._SubParsersAction[argparse.ArgumentParser]) -> None
     add_parameter(
         parser, Fleet.add, "workers", metavar="N", type=int, default=None, usual="as many as processors"
     )
+    add_parameter(parser, Fleet.add, "scheduler", metavar="ADDR")
+    add_tls(parser)
     group = parser.add_argument_group("identity", "of every file that neither manifest nor path names")
     for name, words in (
         ("vehicle", "name or number of the vehicle"),
@@ -67,6 +70,7 @@ def _add_status(parts: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     parser = add_command(parts, "status", Fleet.status)
     _add_store(parser)
     add_parameter(parser, Fleet.status, "as_of", metavar="TIME", type=str)
+    add_growth(parser)
     parser.add_argument("--all", action="store_true", help="list the axleboxes that are ok too; default not")
     add_json(parser)
     parser.set_defaults(run=run_status)
@@ -77,6 +81,8 @@ def _add_report(parts: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     _add_store(parser)
     add_parameter(parser, Fleet.report, "html", metavar="FILE.html", required=True)
     add_parameter(parser, Fleet.status, "as_of", metavar="TIME", type=str)
+    add_growth(parser)
+    add_parameter(parser, Fleet.report, "pages", metavar="N")
     add_force(parser, "replace the file when it exists; default refuse")
     parser.set_defaults(run=run_report)
 
@@ -112,6 +118,7 @@ def run_add(args: argparse.Namespace) -> int:
 
     from beardyn_core.base.edge import places
     from beardyn_core.cli.measured_options import reading_of
+    from beardyn_core.experiments import core_count
     from beardyn_core.measured.options import Reading
 
     reading_of(args)  # with mistakes in the words of options
@@ -124,7 +131,7 @@ def run_add(args: argparse.Namespace) -> int:
         for name in ("vehicle", "axle", "side", "bearing", "sensor", "train")
         if (value := getattr(args, name))
     }
-    workers = args.workers if args.workers is not None else (os.cpu_count() or 1)
+    workers = core_count() if args.workers is None and not args.scheduler else args.workers
     warnings: list[str] = []
     kept = [0]
     with tqdm(total=None, desc="analysed", unit=" recordings", disable=None, leave=False) as bar:
@@ -141,6 +148,9 @@ def run_add(args: argparse.Namespace) -> int:
                 pattern=args.pattern,
                 estimator=args.estimator,
                 workers=workers,
+                scheduler=args.scheduler,
+                tls=tls_of(args),
+                say=lambda text: print(f"beardyn: {text}", file=sys.stderr, flush=True),
                 progress=progress,
                 warnings=warnings,
                 **defaults,
@@ -162,7 +172,7 @@ def run_add(args: argparse.Namespace) -> int:
 
 def run_status(args: argparse.Namespace) -> int:
     """Run ``fleet status``; gives the exit code, which the worst axlebox decides."""
-    status = Fleet(args.store).status(as_of=args.as_of)
+    status = Fleet(args.store).status(as_of=args.as_of, law=growth_of(args))
     if args.json:
         print(json_text("fleet status", status_object(status)))
     else:
@@ -172,7 +182,9 @@ def run_status(args: argparse.Namespace) -> int:
 
 def run_report(args: argparse.Namespace) -> int:
     """Run ``fleet report``; gives the exit code."""
-    Fleet(args.store).report(args.html, as_of=args.as_of, force=args.force)
+    Fleet(args.store).report(
+        args.html, as_of=args.as_of, law=growth_of(args), pages=args.pages, force=args.force
+    )
     print(args.html)
     return 0
 
@@ -217,7 +229,7 @@ def status_lines(status: FleetStatus, *, everything: bool = False) -> list[str]:
         )
         lines += [f"{'':8}{sentence}" for sentence in (*health.why, *(f"note: {n}" for n in health.notes))]
         if health.part:
-            lines.append(f"{'':8}mileage left: {each.left.sentence}")
+            lines += [f"{'':8}{sentence}" for sentence in each.left.sentences]
         if health.state != "ok":
             lines.append(f"{'':8}do: {each.advice}")
     if hidden := len(status.standings) - len(shown):
@@ -257,6 +269,11 @@ def _standing_object(standing: Standing) -> dict[str, Any]:
         "mileage_left_m": left.distance if left.is_known else None,
         "mileage_left_dates_s": left.dates if left.is_known else None,
         "mileage_left": left.sentence if health.part else None,
+        "mileage_left_span_m": left.span if health.part else None,
+        "mileage_left_span_dates_s": left.span_dates if health.part else None,
+        "growth_laws": [
+            keyed_fields(each, distance="mileage_left_m", dates="mileage_left_dates_s") for each in left.laws
+        ],
         "assumed": left.assumed,
         "acknowledged": None
         if entry is None

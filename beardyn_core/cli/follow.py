@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from itertools import pairwise
 
-    from beardyn_core.follow.estimate_json import residual_object, step_object
+    from beardyn_core.follow.estimate_json import lasting_object, residual_object, step_object
     from beardyn_core.record.reading import read_run
 
     at_km = args.at_km or []
@@ -86,6 +86,7 @@ def run(args: argparse.Namespace) -> int:
         content = {
             "recordings": args.recordings,
             "steps": [step_object(each) for each in found.steps],
+            "mountings": [lasting_object(each) for each in found.mountings],
             "residual": None if found.residual is None else residual_object(found.residual),
         }
         print(json_text("follow", content))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from pathlib import Path
 from typing import Any
 
 from beardyn_core.api.simulating import simulate
@@ -75,6 +76,20 @@ def port(text: str) -> int:
     if not text.strip().isdecimal() or not 1 <= int(text) <= _LAST_PORT:
         raise ArgumentTypeError(f"is {text!r}; it must be a whole number from 1 to {_LAST_PORT}")
     return int(text)
+
+
+def add_tls(parser: ArgumentParser) -> None:
+    """Add the files that a scheduler at tls:// is reached with; `tls_of` reads them."""
+    for name, what in (("ca", "of the authority"), ("cert", "of this client"), ("key", "its private key")):
+        parser.add_argument(
+            f"--tls-{name}", metavar="FILE", type=Path, help=f"PEM file {what}, for tls://; default none"
+        )
+
+
+def tls_of(args: Namespace) -> dict[str, Path]:
+    """Gather the files of `add_tls` that are given."""
+    given = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
+    return {name: path for name, path in given.items() if path is not None}
 
 
 def add_json(parser: ArgumentParser) -> None:

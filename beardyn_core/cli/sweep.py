@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beardyn_core.api.sweeping import Lines, clock, cluster_of, sweep
@@ -13,7 +12,7 @@ from beardyn_core.base.interrupts import last_words
 from beardyn_core.base.outputs import folder_problems
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_json
+from beardyn_core.cli.options import add_json, add_tls, tls_of
 
 if TYPE_CHECKING:
     from beardyn_core.experiments import Cluster
@@ -44,10 +43,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_parameter(parser, sweep, "workers", metavar="N")
     add_parameter(parser, sweep, "memory_GB", "--memory", metavar="GB")
     add_parameter(parser, sweep, "scheduler", metavar="ADDR")
-    for name, what in (("ca", "of the authority"), ("cert", "of this client"), ("key", "its private key")):
-        parser.add_argument(
-            f"--tls-{name}", metavar="FILE", type=Path, help=f"PEM file {what}, for tls://; default none"
-        )
+    add_tls(parser)
     parser.add_argument(
         "--verify", action="store_true", help="compare the files of a finished set with its checksums, no run"
     )
@@ -66,10 +62,7 @@ def run(args: argparse.Namespace) -> int:
     from beardyn_core.population.request import make_plan
     from beardyn_core.population.sweeping import conduct
 
-    tls = {"ca": args.tls_ca, "cert": args.tls_cert, "key": args.tls_key}
-    cluster = cluster_of(
-        args.workers, args.scheduler, {k: v for k, v in tls.items() if v is not None}, args.memory
-    )
+    cluster = cluster_of(args.workers, args.scheduler, tls_of(args), args.memory)
     changes = {"runs": args.runs, "seed": args.seed, "hours": args.hours}
     if problems := option_problems(args, cluster):  # told before effects are chosen, which takes long
         raise InputError([*_mistakes_of(args.sweep, changes), *problems])

@@ -53,9 +53,7 @@ class Cluster:
 
     def problems(self) -> list[str]:
         """List what is wrong with it, in the words of the command line."""
-        found = missing("distributed", "many runs at once", "sweep")
-        if self.workers is not None and not 1 <= self.workers <= MOST_WORKERS:
-            found.append(f"--workers {self.workers}: allowed is 1 to {MOST_WORKERS}")
+        found = missing("distributed", "many runs at once", "sweep") + self.worker_problems()
         if self.memory is not None and not self.memory >= 2.5e8:
             found.append(f"--memory {self.memory / 1e9:g}: a worker needs at least 0.25 GB, and usually 1")
         scheme, colon, rest = self.scheduler.partition("://")
@@ -79,6 +77,12 @@ class Cluster:
         if bool(self.tls.cert) != bool(self.tls.key):
             found.append("--tls-cert and --tls-key: go together")
         return found
+
+    def worker_problems(self) -> list[str]:
+        """List what is wrong with the number of processes, which needs no Dask."""
+        if self.workers is None or 1 <= self.workers <= MOST_WORKERS:
+            return []
+        return [f"--workers {self.workers}: allowed is 1 to {MOST_WORKERS}"]
 
     @property
     def worker_count(self) -> int:

@@ -283,17 +283,20 @@ def _estimators(name: str) -> tuple[Estimator, ...]:
 def _with_estimate(
     analysis: Analysis, run: Run, plate: NamePlate, recording: FleetRecording, name: str
 ) -> Analysis:
-    """Add what an estimator says, and its width where the monitor has none; what it refuses is a note."""
+    """Add what an estimator says, and its width, or the least of it, where the monitor has none.
+
+    What it refuses is a note.
+    """
     from beardyn_core.follow.estimate_json import estimates_object
-    from beardyn_core.follow.estimator_choice import sort_fitting
-    from beardyn_core.follow.inference import estimates_of, measured_axes
+    from beardyn_core.follow.estimator_choice import estimator_for
+    from beardyn_core.follow.inference import doubt_of, estimates_of, measured_axes
 
     known = () if name == NO_ESTIMATOR else _estimators(name)
-    fitting = sort_fitting(known, plate, measured_axes(run, recording.sensor))
-    if not fitting:
+    if all(doubt_of(each, plate) for each in known):
         return analysis
     try:
-        found = estimates_of(run, fitting[0], plate, recording.sensor)
+        estimator = estimator_for(plate, measured_axes(run, recording.sensor), known=known)
+        found = estimates_of(run, estimator, plate, recording.sensor)
     except InputError as error:
         note = f"no estimate: {'; '.join(error.problems)}".replace(str(recording.path), recording.path.name)
         return replace(analysis, assumed=(*analysis.assumed, note))
@@ -301,7 +304,12 @@ def _with_estimate(
     called = analysis.verdict in ("cup", "cone", "roller")
     width = next((each for each in found.quantities if each.quantity.name == "width"), None)
     agrees = found.part is not None and found.part.condition == analysis.verdict
-    if not called or analysis.width_from or not agrees or width is None or not np.isfinite(width.value):
+    if not called or analysis.width_from or not agrees or width is None:
+        return analysis
+    if np.isfinite(width.at_least):  # which of a spall too wide for the monitor is all that is known
+        reason = "; ".join(filter(None, [analysis.stage_reason, f"estimator: {width.reason}"]))
+        return replace(analysis, width_low=float(width.at_least), width_from="estimator", stage_reason=reason)
+    if not np.isfinite(width.value):
         return analysis
     low, high = width.intervals[-1]
     return replace(

@@ -70,11 +70,13 @@ def find_contradictions(
     histories: dict[Axlebox, list[Known]] = {}
     for one in (*stored.values(), *new):
         histories.setdefault(one.axlebox, []).append(one)
-    changed = {(box, at) for box, at in exchanges}
+    changed: dict[Axlebox, list[float]] = {}
+    for box, at in exchanges:
+        changed.setdefault(box, []).append(at)
     fresh = {each.key for each in new}
     for box, history in histories.items():
         history.sort(key=lambda each: each.time)
-        problems += _falls_and_changes(box, history, sorted(at for own, at in changed if own == box), fresh)
+        problems += _falls_and_changes(box, history, sorted(changed.get(box, ())), fresh)
     return problems
 
 

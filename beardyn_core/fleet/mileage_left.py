@@ -1,43 +1,92 @@
-"""Mileage and date until a spall is too wide, from its widths so far and a law of growth."""
+"""Mileage and date until a spall is too wide, from its widths so far and several laws of growth."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import isfinite, log, nan
 from typing import Annotated as A
 
 import numpy as np
 
+from beardyn_core.base.arrays import Float
+from beardyn_core.fleet.growth_fit import ACROSS, GrowthFit, Widths, fit_growth
 from beardyn_core.fleet.identity import write_date
 from beardyn_core.fleet.store import Stored
 from beardyn_core.follow.forecast import WIDEST_FORECAST
-from beardyn_core.follow.growth import GrowthLaw, drawn_between
+from beardyn_core.follow.growth import ASSUMED_LAW, GrowthLaw, PowerLaw, other_laws
 
-ACROSS = (8.0e-3, 40.0e-3)  # 90 % of the lengths of spalls across the raceway, [m]; assumed
-BEGINS = (2.0e-3, 20.0e-3)  # 90 % of the widths at the first measurement before it is known, [m]; assumed
-_DRAWS, _SEED = 20_000, 1
 _FEWEST = 3  # widths
-_LEAST_EFFECTIVE = 60.0  # draws that the widths leave
+_MOST = 120  # widths that are taken, spread over all
 _NORMAL_95 = 1.96
 _SCATTER = 0.08  # of a width beside its interval, relative: the spall is not a rectangle; assumed
+_LEAST_LIKELY = 0.05  # of the law that explains the widths best: one that is less likely does not agree
 _DAYS = 86_400.0  # [s]
 _CENTURY = 100.0 * 365.0 * _DAYS  # a date beyond it says nothing, [s]
+_QUANTILES = (0.05, 0.5, 0.95)
+_UNKNOWN = (nan, nan, nan)
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class LawMileage:
+    """What remains by one law of growth."""
+
+    law: A[str, "its name"]
+    is_assumed: A[bool, "whether it is the one that is assumed"]
+    agrees: A[bool, "whether the widths so far agree with it"]
+    distance: A[Triple, "5, 50 and 95 %, [m]"]
+    dates: A[Triple, "at the mileage of each day so far, NaN unknown, [s]"]
 
 
 @dataclass(frozen=True)
 class MileageLeft:
     """What remains until the spall is too wide."""
 
-    distance: A[tuple[float, float, float], "5, 50 and 95 %, NaN where it cannot be judged, [m]"]
-    dates: A[tuple[float, float, float], "at the mileage of each day so far, NaN unknown, [s]"]
+    distance: A[Triple, "by the assumed law: 5, 50 and 95 %, NaN where it cannot be judged, [m]"]
+    dates: A[Triple, "at the mileage of each day so far, NaN unknown, [s]"]
     sentence: A[str, "the same, or why it cannot be judged"]
     assumed: A[tuple[str, ...], "what it rests on"] = ()
+    laws: A[tuple[LawMileage, ...], "the assumed one first; none where nothing is to be fitted"] = ()
 
     @property
     def is_known(self) -> bool:
-        """Whether there is a number."""
+        """Whether the assumed law gives a number."""
         return isfinite(self.distance[1])
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Least and largest mileage of the 90 % intervals of the laws that agree, NaN without one, [m]."""
+        return _span([each.distance for each in self.laws if each.agrees] or [self.distance])
+
+    @property
+    def span_dates(self) -> tuple[float, float]:
+        """First and last date of these, NaN unknown, [s]."""
+        return _span([each.dates for each in self.laws if each.agrees] or [self.dates])
+
+    @property
+    def sentences(self) -> list[str]:
+        """List what is known: by the assumed law, and the range over the laws."""
+        several = f"mileage left by several laws: {self.laws_sentence}" if self.laws else ""
+        return [f"mileage left: {self.sentence}", *filter(None, [several])]
+
+    @property
+    def laws_sentence(self) -> str:
+        """Say the range over the laws, and which agree; empty where none is fitted."""
+        if not self.laws:
+            return ""
+        agree, differ = ("; ".join(e.law for e in self.laws if e.agrees == kind) for kind in (True, False))
+        assumed = next(each.law for each in self.laws if each.is_assumed)
+        if not agree:
+            return f"its widths agree with no law of growth ({differ})"
+        low, high = self.span
+        text = f"{low / 1e3:,.0f} to {high / 1e3:,.0f} km"
+        first, last = self.span_dates
+        if isfinite(first) and isfinite(last):
+            text += f", {write_date(first)} to {write_date(last)},"
+        text += f" over the laws of growth that its widths agree with ({agree})"
+        return f"{text}{f', and not with: {differ}' if differ else ''}; assumed: {assumed}"
 
 
 def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = None) -> MileageLeft:
@@ -50,12 +99,13 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
     part : str
         That is spalled.
     law : GrowthLaw, optional
+        That is assumed; others with its rate at the critical area are compared with it.
 
     Notes
     -----
-    Length across the raceway, first width and rate of growth are drawn from what is assumed of them; a draw
-    counts as much as the widths that it leads to agree with those that were measured. Where few draws agree,
-    the growth is not that of the law, and nothing is stated.
+    See `growth_fit.fit_growth`. A law agrees with the widths where it can have made them, and where they are
+    not twenty times less likely by the spall of it that fits best than by that of the best law: the rate of
+    growth, which is assumed, has no part in it. Where the assumed law does not agree, it states nothing.
     """
     law = law or GrowthLaw()
     known = [
@@ -67,59 +117,74 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
         return _unknown("no part is named")
     if len(known) < _FEWEST:
         return _unknown(f"fewer than {_FEWEST} recordings with a width and a mileage")
-    mileage = np.array([each.mileage for each in known])
-    width = np.array([each.analysis.width for each in known])
-    if np.median(width[-_FEWEST:]) >= WIDEST_FORECAST:
+    if np.median([each.analysis.width for each in known[-_FEWEST:]]) >= WIDEST_FORECAST:
         return MileageLeft(
             (0.0, 0.0, 0.0), (known[-1].time,) * 3,
             f"the spall is {1e3 * WIDEST_FORECAST:.0f} mm wide or wider: take the bearing out now",
         )  # fmt: skip
-    half = np.array([0.5 * (each.analysis.width_high - each.analysis.width_low) for each in known])
-    deviation = np.hypot(half / _NORMAL_95, _SCATTER * width)
-    random = np.random.default_rng(_SEED)
-    across = drawn_between(ACROSS, _DRAWS, random)
-    first = drawn_between(BEGINS, _DRAWS, random)
-    # draws near the first widths: the others would count nothing
-    middle = float(np.median(width[:_FEWEST]))
-    near = middle + np.median(deviation[:_FEWEST]) * random.normal(0.0, 1.5, _DRAWS)
-    first = np.where(random.random(_DRAWS) < 0.1, first, np.maximum(near, 0.5e-3))
-    rate = law.rates(_DRAWS, random)
-    begin = across * first
-    misfit = np.zeros(_DRAWS)
-    for at, measured, doubt in zip(mileage - mileage[0], width, deviation, strict=True):
-        reached = law.grow_areas(begin, rate, float(at)) / across
-        misfit += np.log1p(
-            (reached - measured) ** 2 / (4.0 * doubt**2)
-        )  # heavy tails: one width may be wrong
-    weight = np.exp(-2.5 * (misfit - misfit.min()))
-    typical = float(misfit.min()) / len(known)
-    effective = float(weight.sum() ** 2 / np.sum(weight**2))
-    if effective < _LEAST_EFFECTIVE or typical > 1.5:
-        return _unknown("the widths so far do not agree with the assumed law of growth")
+    widths = _widths(known)
     # from the last recording on, which may have no width: what has grown since the last one is gone
     last = [each for each in history if isfinite(each.mileage)][-1]
-    now = law.grow_areas(begin, rate, last.mileage - float(mileage[0]))
-    distance = law.distance(now, across * WIDEST_FORECAST, rate)
-    order = np.argsort(distance)
-    share = np.cumsum(weight[order]) / weight.sum()
-    low, likely, high = (float(distance[order][np.searchsorted(share, q)]) for q in (0.05, 0.5, 0.95))
+    pace = _pace(history)
+    every: dict[str, GrowthLaw | PowerLaw] = {ASSUMED_LAW: law, **other_laws(law)}
+    fits = {name: fit_growth(each, law, widths) for name, each in every.items()}
+    best = max(each.likelihood for each in fits.values())
+    laws = []
+    for name, fit in fits.items():
+        distance = _distance(every[name], fit, last.mileage - known[0].mileage)
+        laws.append(
+            LawMileage(
+                name,
+                name == ASSUMED_LAW,
+                fit.is_sound and fit.likelihood >= best + log(_LEAST_LIKELY),
+                distance,
+                _dates(last.time, distance, pace),
+            )
+        )
+    first, several = laws[0], tuple(laws)
+    if not first.agrees:
+        why = f"the widths so far do not agree with the assumed law of growth ({first.law})"
+        return MileageLeft(_UNKNOWN, _UNKNOWN, f"cannot be judged: {why}", _assumed(law), several)
+    low, likely, high = first.distance
     if likely == 0.0:
         return MileageLeft(
-            (low, likely, high), (last.time,) * 3,
+            first.distance, (last.time,) * 3,
             f"by its growth the spall is {1e3 * WIDEST_FORECAST:.0f} mm wide or wider by now; its width was "
             f"measured last on {write_date(known[-1].time)}: take the bearing out now",
-            _assumed(law),
+            _assumed(law), several,
         )  # fmt: skip
-    pace = _pace(history)
-    dates = tuple(last.time + each / pace if pace > 0.0 else nan for each in (low, likely, high))
     end = f"{1e3 * WIDEST_FORECAST:.0f} mm"
     text = f"{likely / 1e3:,.0f} km until {end}, 90 % interval {low / 1e3:,.0f} to {high / 1e3:,.0f}"
-    if pace > 0.0 and high / pace < _CENTURY:
-        days = [write_date(each) for each in dates]
+    if isfinite(first.dates[2]):
+        days = [write_date(each) for each in first.dates]
         text += f"; at {pace * _DAYS / 1e3:,.0f} km a day {days[1]} ({days[0]} to {days[2]})"
-    else:
-        dates = (nan, nan, nan)
-    return MileageLeft((low, likely, high), (dates[0], dates[1], dates[2]), text, _assumed(law))
+    return MileageLeft(first.distance, first.dates, text, _assumed(law), several)
+
+
+def _widths(known: Sequence[Stored]) -> Widths:
+    """Take the widths of recordings, of many some that are spread over all."""
+    chosen = np.unique(np.linspace(0, len(known) - 1, min(len(known), _MOST)).round().astype(int))
+    taken = [known[int(place)] for place in chosen]
+    mileage = np.array([each.mileage for each in taken])
+    width = np.array([each.analysis.width for each in taken])
+    half = np.array([0.5 * (each.analysis.width_high - each.analysis.width_low) for each in taken])
+    return Widths(mileage - mileage[0], width, np.hypot(half / _NORMAL_95, _SCATTER * width))
+
+
+def _distance(law: GrowthLaw | PowerLaw, fit: GrowthFit, since: float) -> Triple:
+    """Compute what remains by a law so far after the first width, [m]."""
+    area: Float = fit.across * WIDEST_FORECAST
+    now = np.minimum(law.grow_areas(fit.begin, fit.rate, since), area)
+    low, likely, high = fit.quantiles(law.distance(now, area, fit.rate), _QUANTILES)
+    return low, likely, high
+
+
+def _dates(time: float, distance: Triple, pace: float) -> Triple:
+    """Give the dates of mileages that are left at a pace, NaN where they say nothing, [s]."""
+    if not pace > 0.0:
+        return _UNKNOWN
+    low, likely, high = (time + each / pace if each / pace < _CENTURY else nan for each in distance)
+    return low, likely, high
 
 
 def _pace(history: Sequence[Stored]) -> float:
@@ -128,6 +193,12 @@ def _pace(history: Sequence[Stored]) -> float:
     if len(known) < 2 or known[-1].time <= known[0].time:
         return nan
     return (known[-1].mileage - known[0].mileage) / (known[-1].time - known[0].time)
+
+
+def _span(triples: Sequence[Triple]) -> tuple[float, float]:
+    """Give the least low end that is known, and the largest high end, NaN where one is not known."""
+    low = min((each[0] for each in triples if isfinite(each[0])), default=nan)
+    return low, float(np.max([each[2] for each in triples]))
 
 
 def _assumed(law: GrowthLaw) -> tuple[str, ...]:
@@ -142,4 +213,4 @@ def _assumed(law: GrowthLaw) -> tuple[str, ...]:
 
 
 def _unknown(why: str) -> MileageLeft:
-    return MileageLeft((nan, nan, nan), (nan, nan, nan), f"cannot be judged: {why}")
+    return MileageLeft(_UNKNOWN, _UNKNOWN, f"cannot be judged: {why}")

@@ -46,18 +46,21 @@ _BY_LEVELS = (
     "Look at the other end of the axle and at the wheel: what both ends have is not the bearing.",
     "Check the sensor and its mounting, and record again at a similar speed. Levels do not name a part.",
 )
+MOST_PAGES = 100  # of axleboxes, each some 0.2 MB
 _SHOWN = (WATCH, PLAN, ACT)
 _ASSUMED = 12  # lines of what was assumed of a recording
 
 
-def write_fleet_page(store: FleetStore, status: FleetStatus, html: Path, *, force: bool = False) -> None:
-    """Write the page of a fleet as one HTML file."""
-    write_whole(html, html_of(fleet_page(store, status)), replace=force)
+def write_fleet_page(
+    store: FleetStore, status: FleetStatus, html: Path, *, most: int = MOST_PAGES, force: bool = False
+) -> None:
+    """Write the page of a fleet as one HTML file, with pages of so many axleboxes at most."""
+    write_whole(html, html_of(fleet_page(store, status, most)), replace=force)
 
 
-def fleet_page(store: FleetStore, status: FleetStatus) -> PageReport:
-    """Compose the pages."""
-    shown = [each for each in status.standings if each.health.state in _SHOWN]
+def fleet_page(store: FleetStore, status: FleetStatus, most: int = MOST_PAGES) -> PageReport:
+    """Compose the pages: the list, and of so many axleboxes at most a page of their own."""
+    shown = [each for each in status.standings if each.health.state in _SHOWN][:most]
     pages = [_overview(status, shown), *(_axlebox_page(store, status, each) for each in shown)]
     made = f"page made {datetime.now(UTC):%Y-%m-%d %H:%M} UTC"
     foot = f"beardyn {versions()['beardyn']}, {made}, store {store.path.name}"
@@ -101,8 +104,12 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
             f"{status.recordings} recordings until {write_time(status.as_of)} UTC.",
         ),
     )
+    alarmed = sum(each.health.state in _SHOWN for each in status.standings)
+    which = "a linked one has a page of its own below"
+    if alarmed > len(shown):
+        which = f"the first {len(shown)} of {alarmed} with an alarm have a page of their own below"
     table = Rows(
-        "Axleboxes, the one that needs attention most first; a linked one has a page of its own below",
+        f"Axleboxes, the one that needs attention most first; {which}",
         ("rank", "axlebox", "health", "since", "why", "last recording", "what to do"),
         (0.05, 0.14, 0.11, 0.12, 0.28, 0.11, 0.19),
         tuple(rows),
@@ -140,7 +147,7 @@ def _axlebox_page(store: FleetStore, status: FleetStatus, standing: Standing) ->
     health, last = standing.health, standing.last
     details = [*(f"{each}." for each in health.why[1:]), *(f"Note: {each}." for each in health.notes)]
     if health.part:
-        details.append(f"Mileage left: {standing.left.sentence}.")
+        details += [f"{each[0].upper()}{each[1:]}." for each in standing.left.sentences]
     entry = standing.acknowledged
     if entry is not None:
         note = f": {entry.note}" if entry.note else ""
@@ -156,6 +163,7 @@ def _axlebox_page(store: FleetStore, status: FleetStatus, standing: Standing) ->
             ),
             44.0,
         ),
+        *_laws_part(standing),
         *_evidence_parts(store, standing),
     ]
     if any(each.number in status.comparisons for each in standing.history):
@@ -197,6 +205,29 @@ def _identity(standing: Standing) -> tuple[tuple[str, str], ...]:
     if health.part:
         rows.append(("Mileage left", standing.left.sentence))
     return tuple(rows)
+
+
+def _laws_part(standing: Standing) -> list[Part]:
+    """Give the table of the laws of growth, where there is something to fit."""
+    rows = [
+        (
+            f"{each.law}{', assumed' if each.is_assumed else ''}",
+            "yes" if each.agrees else "no",
+            _interval_words([f"{value / 1e3:,.0f} km" for value in each.distance]),
+            _interval_words([write_date(value) if isfinite(value) else "-" for value in each.dates]),
+        )
+        for each in standing.left.laws
+    ]
+    if not rows:
+        return []
+    heads = ("law of growth", "agrees with its widths", "mileage left, 90 % interval", "date")
+    title = "Mileage until the spall is 20 mm wide, by several laws of growth"
+    return [Rows(title, heads, (0.25, 0.17, 0.29, 0.29), tuple(rows), ("",) * len(rows))]
+
+
+def _interval_words(ends: list[str]) -> str:
+    low, likely, high = ends
+    return f"{likely} ({low} to {high})"
 
 
 def _evidence_parts(store: FleetStore, standing: Standing) -> list[Part]:

@@ -113,10 +113,13 @@ def rank_fleet(
         raise InputError(f"--store {store.path}: has no recording; `beardyn fleet add` adds some")
     at = recordings[-1].time if as_of is None else as_of
     comparisons = compare_sisters(recordings)
-    entries = store.entries()
+    entries: dict[Axlebox, list[Entry]] = {}
+    for entry in store.entries():
+        entries.setdefault(entry.axlebox, []).append(entry)
     found = []
     for box, history in axlebox_histories(recordings).items():
-        exchanges = [e.time for e in entries if e.kind == EXCHANGED and e.axlebox == box and e.time <= at]
+        own_entries = entries.get(box, [])
+        exchanges = [e.time for e in own_entries if e.kind == EXCHANGED and e.time <= at]
         health, points = replay(history, comparisons, exchanges, settings)
         own = since_exchange(history, exchanges)
         health = _without_recordings(health, own or history, bool(own), at)
@@ -126,7 +129,7 @@ def rank_fleet(
                 0,
                 box,
                 health,
-                _acknowledged(entries, box, health),
+                _acknowledged(own_entries, health),
                 (own or history)[-1],
                 len(own),
                 left,
@@ -159,19 +162,20 @@ def _without_recordings(health: Health, history: Sequence[Stored], is_of_this: b
     return with_state(health, health.state, sentence)
 
 
-def _acknowledged(entries: Sequence[Entry], box: Axlebox, health: Health) -> Entry | None:
-    """Find who has acknowledged this state since it was raised."""
+def _acknowledged(entries: Sequence[Entry], health: Health) -> Entry | None:
+    """Find who has acknowledged this state of an axlebox since it was raised."""
     if health.state not in (WATCH, PLAN, ACT):
         return None
-    own = [e for e in entries if e.kind == ACKNOWLEDGED and e.axlebox == box]
+    own = [e for e in entries if e.kind == ACKNOWLEDGED]
     return next((e for e in reversed(own) if e.health == health.state and e.raised == health.raised), None)
 
 
 def _advice(health: Health, left: MileageLeft) -> str:
-    if left.is_known and left.distance[0] == 0.0 and health.state in (PLAN, ACT):
+    # the least of the laws that agree with its widths: nobody knows which of them holds
+    if left.span[0] == 0.0 and health.state in (PLAN, ACT):
         return _ADVICE[ACT]
-    if health.state == PLAN and left.is_known and isfinite(left.dates[0]):
-        return f"{_ADVICE[PLAN]}, before {write_date(left.dates[0])}"
+    if health.state == PLAN and isfinite(left.span_dates[0]):
+        return f"{_ADVICE[PLAN]}, before {write_date(left.span_dates[0])}"
     return _ADVICE[health.state]
 
 

@@ -52,15 +52,17 @@ def compare_sisters(recordings: Sequence[Stored]) -> dict[int, Comparison]:
             continue
         relative: dict[Axlebox, Float] = {}
         warmer: dict[Axlebox, float] = {}
-        for box, each in ride.items():
-            others = [other.analysis for own, other in ride.items() if own != box and own[:2] != box[:2]]
-            others = (
-                others if len(others) >= LEAST_SISTERS else [o.analysis for b, o in ride.items() if b != box]
-            )
-            relative[box] = each.analysis.levels - np.median([o.levels for o in others], axis=0)
-            known = [o.temperature for o in others if np.isfinite(o.temperature)]
+        levels = np.array([each.analysis.levels for each in ride.values()])
+        temperature = np.array([each.analysis.temperature for each in ride.values()])
+        axle = np.unique([f"{box.vehicle}\n{box.axle}" for box in ride], return_inverse=True)[1]
+        for place, box in enumerate(ride):
+            others = axle != axle[place]
+            if np.count_nonzero(others) < LEAST_SISTERS:
+                others = np.arange(len(ride)) != place
+            relative[box] = levels[place] - np.median(levels[others], axis=0)
+            known = temperature[others & np.isfinite(temperature)]
             enough = len(known) >= LEAST_SISTERS
-            warmer[box] = each.analysis.temperature - float(np.median(known)) if enough else np.nan
+            warmer[box] = float(temperature[place] - np.median(known)) if enough else np.nan
         for box, each in ride.items():
             partner = partner_of(box)
             found[each.number] = Comparison(

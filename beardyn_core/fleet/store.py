@@ -72,12 +72,21 @@ _NUMBERS = (
         "duration",
     ),
 )
-_WITHOUT_EVIDENCE = ", ".join(("id", *_COLUMNS[:-1]))
+# of a list: estimates are most of the detail, and nothing that is listed needs them
+_LISTED = ", ".join(
+    (
+        "id",
+        *(
+            f"json_remove({name}, '$.estimate') as {name}" if name == "detail" else name
+            for name in _COLUMNS[:-1]
+        ),
+    )
+)
 
 
 @dataclass(frozen=True)
 class Stored:
-    """A recording as the store has it, without its evidence."""
+    """A recording as the store lists it, without evidence and without what an estimator says."""
 
     number: A[int, "in the store"]
     axlebox: Axlebox
@@ -151,8 +160,8 @@ class FleetStore:
             )
 
     def recordings(self) -> list[Stored]:
-        """List all recordings in the order of time."""
-        rows = self._connection.execute(f"select {_WITHOUT_EVIDENCE} from recording order by time, id")
+        """List all recordings in the order of time, without evidence and without what estimators say."""
+        rows = self._connection.execute(f"select {_LISTED} from recording order by time, id")
         names = [each[0] for each in rows.description]
         return [_stored(dict(zip(names, row, strict=True))) for row in rows]
 
@@ -293,7 +302,7 @@ def _stored(row: dict[str, Any]) -> Stored:
         numbers["width_low"], numbers["width_high"], row["width_from"], tuple(detail["also_fits"]),
         numbers["shaft_frequency"], numbers["temperature"], axes,
         levels.reshape(len(axes), -1) if levels.size else levels.reshape(0, 0),
-        numbers["duration"], detail["estimate"], tuple(detail["assumed"]),
+        numbers["duration"], {}, tuple(detail["assumed"]),
     )  # fmt: skip
     return Stored(
         row["id"], Axlebox(row["vehicle"], row["axle"], row["side"]), row["train"], row["time"],

@@ -14,12 +14,14 @@ regression          numbers from descriptors by kernel ridge regression
 forest              numbers from descriptors by trees
 fault_location      which part is spalled, with sets of parts that hold their promise
 familiarity         whether runs are of the kind learnt from: another box lies far from them
-mounting            a mounting of a sensor that is not as stated, in words
+mounting            a mounting of a sensor that is not as stated, in words, and over several recordings
 estimator           the numbers that make an estimator, its card, and the file that keeps them
 mounting_search     what must be undone of a mounting for a strange signal to be familiar
+mounting_watch      when a search of the mounting is due over the latest stretches, and its finding
 inference           what an estimator makes of a run
-shipped             estimators that are shipped, found by the bearing
+shipped             estimators that are shipped
 estimator_choice    the user's own or the shipped estimator of a bearing, or the command that makes one
+live_choice         the same while the axes that are measured show block by block
 growth              how a spall grows with mileage, with its scatter
 service             what a forecast must know: mileage, wheel, widest spall
 known_load          a vertical load that somebody knows, stated or of several sources that must agree

@@ -11,7 +11,7 @@ from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.following import Followed
 from beardyn_core.follow.forecast import Forecast
 from beardyn_core.follow.known_load import KnownLoad
-from beardyn_core.follow.mounting import GAIN, TURNED, Mounting
+from beardyn_core.follow.mounting import GAIN, TURNED, LastingMounting, Mounting
 from beardyn_core.follow.rated_life import RatedLife
 from beardyn_core.follow.residual import Residual
 
@@ -91,6 +91,11 @@ def mounting_object(mounting: Mounting) -> dict[str, Any]:
         "gain_dB": mounting.amount if mounting.kind == GAIN else None,
         "strangeness": mounting.strangeness,
     }
+
+
+def lasting_object(lasting: LastingMounting) -> dict[str, Any]:
+    """Give what JSON has of a mounting that is found in several recordings."""
+    return {**mounting_object(lasting.mounting), "recordings": lasting.recordings}
 
 
 def step_object(step: Followed) -> dict[str, Any]:

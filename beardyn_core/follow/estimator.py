@@ -26,7 +26,7 @@ from beardyn_core.follow.familiarity import Familiarity
 from beardyn_core.follow.fault_location import PartEstimate, PartRule
 from beardyn_core.follow.forest import EventForest, Forest
 from beardyn_core.follow.known_load import KnownLoad
-from beardyn_core.follow.mounting import Mounting
+from beardyn_core.follow.mounting import Mounting, check_mounting
 from beardyn_core.follow.quantities import BY_NAME, Quantity
 from beardyn_core.follow.regression import Regression
 from beardyn_core.follow.wide_spall import LEAST_SHARE, WideRule
@@ -112,8 +112,7 @@ class Estimates:
         if self.strangeness > 1.0:
             lines.append(f"{UNLIKE.format(self.strangeness)}; no numbers are reported")
         if self.mountings:
-            said = ", or ".join(each.sentence for each in self.mountings)
-            lines.append(f"check mounting and gain of the sensor: the signal would be familiar if {said}")
+            lines.append(check_mounting([each.sentence for each in self.mountings]))
         if self.known_load is not None:
             lines += [f"doubt: {each}" for each in self.known_load.doubts]
         return lines

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from beardyn_core.base.data_root import data_root
@@ -42,16 +42,15 @@ def readable_estimators() -> Iterator[Estimator]:
     yield from map(read_estimator, list_shipped())
 
 
-def sort_fitting(
-    known: Sequence[Estimator], bearing: Bearing | NamePlate, axes: Sequence[str]
-) -> list[Estimator]:
-    """Take the estimators of a bearing: first those whose axes are measured, of these first the most axes."""
-    fitting = [each for each in known if not doubt_of(each, bearing)]
-    return sorted(fitting, key=lambda each: (not set(each.axes) <= set(axes), -len(each.axes)))
+def estimator_for(
+    bearing: Bearing | NamePlate,
+    axes: Sequence[str] = AXES,
+    recording: str = "",
+    known: Iterable[Estimator] | None = None,
+) -> Estimator:
+    """Choose the estimator of a bearing that takes most of the axes that are measured; the user's own first.
 
-
-def estimator_for(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, recording: str = "") -> Estimator:
-    """Read the estimator of a bearing that takes most of the axes that are measured; the user's own first.
+    Commands, Python, the fleet and the follower node all choose by it.
 
     Parameters
     ----------
@@ -60,18 +59,25 @@ def estimator_for(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, reco
         Of the accelerometer that are measured.
     recording : str, optional
         Path of the recording that has the bearing.
+    known : iterable of Estimator, optional
+        To choose from, of equals the first; default `readable_estimators`.
 
     Raises
     ------
     InputError
         There is none, with the command that makes one.
     """
-    fitting = sort_fitting(list(readable_estimators()), bearing, axes)
-    if fitting and set(fitting[0].axes) <= set(axes):
-        return fitting[0]
+    several = readable_estimators() if known is None else known
+    # sorting keeps the order of equals, in which the user's own come before the shipped ones
+    fitting = sorted(
+        (each for each in several if not doubt_of(each, bearing)), key=lambda each: -len(each.axes)
+    )
+    taken = next((each for each in fitting if set(each.axes) <= set(axes)), None)
+    if taken is not None:
+        return taken
     if fitting:
-        taken = " and of ".join(", ".join(each.axes) for each in fitting)
-        what = f"has estimators of the axes {taken}; measured are {', '.join(axes)}"
+        others = " and of ".join(dict.fromkeys(", ".join(each.axes) for each in fitting))
+        what = f"has estimators of the axes {others}; measured are {', '.join(axes)}"
     else:
         what = "has no estimator yet"
     raise InputError(f"{bearing.name} {what}: {how_to_train(bearing, axes, recording)}")

@@ -11,6 +11,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At, refuse
 
+ASSUMED_LAW = "slow, then linear"  # the name of `GrowthLaw`
 NORMAL_90 = 1.645  # standard deviations on either side of the middle that hold 90 %
 
 
@@ -45,7 +46,7 @@ class GrowthLaw:
         fast = np.maximum(end - np.maximum(begin, self.critical_area), 0.0)
         return np.asarray((slow + fast) / rate, np.float64)
 
-    def grow_areas(self, begin: Float, rate: Float, distance: float) -> Float:
+    def grow_areas(self, begin: Float, rate: Float, distance: float | Float) -> Float:
         """Compute the areas to which areas grow over a distance at their rates, [m^2]."""
         slow = self.slow_share * rate
         crawled = np.minimum(distance, np.maximum(self.critical_area - begin, 0.0) / slow)
@@ -82,6 +83,17 @@ class PowerLaw:
         left = 1.0 - self.exponent
         grown = np.log(last / first) if left == 0.0 else (last**left - first**left) / left
         return np.asarray(self.reference_area * grown / rate, np.float64)
+
+    def grow_areas(self, begin: Float, rate: Float, distance: float | Float) -> Float:
+        """Compute the areas to which areas grow over a distance, [m^2]; infinite beyond all numbers."""
+        first, along = begin / self.reference_area, rate * distance / self.reference_area
+        left = 1.0 - self.exponent
+        with np.errstate(over="ignore", divide="ignore"):
+            if left == 0.0:
+                grown = first * np.exp(along)
+            else:
+                grown = np.maximum(first**left + left * along, 0.0) ** (1.0 / left)
+        return np.asarray(self.reference_area * grown, np.float64)
 
 
 def other_laws(law: GrowthLaw) -> dict[str, PowerLaw]:

@@ -136,9 +136,12 @@ def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[
 def measured_axes(run: Run, sensor: str = "") -> tuple[str, ...]:
     """List the axes of an accelerometer of a run that are measured; all where it has no samples."""
     signal = run.sensors.get(sensor, run.vibration)
-    if not len(signal):
-        return AXES
-    return tuple(axis for k, axis in enumerate(AXES) if not np.isnan(signal.values[:, k]).all())
+    return finite_axes(signal.values) if len(signal) else AXES
+
+
+def finite_axes(acceleration: Float) -> tuple[str, ...]:
+    """List the axes of acceleration, shape [sample, 3], that have a number."""
+    return tuple(axis for k, axis in enumerate(AXES) if not np.isnan(acceleration[:, k]).all())
 
 
 def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:

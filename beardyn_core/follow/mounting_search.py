@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import permutations
 from math import cos, radians, sin
@@ -31,9 +31,28 @@ def mountings_of(stretches: Sequence[Stretch], estimator: Estimator) -> tuple[Mo
     Parameters
     ----------
     stretches : sequence of Stretch
-        With three axes.
+        With the axes of the estimator.
     estimator : Estimator
-        Of three axes.
+
+    Returns
+    -------
+    tuple of Mounting
+        See `search_mountings`.
+    """
+    if estimator.axes != AXES:
+        return ()
+    return search_mountings([cross_powers(each) for each in stretches], estimator)
+
+
+def search_mountings(powers: Sequence[Float], estimator: Estimator) -> tuple[Mounting, ...]:
+    """Find what of the mounting would explain powers that are unlike all that was learnt from.
+
+    Parameters
+    ----------
+    powers : sequence of float64 array
+        Of each stretch, as of `cross_powers`.
+    estimator : Estimator
+        Of three axes; one of fewer knows no mounting.
 
     Returns
     -------
@@ -46,13 +65,13 @@ def mountings_of(stretches: Sequence[Stretch], estimator: Estimator) -> tuple[Mo
     Levels in twelfths of an octave of any other mounting follow from the powers and cross powers of the axes,
     so that nothing is described again. Only one mistake at a time is looked for.
     """
-    if estimator.axes != AXES or not stretches:
+    if estimator.axes != AXES or not len(powers):
         return ()
-    powers, levels = np.stack([cross_powers(each) for each in stretches]), _Levels(estimator)
-    if levels.strangeness(powers, np.eye(len(AXES))) <= 1.0:
+    several, levels = np.stack(list(powers)), _Levels(estimator)
+    if levels.strangeness(several, np.eye(len(AXES))) <= 1.0:
         return ()
     found = sorted(
-        _candidates(lambda turn: levels.strangeness(powers, turn)), key=lambda each: each.strangeness
+        _candidates(lambda turn: levels.strangeness(several, turn)), key=lambda each: each.strangeness
     )
     if not found or found[0].strangeness > 1.0:
         return ()
@@ -61,8 +80,12 @@ def mountings_of(stretches: Sequence[Stretch], estimator: Estimator) -> tuple[Mo
 
 def strangeness_of(stretches: Sequence[Stretch], estimator: Estimator) -> float:
     """Measure how unlike what was learnt from stretches of three axes are by their levels, middle of them."""
-    powers = np.stack([cross_powers(each) for each in stretches])
-    return _Levels(estimator).strangeness(powers, np.eye(len(AXES)))
+    return strangeness_of_powers([cross_powers(each) for each in stretches], estimator)
+
+
+def strangeness_of_powers(powers: Iterable[Float], estimator: Estimator) -> float:
+    """Measure the same by the powers of stretches, as of `cross_powers`."""
+    return _Levels(estimator).strangeness(np.stack(list(powers)), np.eye(len(AXES)))
 
 
 def cross_powers(stretch: Stretch) -> Float:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Annotated as A
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_bearing, load_lubricant
-from beardyn_core.follow.descriptors import describe
+from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.estimator_choice import estimator_for
 from beardyn_core.follow.following import Follower
@@ -21,6 +23,7 @@ from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import doubt_of, stretches_of
 from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.load_checks import AxleLoads
+from beardyn_core.follow.mounting_search import cross_powers
 from beardyn_core.follow.service import Service
 from beardyn_core.record.run import Run
 
@@ -67,10 +70,19 @@ def whole_bearing(plate: Bearing | NamePlate) -> Bearing | None:
         return None
 
 
+class FollowedStretch(NamedTuple):
+    """What is taken of a stretch of a run."""
+
+    descriptors: A[Float, "shape [descriptor]"]
+    end: A[float, "since the begin of the run, [s]"]
+    distance: A[float, "that the wheel has run since, [m]"]
+    powers: A[Float | None, "of `cross_powers`, for the mounting; none of an estimator of fewer axes"]
+
+
 def stretches_followed(
     run: Run, follower: Follower, plate: Bearing | NamePlate, sensor: str
-) -> Iterator[tuple[Float, float, float]]:
-    """Give descriptors, end [s] and way of the wheel since the begin [m] of each stretch of a run."""
+) -> Iterator[FollowedStretch]:
+    """Give the stretches of a run as a filter takes them."""
     estimator, wheel = follower.estimator, follower.service.wheel_diameter
     if doubt := doubt_of(estimator, plate):
         raise InputError(f"{run.label}: {doubt}; train one with `beardyn train`")
@@ -79,4 +91,5 @@ def stretches_followed(
     for stretch in stretches_of(run, estimator, sensor):
         row = describe(stretch, estimator.orders, estimator.plate, estimator.axes)
         angle = float(np.interp(stretch.end_ns, run.shaft.time_ns, turned)) - float(turned[0])
-        yield row, 1e-9 * (stretch.end_ns - begin_ns), 0.5 * wheel * abs(angle)
+        powers = cross_powers(stretch) if estimator.axes == AXES else None
+        yield FollowedStretch(row, 1e-9 * (stretch.end_ns - begin_ns), 0.5 * wheel * abs(angle), powers)

@@ -44,6 +44,10 @@ class StretchIntake:
             f"turns {FEWEST_TURNS:g} times one way"
         )
 
+    def of(self, estimator: Estimator) -> StretchIntake:
+        """Give an intake for another estimator that begins with the next vibration, and keeps the shaft."""
+        return StretchIntake(estimator, _turn_times=self._turn_times, _turns=self._turns)
+
     def push_vibration(self, time_ns: Int, acceleration: Float) -> None:
         """Add a block, shape [sample, 3], [m/s^2].
 

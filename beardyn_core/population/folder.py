@@ -66,7 +66,15 @@ def folder_of_set_problems(folder: Path, scenes: SweepScenes, *, force: bool) ->
     about = read_about(folder)
     count = len(done_rows(folder))
     lose = "give another folder, or --force to start over and lose them"
-    if different := differing(scenes.identity, about["identity"]):
+    asked, before = scenes.sweep.run_count, about["runs"]
+    different = differing(scenes.identity, about["identity"])
+    if different == ["runs"]:
+        return [
+            f"{folder}: is a set of {before} runs, and {asked} are asked for; sampling "
+            f"{scenes.sweep.sampling} draws other runs for another number, only random and sobol continue "
+            f"them: ask for {before}; or {lose}"
+        ]
+    if different:
         what = ", ".join("the scene" if name == "base" else name for name in different)
         return [f"{folder}: its {count} runs are of another sweep ({what} differ); {lose}"]
     if about["code"] != simulator_digest():
@@ -74,10 +82,10 @@ def folder_of_set_problems(folder: Path, scenes: SweepScenes, *, force: bool) ->
             f"{folder}: its {count} runs are of other code (digest {about['code']}, this is "
             f"{simulator_digest()}), and runs of both would not go together; {lose}"
         ]
-    if about["runs"] > scenes.sweep.run_count and count > scenes.sweep.run_count:
+    if before > asked and count > asked:
         return [
-            f"{folder}: has {count} runs, more than the {scenes.sweep.run_count} that are asked for; "
-            "ask for as many or more, or give another folder"
+            f"{folder}: has {count} runs, more than the {asked} that are asked for; ask for as many or more, "
+            "or give another folder"
         ]
     return []
 

@@ -26,6 +26,7 @@ from beardyn_core.scene.sweep import Choice, Scaled, Sweep, Variable
 from beardyn_core.scene.tier import TIER_NAMES
 
 CHECKED_HERE = 256  # runs whose scenes are made before the workers are started, which make the others
+FORESEEN = 1024  # draws whose extremes settle what is chosen, however many are run
 _SHOWN = 20  # sentences about rows
 _LOOKED_AT = 32  # runs of a sweep that is wrong already
 _NAME = "scene"
@@ -141,7 +142,7 @@ def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: N
     few = rows if len(rows) <= CHECKED_HERE else _once([*extremes, *rows[:: len(rows) // CHECKED_HERE]])
     if problems := [*_unknown_signals(scenes, opened.scene), *check_rows(scenes, few)]:
         raise InputError(problems)
-    scenes = _settle_choices(scenes, opened, extremes, say)
+    scenes = _settle_choices(scenes, opened, _foreseen(scenes, rows), say)
     frame = Frame.of(scenes.scene(rows[0]))
     return replace(scenes, frame=frame)
 
@@ -239,6 +240,19 @@ def _extremes(rows: Sequence[Row]) -> list[Row]:
     return [found[run] for run in sorted(found)] or list(rows[:1])
 
 
+def _foreseen(scenes: SweepScenes, rows: Sequence[Row]) -> list[OpenScene]:
+    """Make the scenes of extreme runs, which are the same for any number of runs where more continue them."""
+    sweep = scenes.sweep
+    drawn = rows_of(replace(sweep, runs=FORESEEN)) if sweep.extends else rows
+    found = []
+    for row in _extremes(drawn):
+        try:
+            found.append(scenes.opened(row))
+        except InputError:  # of a run that is not asked for: those that are have been checked
+            continue
+    return found or [scenes.opened(row) for row in _extremes(rows)]
+
+
 def check_rows(scenes: SweepScenes, rows: Iterable[Row]) -> list[str]:
     """List what is wrong with the scenes of runs: each kind of mistake once, with how many runs have it."""
     rows = list(rows)
@@ -327,10 +341,9 @@ def _unlike(scenes: SweepScenes, frames: dict[Frame, int]) -> list[str]:
 
 
 def _settle_choices(
-    scenes: SweepScenes, opened: OpenScene, extremes: list[Row], say: Callable[[str], None]
+    scenes: SweepScenes, opened: OpenScene, found: list[OpenScene], say: Callable[[str], None]
 ) -> SweepScenes:
     """Choose what the scene leaves open, once for all runs: no learner must tell a fault by the effects."""
-    found = [scenes.opened(row) for row in extremes]
     free = replace(opened.free, rates=False)  # signals of one length
     if not free.anything:
         if opened.step_given:

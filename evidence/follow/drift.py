@@ -24,11 +24,12 @@ from beardyn_core.config.yaml_text import scene_text
 from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.follow.descriptors import describe, names_of
 from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.estimator_choice import estimator_for
 from beardyn_core.follow.following import WAITING, Followed
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.inference import stretches_of
 from beardyn_core.follow.run_stretches import follower_of
-from beardyn_core.follow.shipped import shipped_for
+from beardyn_core.follow.shipped import shipped_estimators
 from beardyn_core.sensors.labels import HEALTHY
 from evidence.pages import REPORTS, write_section
 from evidence.runner import kept_arrays
@@ -37,6 +38,11 @@ PAGE = REPORTS / "estimator.md"
 TITLE, NEXT = "## Drifts\n", "## One train, followed\n"
 SCENE, BEARING, SPARE = "service_high_speed", "HS130x230", 1.03  # of the length of a stretch
 LENGTH_MM, DEPTH_UM = 25.0, 100.0
+
+
+def shipped_estimator() -> Estimator:
+    """Read the shipped estimator of the bearing, that of three axes."""
+    return estimator_for(load_bearing(BEARING), known=shipped_estimators())
 
 
 class Piece(NamedTuple):
@@ -224,7 +230,7 @@ def main(argv: list[str] | None = None) -> int:
         "--keep", metavar="DIR", type=Path, help="keep what was heard here, and take it from here"
     )
     args = parser.parse_args(argv)
-    estimator = shipped_for(load_bearing(BEARING))
+    estimator = shipped_estimator()
     rows, growth = list[str](), ""
     for name, pieces in ((each, make()) for each, make in DRIFTS.items()):
         found = followed(pieces, rows_of(name, pieces, estimator, args.keep), estimator)

@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.config import load_bearing
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.follow.shipped import shipped_for
 from evidence.follow import drift
 from evidence.follow.drift import DRIFTS, Piece
 
@@ -46,7 +44,7 @@ def test_the_lag_is_counted_from_the_step_until_the_truth_stays_inside(pieces: l
 
 
 def test_what_is_kept_is_of_its_pieces_and_of_how_it_is_heard(pieces: list[Piece]) -> None:
-    estimator = shipped_for(load_bearing(drift.BEARING))
+    estimator = drift.shipped_estimator()
     kept = drift.digest_of(pieces, estimator)
     assert drift.digest_of(pieces, estimator) == kept
     assert drift.digest_of(pieces[:1], estimator) != kept
@@ -61,7 +59,7 @@ def test_false_growth_is_counted() -> None:
 
 
 def test_drifts_lie_within_what_was_learnt_from_and_go_forwards() -> None:
-    ranges = shipped_for(load_bearing(drift.BEARING)).card["quantities"]
+    ranges = drift.shipped_estimator().card["quantities"]
     for make in DRIFTS.values():
         every = make()
         for piece in every:
@@ -74,7 +72,7 @@ def test_drifts_lie_within_what_was_learnt_from_and_go_forwards() -> None:
 
 
 def test_a_recording_that_begins_anew_forgets_the_load_of_the_one_before() -> None:
-    estimator = shipped_for(load_bearing(drift.BEARING))
+    estimator = drift.shipped_estimator()
     heard = np.repeat(estimator.middle[None], 6, axis=0)
     widths = []
     for anew in (False, True):

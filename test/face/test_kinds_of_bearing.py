@@ -12,7 +12,7 @@ from beardyn_core.cli.main import main
 from beardyn_core.config import load_any_bearing, load_bearing, read_scene
 from beardyn_core.config.folders import find
 from beardyn_core.config.plates import load_plate
-from beardyn_core.follow.shipped import shipped_for
+from beardyn_core.follow.estimator_choice import estimator_for
 from test.bearings import CYLINDRICAL, SPHERICAL
 
 OTHERS = (*CYLINDRICAL, *SPHERICAL)
@@ -127,7 +127,7 @@ def test_what_is_made_of_runs_is_refused(
     assert main(["structure", "high_speed", "--bearing", name, "-o", str(box.with_suffix(".csv"))]) == 2
     assert refused(capsys.readouterr().err, name)
     with pytest.raises(bd.InputError) as caught:
-        shipped_for(load_plate(name))
+        estimator_for(load_plate(name))
     assert refused(str(caught.value), name)
     for call in (lambda: bd.torque(name, 600), lambda: bd.film(name, 600), lambda: load_bearing(name)):
         with pytest.raises(bd.InputError) as caught:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,9 @@ import pytest
 
 from beardyn_core.cli.main import main
 from beardyn_core.fleet.identity import Axlebox
+from beardyn_core.fleet.store import open_store
 from test.cli.json_page import check
-from test.fleet.made_history import write_files, write_manifest
+from test.fleet.made_history import recording, wide, write_files, write_manifest
 
 FAULTY = Axlebox("V1", "2", "left")
 
@@ -47,7 +49,9 @@ def test_recordings_are_added_once_ranked_and_shown(
     listed = json.loads(out)["axleboxes"]
     assert code == 12
     assert fleet(capsys, "acknowledge", "V1", 2, "left", "--store", store, "--by", "workshop")[0] == 0
-    check("fleet status", json.loads(out), json.loads(fleet(capsys, "status", "--store", store, "--json")[1]))
+    acknowledged = fleet(capsys, "status", "--store", store, "--json")[1]
+    growing = fleet(capsys, "status", "--store", grown(tmp_path), "--json")[1]
+    check("fleet status", *map(json.loads, (out, acknowledged, growing)))
     first = listed[0]
     assert (first["axle"], first["side"], first["health"], first["part"]) == ("2", "left", "plan", "cup")
     assert first["since_mileage_m"] == 1.0e6
@@ -71,9 +75,53 @@ def test_recordings_are_added_once_ranked_and_shown(
     links = re.findall(r'href="#(p\d+)"', text)
     assert links
     assert all(f'id="{each}"' in text for each in links)
+    short = tmp_path / "short.html"
+    assert fleet(capsys, "report", "--store", store, "--html", short, "--pages", 0)[0] == 0
+    text = short.read_text(encoding="utf-8")
+    assert "the first 0 of 1 with an alarm" in text
+    assert "V1 axle 2 left" in text
+    assert "<svg" not in text
+    code, _, err = fleet(capsys, "report", "--store", store, "--html", short, "--pages", -1, "--force")
+    assert (code, "--pages is -1" in err) == (2, True)
     code, _, err = fleet(capsys, "report", "--store", store, "--html", page)
     assert code == 2
     assert "the file exists" in err
+
+
+def grown(folder: Path) -> Path:
+    """Make a store of one axlebox whose spall grows."""
+    store = folder / "grown.sqlite"
+    with open_store(store, write=True, make=True) as opened:
+        for day, width in enumerate((6.0e-3, 6.4e-3, 7.0e-3, 7.5e-3, 8.0e-3)):
+            opened.add(recording(day), wide("cup", width))
+    return store
+
+
+def test_mileage_left_by_several_laws_in_text_json_and_page(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    store, page = grown(tmp_path), tmp_path / "fleet.html"
+    out = fleet(capsys, "status", "--store", store)[1]
+    (several,) = [line for line in out.splitlines() if "by several laws" in line]
+    assert "assumed: slow, then linear" in several
+    (box,) = json.loads(fleet(capsys, "status", "--store", store, "--json")[1])["axleboxes"]
+    laws = {each["law"]: each for each in box["growth_laws"]}
+    agreeing = [each["mileage_left_m"] for each in laws.values() if each["agrees"]]
+    low, high = box["mileage_left_span_m"]
+    assert (low, high) == (min(each[0] for each in agreeing), max(each[2] for each in agreeing))
+    assert laws["slow, then linear"]["mileage_left_m"] == box["mileage_left_m"]
+    assert f"{low / 1e3:,.0f} to {high / 1e3:,.0f} km" in several
+    first = datetime.fromtimestamp(box["mileage_left_span_dates_s"][0], UTC)
+    assert f"before {first:%Y-%m-%d}" in box["do"]
+    assert fleet(capsys, "report", "--store", store, "--html", page)[0] == 0
+    text = page.read_text(encoding="utf-8")
+    for each in laws:
+        assert each in text
+    assert "slow, then linear, assumed" in text
+    faster = fleet(capsys, "status", "--store", store, "--json", "--growth-mm2", "400")[1]
+    assert json.loads(faster)["axleboxes"][0]["mileage_left_m"][1] < box["mileage_left_m"][1]
+    code, _, err = fleet(capsys, "status", "--store", store, "--growth-mm2", "0")
+    assert (code, "--growth-mm2: is 0; it must be above 0" in err) == (2, True)
 
 
 def test_mistakes_are_told_at_once_and_nothing_is_added(

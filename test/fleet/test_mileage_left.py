@@ -52,3 +52,38 @@ def test_mileage_counts_from_the_last_recording_although_it_has_no_width() -> No
     long_ago = judge_mileage(history([*measured, *["cup"] * 400], every=DAY), "cup")
     assert long_ago.distance[1] == 0.0
     assert "take the bearing out now" in long_ago.sentence
+
+
+def test_the_range_over_the_laws_holds_each_that_agrees() -> None:
+    measured = [wide("cup", each) for each in (6e-3, 6.4e-3, 7e-3, 7.5e-3, 8e-3)]
+    left = judge_mileage(history(measured), "cup")
+    assert [each.law for each in left.laws] == [
+        "slow, then linear", "linear", "root of the area", "exponential",
+    ]  # fmt: skip
+    assert [each.is_assumed for each in left.laws] == [True, False, False, False]
+    assert left.distance == left.laws[0].distance
+    agreeing = [each for each in left.laws if each.agrees]
+    assert len(agreeing) > 1  # so few widths tell few laws apart
+    for each in agreeing:
+        low, likely, high = each.distance
+        assert left.span[0] <= low < likely < high <= left.span[1]
+    sentence = left.laws_sentence
+    assert sentence.endswith("assumed: slow, then linear")
+    assert all(each.law in sentence for each in left.laws)
+
+
+def test_a_history_that_the_assumed_law_cannot_have_made_is_left_to_the_others() -> None:
+    # the area grows by the same factor from recording to recording, and is measured well
+    widths = 2e-3 * 1.08 ** np.arange(28.0)
+    measured = [wide("cup", each, 0.02 * each) for each in widths]
+    left = judge_mileage(history(measured), "cup")
+    by_name = {each.law: each for each in left.laws}
+    assert by_name["exponential"].agrees
+    assert not by_name["linear"].agrees
+    true = 5e5 * (np.log(20e-3 / 2e-3) / np.log(1.08) - 27.0)
+    low, _, high = by_name["exponential"].distance
+    assert low <= true <= high
+    if not by_name["slow, then linear"].agrees:
+        assert not left.is_known
+        assert "do not agree with the assumed law" in left.sentence
+    assert "and not with" in left.laws_sentence

@@ -52,6 +52,20 @@ def test_what_is_stored_comes_back(tmp_path: Path) -> None:
     assert (found.axlebox, found.time, found.analysis.verdict) == (BOX, BEGIN + 3 * DAY, "cup")
 
 
+def test_a_list_has_no_estimates_and_the_store_keeps_them(tmp_path: Path) -> None:
+    path = tmp_path / "s.sqlite"
+    with open_store(path, write=True, make=True) as store:
+        store.add(recording(0), analysis(estimate={"strangeness": 0.4}, assumed=("speed is stated",)))
+    with open_store(path) as store:
+        (found,) = store.recordings()
+    assert found.analysis.estimate == {}
+    assert found.analysis.assumed == ("speed is stated",)
+    kept = sqlite3.connect(path).execute(
+        "select json_extract(detail, '$.estimate.strangeness') from recording"
+    )
+    assert kept.fetchone() == (0.4,)
+
+
 def test_a_killed_writer_loses_nothing_and_leaves_no_lock(tmp_path: Path) -> None:
     path = tmp_path / "s.sqlite"
     process = subprocess.Popen(

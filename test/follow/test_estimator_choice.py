@@ -6,6 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import beardyn_core as bd
@@ -13,10 +14,11 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.config import load_bearing
 from beardyn_core.follow import estimator_choice
-from beardyn_core.follow.descriptors import names_of
+from beardyn_core.follow.descriptors import AXES, names_of
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.estimator_choice import estimator_for, how_to_train, list_own, own_folder
-from beardyn_core.follow.shipped import shipped_for
+from beardyn_core.follow.live_choice import LiveChoice
+from beardyn_core.follow.shipped import shipped_estimators
 from test.follow.synthetic import PLATE
 from test.follow.test_listening import measured, signal
 
@@ -34,7 +36,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def of_axes(axes: str = "xyz", plate: NamePlate = PLATE) -> Estimator:
     """An estimator that takes some axes; its numbers are those of a shipped one of three."""
-    shipped = shipped_for(PLATE)
+    shipped = estimator_for(PLATE, known=shipped_estimators())
     count = len(names_of(tuple(axes)))
     return replace(shipped, axes=tuple(axes), plate=plate, middle=shipped.middle[:count])
 
@@ -58,6 +60,49 @@ def test_an_own_estimator_is_found_and_the_newest_first(own: Path) -> None:
     (own / "other.npz").write_bytes(b"of another version")
     assert [path.stem for path in list_own()] == ["other", "new", "old"]
     assert estimator_for(PLATE).axes == ("x", "y", "z")
+
+
+@pytest.mark.parametrize(
+    ("own_axes", "measured_axes", "taken"),
+    [
+        ("z", "z", "own z"),
+        ("z", "xyz", "shipped xyz"),
+        ("xyz", "xyz", "own xyz"),
+        ("xyz", "z", "shipped z"),
+        ("xz", "xz", "own xz"),
+        ("xz", "z", "shipped z"),
+    ],
+)
+def test_the_own_comes_before_the_shipped_where_its_axes_are_measured(
+    own_axes: str,
+    measured_axes: str,
+    taken: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("BEARDYN_DATA_DIR", str(tmp_path))
+    own_folder().mkdir(parents=True)
+    mine = of_axes(own_axes)
+    replace(mine, card={**mine.card, "mine": True}).save(own_folder() / "mine.npz")
+    found = estimator_for(PLATE, tuple(measured_axes))
+    assert f"{'own' if 'mine' in found.card else 'shipped'} {''.join(found.axes)}" == taken
+
+
+def test_a_live_choice_follows_the_axes_that_come(own: Path) -> None:
+    with pytest.raises(InputError, match="has no estimator yet"):
+        LiveChoice(PLATE)
+    for axes in ("z", "xyz"):
+        of_axes(axes).save(own / f"{axes}.npz")
+    choice, block = LiveChoice(PLATE), np.ones((4, 3))
+    assert choice.estimator.axes == AXES
+    assert choice.take(block * [np.nan, np.nan, 1.0]).axes == ("z",)
+    assert choice.take(block).axes == AXES
+    assert choice.take(block * [np.nan, 1.0, 1.0]).axes == AXES  # a gap in an axis that has come
+    alone = LiveChoice(PLATE)
+    for _ in range(2):  # and not once alone
+        with pytest.raises(InputError, match="measured are x: `beardyn train --bearing HS130x230 --axes x`"):
+            alone.take(block * [1.0, np.nan, np.nan])
+    assert alone.take(block).axes == AXES
 
 
 def test_a_recording_is_estimated_with_the_own_estimator(own: Path, tmp_path: Path) -> None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.fft import irfft, rfft
 
+import beardyn_core as bd
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, FINE, band_levels, names_of, places_of
@@ -16,11 +18,18 @@ from beardyn_core.follow.estimate_json import estimates_object
 from beardyn_core.follow.estimator import Estimates, Estimator
 from beardyn_core.follow.familiarity import familiarity_of
 from beardyn_core.follow.inference import estimates_of
-from beardyn_core.follow.mounting import EXCHANGED, GAIN, TURNED, Mounting
-from beardyn_core.follow.mounting_search import cross_powers, mountings_of, strangeness_of
+from beardyn_core.follow.mounting import EXCHANGED, GAIN, TURNED, Mounting, lasting_mountings
+from beardyn_core.follow.mounting_search import (
+    cross_powers,
+    mountings_of,
+    search_mountings,
+    strangeness_of,
+)
+from beardyn_core.follow.mounting_watch import LATEST, MountingWatch
 from beardyn_core.monitor.chain import Stretch
 from test.follow.synthetic import PLATE
 from test.follow.test_listening import turning
+from test.recordings import import_signal
 
 RATE, SAMPLES = 6400.0, 6400
 RINGS = (
@@ -28,6 +37,7 @@ RINGS = (
     (900.0, (0.3, 1.0, 0.0)),
     (1700.0, (0.1, 0.5, 1.0)),
 )  # [Hz], along the axes
+TURN, LOUD = Mounting(TURNED, ("x",), 25.0, 0.8), Mounting(GAIN, AXES, 20.0, 0.9)
 
 
 def heard(seed: int) -> Stretch:
@@ -167,3 +177,70 @@ def test_a_run_with_exchanged_channels_is_told_so() -> None:
     assert found.mountings[0].axes == ("x", "z", "y")
     usual = np.concatenate([heard(seed).acceleration for seed in (1001, 1002)])
     assert estimates_of(turning(usual, rate=RATE), learnt(), learnt().plate).mountings == ()
+
+
+@pytest.mark.parametrize(
+    ("found", "lasting"),
+    [
+        ([(TURN,)], [(0,)]),
+        ([(), (TURN,), (TURN,)], [(1, 2)]),  # mounted anew after the first recording
+        ([(TURN,), (TURN,), (), (TURN,)], [(0, 1, 3)]),
+        ([(), (), (TURN,)], []),  # one recording may be strange for another reason
+        ([(TURN,), (TURN,), (), ()], []),
+        ([(TURN,), (replace(TURN, amount=40.0),), (replace(TURN, amount=-30.0),)], []),
+        ([(TURN, LOUD), (LOUD,), (LOUD, TURN), (TURN,), (LOUD,)], [(0, 1, 2, 4), (0, 2, 3)]),
+        ([], []),
+    ],
+)
+def test_what_lasts_is_found_in_most_recordings_since_the_first(
+    found: list[tuple[Mounting, ...]], lasting: list[tuple[int, ...]]
+) -> None:
+    assert [each.recordings for each in lasting_mountings(found)] == lasting
+
+
+def test_a_lasting_mounting_has_the_middle_of_its_amounts_and_names_its_recordings() -> None:
+    amounts = (22.0, 25.0, 24.0)
+    (found,) = lasting_mountings([(), *((replace(TURN, amount=each),) for each in amounts)])
+    assert found.mounting.amount == 24.0
+    assert found.sentence_of(4) == "it is turned by 24° about x, in recordings 2, 3, 4 of 4"
+    assert found.sentence_of(3).endswith("in all 3 recordings")
+    assert lasting_mountings([(TURN,)])[0].sentence_of(1) == TURN.sentence
+
+
+def test_recordings_with_exchanged_channels_are_told_once(tmp_path: Path) -> None:
+    learnt().save(tmp_path / "one.npz")
+    runs = []
+    for number, matrix in enumerate((np.eye(3), np.eye(3)[[0, 2, 1]], np.eye(3)[[0, 2, 1]])):
+        values = np.concatenate([mounted(1000 + 10 * number + k, matrix).acceleration for k in range(2)])
+        runs.append(import_signal(tmp_path / f"{number}.mcap", values, rate=RATE, speed_rpm=1200.0))
+    found = bd.follow(runs, tmp_path / "one.npz")
+    assert [(each.mounting.axes, each.recordings) for each in found.mountings] == [(("x", "z", "y"), (1, 2))]
+    told = [each for each in found.sentences if "check mounting" in each]
+    assert told == [
+        "check mounting and gain of the sensor: the signal would be familiar if its channels are x, z, y in "
+        "place of x, y, z, in recordings 2, 3 of 3"
+    ]
+    assert bd.follow(runs[:1], tmp_path / "one.npz").mountings == ()
+
+
+def test_a_live_watch_searches_when_it_is_due_and_forgets_what_has_gone() -> None:
+    watch, wrong = MountingWatch(learnt()), np.eye(3)[[0, 2, 1]]
+    watch.take(mounted(1001, wrong))
+    assert not watch.due()  # one may be strange for another reason
+    watch.take(mounted(1002, wrong))
+    powers = watch.due()
+    assert len(powers) == 2
+    assert not watch.due()
+    watch.found = search_mountings(powers, learnt())
+    assert "its channels are x, z, y in place of x, y, z" in watch.sentence
+    for seed in range(1003, 1003 + LATEST):
+        watch.take(mounted(seed, wrong))
+    assert len(watch.due()) == LATEST
+    for seed in range(2000, 2000 + LATEST):
+        watch.take(heard(seed))
+    assert not watch.sentence
+    assert not watch.due()
+    alone = MountingWatch(replace(learnt(), axes=("z",)))
+    for seed in range(2):
+        alone.take(replace(heard(seed), acceleration=100.0 * heard(seed).acceleration[:, 2:]))
+    assert not alone.due()

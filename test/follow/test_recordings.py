@@ -13,6 +13,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.mounting import TURNED, Mounting
 from beardyn_core.follow.residual import Residual, residual_of
 from test.cli.json_page import check
 from test.follow.synthetic import drawn, taught
@@ -56,7 +57,9 @@ def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     def beside(estimator: Estimator, rows: Float, *_: object) -> Residual:
         return residual_of(estimator, rows, rows)
 
+    turned = Mounting(TURNED, ("x",), 25.0, 0.8)
     monkeypatch.setattr("beardyn_core.api.twin_residual.residual_beside", beside)
+    monkeypatch.setattr("beardyn_core.follow.mounting_search.search_mountings", lambda *_: (turned,))
     runs = [str(recording(tmp_path, "HS130x230", seed)) for seed in (1, 2)]
     taught(drawn(60, 2), runs=80).save(tmp_path / "one.npz")
     every: list[dict[str, Any]] = []
@@ -79,3 +82,5 @@ def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     assert last["used_basic"][1] > first["used_basic"][1]
     assert every[1]["steps"][-1]["known_load"] is None
     assert every[1]["residual"] is None
+    (found,) = every[0]["mountings"]
+    assert (found["kind"], found["angle_deg"], found["recordings"]) == ("turned", 25.0, [0, 1])

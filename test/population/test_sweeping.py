@@ -72,6 +72,25 @@ def test_more_runs_continue_a_set(
         conduct(planned(runs=3), folder, cluster)
 
 
+@pytest.mark.slow  # effects are chosen for six kinds of runs
+def test_what_is_chosen_for_a_set_does_not_depend_on_how_many_runs_it_has() -> None:
+    """The extremes of two runs are others than those of twelve, and need other laminae."""
+    free = {**TINY["set"], "effects": "auto", "tier": "quasistatic"}
+    few, many = (planned(set=free, runs=runs) for runs in (2, 12))
+    assert few.chosen
+    assert few.identity == many.identity
+
+
+def test_another_number_of_draws_that_do_not_continue_is_refused_in_its_own_words(
+    cluster: Cluster, tmp_path: Path
+) -> None:
+    folder = tmp_path / "set"
+    conduct(planned(sampling="latin_hypercube", runs=2), folder, cluster)
+    told = r"is a set of 2 runs, and 4 are asked for; sampling latin_hypercube draws other runs"
+    with pytest.raises(InputError, match=told):
+        conduct(planned(sampling="latin_hypercube", runs=4), folder, cluster)
+
+
 def test_the_folder_of_another_sweep_or_of_other_code_is_refused_and_stays(
     made: tuple[Path, list[Progress]], cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

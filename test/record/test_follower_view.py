@@ -14,9 +14,10 @@ from beardyn_core.cli import main as command
 from beardyn_core.config import load_plate
 from beardyn_core.follow.descriptors import AXES, THIRDS
 from beardyn_core.follow.estimate_json import residual_object, step_object
+from beardyn_core.follow.estimator_choice import estimator_for
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.residual import residual_of
-from beardyn_core.follow.shipped import shipped_for
+from beardyn_core.follow.shipped import shipped_estimators
 from beardyn_core.record.mcap_writing import McapWriter
 from beardyn_core.record.messages import encode_string, encode_told
 from beardyn_core.record.reading import read_run
@@ -38,7 +39,7 @@ ENTITIES = (
 @pytest.fixture(scope="module")
 def messages() -> list[tuple[str, int, bytes]]:
     """What a follower publishes of signals about the middle of those learnt from, as the node does."""
-    estimator = shipped_for(load_plate("HS130x230"))
+    estimator = estimator_for(load_plate("HS130x230"), known=shipped_estimators())
     random = np.random.default_rng(3)
     noise = random.normal(0.0, 0.3, (STRETCHES, len(estimator.middle)))
     rows = estimator.middle + noise * estimator.spread

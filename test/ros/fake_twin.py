@@ -19,7 +19,7 @@ from beardyn_core.scene.load import LoadHistory
 from beardyn_core.sensors.block import Block
 from test.record.synthetic_run import BLOCK_NS, SyntheticRun, description
 
-SCENES = ("fake", "fake_slow", "fake_invalid", "fake_background")
+SCENES = ("fake", "fake_slow", "fake_invalid", "fake_background", "fake_one_axis")
 SLOW_BLOCK_S = 0.06
 INVALID_BLOCK = 5
 
@@ -77,6 +77,10 @@ class FakeTwin:
             force=self._wrench(block.trend_time_ns),
             load=self._wrench(block.trend_time_ns),
         )
+        if self._scene == "fake_one_axis":  # the sensor measures z alone
+            only_z = np.array([np.nan, np.nan, 1.0])
+            heard = tuple(replace(each, acceleration=each.acceleration * only_z) for each in block.vibration)
+            block = replace(block, vibration=heard)
         self._index += 1
         keep = max(int(np.searchsorted(self._load.time_ns, block.end_ns)) - 1, 0)
         self._load = self._load.part(keep, len(self._load))

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli.json_output import SCHEMA_VERSION
+from beardyn_core.config import load_bearing
+from beardyn_core.follow.descriptors import AXES, FINE, band_levels, names_of, places_of
+from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.familiarity import familiarity_of
 from beardyn_core.record.messages import decode, decode_told, header_stamp
 from beardyn_core.record.plot_values import CODES, FOLLOWER, VECTOR, value_topics
 from beardyn_core.record.reporting import report
 from test.cli.json_page import check_known
+from test.record.synthetic_run import SyntheticRun
 from test.ros.graph import Graph
 
 ALLOWED = {f"/axlebox/{name}" for name in ("vibration", "shaft", "temperature")}
@@ -63,6 +71,69 @@ def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Gra
     }
     assert numbers["health"].x == CODES["unexplained"]
     assert numbers["strangeness"].x == pytest.approx(last["strangeness"], rel=1e-9)
+
+
+@pytest.mark.parametrize(("scene", "axes"), [("fake", "x y z"), ("fake_one_axis", "z")])
+def test_the_estimator_is_that_of_the_axes_that_come(scene: str, axes: str, graph: Graph) -> None:
+    graph.listen("follower/estimate")
+    graph.fake_twin(scene=scene, speed_factor=4.0)
+    graph.node_process("follower", bearing="HS130x230")
+    graph.until(
+        lambda: any(each.value("connected") == "true" for each in graph.statuses("follower")),
+        "the connection of the follower",
+    )
+    graph.fake_load(duration=3.5)
+    assert graph.exit_code("follower") == 0
+    told = [decode_told(cdr) for cdr in graph.messages["follower/estimate"]]
+    assert [each["time_s"] for each in told[:-1]] == pytest.approx([1.5, 3.0], abs=0.04)
+    status = graph.statuses("follower")[-1]
+    assert status.value("axes") == axes
+    assert "not measured" not in status.message
+    assert f"by an estimator of the axes {axes.replace(' ', ', ')}" in graph.processes.log("follower")
+
+
+def quieter_estimator(path: Path) -> Path:
+    """An estimator that has learnt from what the fake twin sends, at a tenth of its level."""
+    rate, count, names = 25_600.0, 38_401, names_of(AXES)
+    random, rows = np.random.default_rng(3), np.full((130, len(names_of(AXES))), np.nan)
+    for number, row in enumerate(rows):
+        gain = 0.1 * 10.0 ** (random.normal(0.0, 1.0, 3) / 20.0)
+        usual = SyntheticRun(seed=100 + number)._acceleration(np.arange(count) / rate)
+        for axis, signal in zip(AXES, (gain * usual).T, strict=True):
+            levels = band_levels(signal - signal.mean(), rate, FINE, 12)
+            for frequency, level in levels.items():
+                row[names.index(f"fine_{axis}_{frequency:.0f}")] = level
+    box = places_of(AXES, "box")
+    middle, spread = np.zeros(len(names)), np.ones(len(names))
+    middle[box], spread[box] = rows[:, box].mean(axis=0), rows[:, box].std(axis=0)
+    standard = np.nan_to_num((rows - middle) / spread)
+    familiar = familiarity_of(standard[:100], box).set_bound(standard[100:])
+    plate = NamePlate.of(load_bearing("HS130x230"))
+    numbers: dict[str, Any] = {"quantities": {}}
+    Estimator(
+        plate, AXES, rate, 1.5, middle, spread, familiar, familiar, {}, None, None, numbers
+    ).save(path)  # fmt: skip
+    return path
+
+
+def test_a_gain_that_is_not_as_stated_is_in_the_diagnostics(graph: Graph, tmp_path: Path) -> None:
+    graph.fake_twin(speed_factor=4.0)
+    graph.node_process(
+        "follower", bearing="HS130x230", estimator=str(quieter_estimator(tmp_path / "quiet.npz"))
+    )
+    graph.until(
+        lambda: any(each.value("connected") == "true" for each in graph.statuses("follower")),
+        "the connection of the follower",
+    )
+    graph.fake_load(duration=5.0)
+    assert graph.exit_code("follower") == 0
+    status = graph.statuses("follower")[-1]
+    assert status.value("health") == "unexplained"
+    assert "check mounting and gain of the sensor" in status.value("mounting")
+    told = re.search(r"the gain of all axes is off by \+(\S+) dB", status.value("mounting"))
+    assert told is not None
+    assert float(told[1]) == pytest.approx(20.0, abs=1.0)
+    assert status.value("mounting") in status.message
 
 
 @pytest.mark.usefixtures("compiled_kernels")
