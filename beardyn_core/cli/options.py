@@ -77,6 +77,11 @@ def port(text: str) -> int:
     return int(text)
 
 
+def add_verbose(parser: ArgumentParser, what: str) -> None:
+    """Add the long answer."""
+    parser.add_argument("--verbose", action="store_true", help=f"print more: {what}")
+
+
 def add_json(parser: ArgumentParser) -> None:
     """Add the output for programs."""
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")
