@@ -47,6 +47,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from beardyn_core.api import plot
     from beardyn_core.api.calibrating import calibrate
     from beardyn_core.api.estimating import estimate, forecast, rating_life, train
     from beardyn_core.api.exporting import export
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from beardyn_core.api.fleets import Fleet, fleet
     from beardyn_core.api.following import Following, follow
     from beardyn_core.api.heat import heat_interval, steady_heat
-    from beardyn_core.api.making import bearing, lubricant, name_plate, scene
+    from beardyn_core.api.making import bearing, lubricant, name_plate, save, scene
     from beardyn_core.api.measuring import import_measured, read_measured, trend
     from beardyn_core.api.reading import monitor, read, severity
     from beardyn_core.api.report_pages import report
@@ -126,12 +127,22 @@ __all__ += [
 ]
 __all__ += ["equilibrium", "estimate", "export", "fault_frequencies", "film", "fleet", "follow"]
 __all__ += ["forecast", "heat_interval", "import_measured"]
-__all__ += ["life", "load_distribution", "lubricant", "make_estimators", "monitor", "name_plate", "open_set"]
+__all__ += [
+    "life",
+    "load_distribution",
+    "lubricant",
+    "make_estimators",
+    "monitor",
+    "name_plate",
+    "open_set",
+    "plot",
+]
 __all__ += ["rating_life"]
 __all__ += ["read"]
 __all__ += [
     "read_measured",
     "report",
+    "save",
     "scene",
     "severity",
     "simulate",
@@ -150,8 +161,9 @@ _MODULES = {
     "api.fleets": ("Fleet",),
     "api.following": ("Following",),
     "api.heat": ("heat_interval", "steady_heat"),
-    "api.making": ("lubricant", "name_plate"),
+    "api.making": ("lubricant", "name_plate", "save"),
     "api.measuring": ("import_measured", "read_measured", "trend"),
+    "api.plot": ("plot",),
     "api.reading": ("read", "severity"),
     "api.report_pages": ("report",),
     "api.simulating": ("simulate",),
@@ -191,6 +203,7 @@ _ROOMS = {
     "monitor": "api.reading",
 }
 """Rooms whose name is also that of a function, and where that is."""
+_PLOTS = "plot"  # a module of functions
 _PLACE = {name: module for module, names in _MODULES.items() for name in names}
 
 
@@ -230,7 +243,8 @@ if not TYPE_CHECKING:
         """Import a name of `__all__` when it is first asked for."""
         if name not in _PLACE:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        found = getattr(import_module(f"{__name__}.{_PLACE[name]}"), name)
+        place = f"{__name__}.{_PLACE[name]}"
+        found = import_module(place) if name == _PLOTS else getattr(import_module(place), name)
         globals()[name] = found
         return found
 

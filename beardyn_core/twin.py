@@ -43,7 +43,7 @@ from beardyn_core.rail.load_buffer import LoadBuffer
 from beardyn_core.scene.defect import truth_of
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.patch import Patch
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import SNAPSHOT_RATES, Scene, snapshots_do_not_fit
 from beardyn_core.scene.tier import TIERS as TIER_NOUNS
 from beardyn_core.sensors.block import Block, EnergyAudit, body_names
 from beardyn_core.sensors.channels import TRENDS_PER_BLOCK, Observer
@@ -94,7 +94,10 @@ class Twin:
                 f"scene {scene.name}: has axleboxes, {2 * scene.axleboxes.axles} of them, and a twin is one: "
                 "beardyn simulate runs them all; leave axleboxes out here"
             )
+        if apart := snapshots_do_not_fit(scene.snapshot_rate, scene.numerics.steps_per_sample):
+            raise InputError(f"scene {scene.name}: {apart}")
         self.scene = scene
+        self._instants = TRENDS_PER_BLOCK * round(scene.snapshot_rate / SNAPSHOT_RATES[0])  # of a block
         self.load = LoadBuffer()
         self._arrangement = Arrangement(
             scene.bearing.roller_count, LANE_WIDTH, scene.rows, scene.missing_places
@@ -166,7 +169,7 @@ class Twin:
         buffer.append(LoadHistory(np.array([0, BLOCK_NS]), np.zeros((2, 6)), np.zeros(2), np.zeros((2, 3))))
         loads = buffer.at_steps(0, BLOCK_NS, steps)
         rollers, bodies = self._run(
-            state, loads[: TRENDS_PER_BLOCK + 1].copy(), self._signals[:TRENDS_PER_BLOCK].copy(), 1
+            state, loads[: self._instants + 1].copy(), self._signals[: self._instants].copy(), 1
         )
         assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
         signals = np.zeros((steps, self._channels))
@@ -302,8 +305,8 @@ class Twin:
 
     def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Any, Float]:
         tier = self._tier
-        rollers = np.empty((blocks * TRENDS_PER_BLOCK, *tier.trend_shape(state.rollers.shape)))
-        bodies = np.empty((blocks * TRENDS_PER_BLOCK, *state.bodies.shape))
+        rollers = np.empty((blocks * self._instants, *tier.trend_shape(state.rollers.shape)))
+        bodies = np.empty((blocks * self._instants, *state.bodies.shape))
         output = Output(signals, rollers, bodies, self._audit)
         tier.advance(self._lanes, state, self._work, loads, output, self._kernel_parameters)
         return self._complete(tier.shown(self._lanes, rollers, self._kernel_parameters), bodies)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
@@ -11,24 +10,24 @@ from typing import Any
 
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.outputs import file_problems, write_whole
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice import scene_from_mapping
-from beardyn_core.config.automatic import AUTO, names_a_box
+from beardyn_core.config.automatic import AUTO, names_a_box, set_rings
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping, load_lubricant, read_noun
 from beardyn_core.config.plates import load_plate
-from beardyn_core.config.yaml_text import read_file
-from beardyn_core.effects import EffectSet
+from beardyn_core.config.yaml_text import read_file, scene_text, write_mapping
+from beardyn_core.effects import EffectSet, RingStructure
 from beardyn_core.scene.scene import EFFECTS, Scene
 
 USUAL_BEARING, USUAL_LUBRICANT = "HS130x230", "L055"
+_ENDINGS = (".yaml", ".yml")
 USUAL_LOAD_KN, USUAL_SPEED_RPM = 80.0, 1000.0
 _NO_PATCH = ("diameter", "field_spall", "worn_pocket")  # kinds of faults without a depth of their own
-_STEEL_DENSITY = 7830.0  # [kg/m^3]
-# what a bearing in code must say; see `_derive_missing_keys` for the rest
-_NEEDED = ("rollers", "pitch_diameter_mm", "roller_diameter_mm", "roller_length_mm", "contact_angle_deg")
 
 
 def bearing(
@@ -41,7 +40,8 @@ def bearing(
     name : str, Path or bearing, optional
         Shipped bearing, YAML file, or a bearing. Without it a tapered bearing is made of ``rollers``,
         ``pitch_diameter_mm``, ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every
-        other number is derived from them as docs/python.md lists, and marked so in ``bearing.sources``.
+        other number is derived from them as docs/python.md lists, and marked so in ``bearing.sources``. In a
+        YAML file ``derive: true`` does the same.
     rollers : int, optional
         Per row.
     **keys
@@ -75,81 +75,48 @@ def bearing(
     if name is not None:
         path = find("bearings", str(name))
         return bearing_from_mapping({**read_file(path), **keys}, str(path))
-    missing = [
-        key for key in _NEEDED if key not in keys and not (key == "rollers" and "roller_count" in keys)
-    ]
-    if missing:
-        raise InputError(
-            f"bearing made in code: {', '.join(missing)} not given; give them, or the name of a bearing"
-        )
-    wrong = [key for key in _NEEDED[1:] if not isinstance(keys[key], Real) or not keys[key] > 0]
-    if wrong:
-        raise InputError(
-            [f"bearing made in code: {key} is {keys[key]!r}; it must be above 0" for key in wrong]
-        )
-    return bearing_from_mapping({**_derive_missing_keys(**keys), **keys}, "bearing made in code")
+    derive = {"derive": True} if keys.get("kind", Bearing.kind) == Bearing.kind else {}
+    return bearing_from_mapping({**derive, **keys}, "bearing made in code")
 
 
-def _derive_missing_keys(
-    *,
-    pitch_diameter_mm: float,
-    roller_diameter_mm: float,
-    roller_length_mm: float,
-    contact_angle_deg: float,
-    **_given: Any,
-) -> dict[str, Any]:
-    """Derive the keys that a bearing in code may leave out, each with its source.
+def save(noun: RollerBearing | Lubricant | Scene, path: str | Path, force: bool = False) -> Path:
+    """Write a bearing, a lubricant or a scene to a YAML file, which loads again as the same.
 
-    The proportions are those of the four shipped tapered bearings.
+    Parameters
+    ----------
+    noun : bearing, Lubricant or Scene
+        Every number is written in the units of the file, with its source where it has one. The file of a
+        scene holds all that the scene refers to.
+    path : str or Path
+        Ending in ``.yaml`` or ``.yml``.
+    force : bool
+        Replace the file when it exists; default refuse.
+
+    Returns
+    -------
+    Path
+        Of the file; `bearing`, `lubricant` and `scene` take it, and so do scenes and commands.
+
+    Raises
+    ------
+    InputError
+        The file exists, has another ending or cannot be written.
+
+    Examples
+    --------
+    >>> mine = bearing("HS130x230", end_play_mm=0.1)
+    >>> bearing(save(mine, "mine.yaml")) == mine
+    True
     """
-    pitch, roller, length = pitch_diameter_mm, roller_diameter_mm, roller_length_mm
-    row_spacing, outer, bore = length + 25.0, pitch + 1.7 * roller, pitch - 2.0 * roller
-    width = row_spacing + length + 35.0
-    raceway = pitch + roller * math.cos(math.radians(contact_angle_deg))
-    cup = _ring(raceway, outer, width)
-    cone = _ring(bore, pitch - roller, 2.0 * length + 20.0)
-    cage_mass = 2.0e-3 * pitch
-    turned = cage_mass * (0.5e-3 * pitch) ** 2
-    assumed, derived = "assumed: as in the shipped bearings", "derived: proportions of the shipped bearings"
-    steel = "derived: solid ring of steel"
-    return {
-        "name": "bearing",
-        "description": f"made in code: {pitch:g} mm pitch diameter, {roller:g} mm rollers",
-        "effective_length_mm": _with_source(length - 2.0, "assumed: 1 mm at each end is no contact"),
-        "row_spacing_mm": _with_source(row_spacing, derived),
-        "sphere_ratio": _with_source(0.9, assumed),
-        "rib_contact_height_mm": _with_source(2.5, assumed),
-        "bore_mm": _with_source(round(bore, 3), derived),
-        "outer_diameter_mm": _with_source(round(outer, 3), derived),
-        "width_mm": _with_source(width, derived),
-        "end_play_mm": _with_source(0.2, assumed),
-        "raceway_roughness_um": _with_source(0.3, assumed),
-        "rib_roughness_um": _with_source(0.42, assumed),
-        "cup_mass_kg": _with_source(round(cup[0], 4), steel),
-        "cup_inertia_kg_m2": _with_source([round(cup[2], 6), round(cup[1], 6), round(cup[2], 6)], steel),
-        "cone_mass_kg": _with_source(round(cone[0], 4), steel),
-        "cage": {
-            "mass_kg": _with_source(round(cage_mass, 4), derived),
-            "polar_inertia_kg_m2": _with_source(round(turned, 8), "derived: thin ring on the pitch circle"),
-            "transverse_inertia_kg_m2": _with_source(round(0.52 * turned, 8), "derived: thin ring"),
-            "circumferential_clearance_mm": _with_source(0.25, assumed),
-            "axial_clearance_mm": _with_source(0.3, assumed),
-            "stiffness_MN_per_m": _with_source(20.0, assumed),
-            "damping_N_s_per_m": _with_source(300.0, assumed),
-        },
-    }
-
-
-def _with_source(value: Any, source: str) -> dict[str, Any]:
-    return {"value": value, "source": source}
-
-
-def _ring(inner_mm: float, outer_mm: float, width_mm: float) -> tuple[float, float, float]:
-    """Give mass [kg], polar and transverse inertia [kg m^2] of a solid steel ring."""
-    inner, outer, width = 0.5e-3 * inner_mm, 0.5e-3 * outer_mm, 1e-3 * width_mm
-    mass = math.pi * _STEEL_DENSITY * width * max(outer**2 - inner**2, 1e-6)
-    polar = 0.5 * mass * (outer**2 + inner**2)
-    return mass, polar, 0.5 * polar + mass * width**2 / 12.0
+    file = Path(path)
+    problems = file_problems("path", file, force=force)
+    if file.suffix.lower() not in _ENDINGS:
+        problems.append(f"path {file}: ends in {file.suffix or 'nothing'}; allowed are {', '.join(_ENDINGS)}")
+    if problems:
+        raise InputError(problems)
+    text = scene_text(noun) if isinstance(noun, Scene) else write_mapping(write_noun(noun))
+    write_whole(file, text, replace=force)
+    return file
 
 
 def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
@@ -207,6 +174,7 @@ def scene(
     duration: float | None = None,
     laminae: int | None = None,
     seed: int | None = None,
+    rings: str | None = None,
     **keys: Any,
 ) -> Scene:
     """Give a shipped scene, one of a file or of a mapping, or one made in code, with changes.
@@ -230,6 +198,9 @@ def scene(
         where they are not given: ``[{"on": "cup", "width_mm": 6}]``. An empty sequence: none.
     tier, effects, duration, laminae, seed : optional
         See `beardyn_core.simulate`; effects are those that 5 % of accuracy need when nothing names any.
+    rings : str, optional
+        ``elastic`` or ``rigid``, as of `equilibrium`: the effect ``structure`` on or off, whatever else the
+        effects are; default that of the effects.
     **keys
         Other keys of a scene file in their units: ``end_play_mm=0.05``, ``temperature_C=40``.
 
@@ -256,6 +227,13 @@ def scene(
         **keys,
     }
     data |= {key: _plain(value) for key, value in changes.items() if value is not None}
+    if rings is not None:
+        written = set_rings(data.get("effects"), rings)
+        if isinstance(effects, EffectSet):
+            bending = None if rings == "rigid" else effects.structure or RingStructure()
+            effects = replace(effects, structure=bending)
+        else:
+            data["effects"] = written
     _set_operation(data, load_kN, speed_rpm, speed_kmh)
     numerics = data.get("numerics", {})
     if isinstance(numerics, Mapping):

@@ -33,6 +33,8 @@ def simulate(
     duration: float | None = None,
     laminae: int | None = None,
     seed: int | None = None,
+    rings: str | None = None,
+    snapshot_rate: float | None = None,
     record: Path | str | None = None,
     force: bool = False,
     progress: bool = False,
@@ -58,6 +60,12 @@ def simulate(
         Slices (laminae) of each roller; default the scene's.
     seed : int, optional
         Seed of irregularity and noise; default the scene's.
+    rings : str, optional
+        Rings that bend (``elastic``) or not (``rigid``): the effect ``structure``; default that of the
+        effects.
+    snapshot_rate : float, optional
+        Bodies and contacts a second, Hz; default the scene's, or 200. Allowed are 200 and its doubles up to
+        12800. At 200 ``contacts.largest`` has the largest load of every step in between.
     record : Path, optional
         Record the run to this file; default no file. It is an MCAP file.
     force : bool
@@ -91,6 +99,7 @@ def simulate(
     from beardyn_core.study import desk_run
 
     asked = {"tier": tier, "effects": effects, "duration": duration, "laminae": laminae, "seed": seed}
+    asked |= {"rings": rings, "snapshot_rate_Hz": snapshot_rate}
     asked |= changes
     untouched = isinstance(scene, Scene) and all(value is None for value in asked.values())
     with files_read() as inputs:

@@ -14,6 +14,7 @@ from beardyn_core.base.optional import missing
 from beardyn_core.base.outputs import file_problems, write_whole
 
 if TYPE_CHECKING:
+    from beardyn_core.bearing.catalogue_entry import CatalogueEntry
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.experiments import Cluster
     from beardyn_core.experiments.loop import Progress, Report
@@ -171,6 +172,12 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
 
     if isinstance(bearing, RollerBearing):
         return require_tapered(bearing, "runs")
+    if entry := _catalogue_entry(str(bearing)):
+        raise InputError(
+            f"bearing: {bearing} is a {entry.kind} bearing of the catalogue, bearing data for the monitor; "
+            "estimators are trained for double-row tapered units only, whose runs can be simulated: "
+            f"{', '.join(_tapered_names())}, or a file of your own (`derive: true` needs five numbers)"
+        )
     if Path(bearing).suffix != ".mcap":
         return load_bearing(bearing)
     found = heard_of(bearing, None, "")[1]
@@ -180,6 +187,26 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
             "bearing"
         )
     return found
+
+
+def _catalogue_entry(name: str) -> CatalogueEntry | None:
+    """Find the line of the catalogue that a name means; ``None`` of a whole bearing, a file and no name."""
+    from beardyn_core.config.plates import find_entry
+
+    if Path(name).suffix == ".mcap":
+        return None
+    try:
+        return find_entry(name)
+    except InputError:
+        return None
+
+
+def _tapered_names() -> list[str]:
+    """Name the shipped bearings whose runs can be simulated."""
+    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.config import load_any_bearing, shipped_names
+
+    return [name for name in shipped_names("bearings") if isinstance(load_any_bearing(name), Bearing)]
 
 
 def _bearing_of_scene(scene: Path | str | None) -> Bearing:

@@ -76,7 +76,7 @@ def flat_rib_truncation(bearing: CylindricalBearing, load: float) -> list[str]:
         if not faces_of_ring(bearing, ring):
             continue
         below, above = faces_of_ring(bearing, ring)[0].edges
-        reach, room = _flat_contact(bearing, ring).semi_axes(load)[1], min(-below, above)
+        reach, room = flat_rib_contact(bearing, ring).semi_axes(load)[1], min(-below, above)
         if reach > room:
             found.append(
                 f"under {load:.0f} N the contact of a roller end reaches {reach * 1e3:.2f} mm along the rib "
@@ -85,7 +85,7 @@ def flat_rib_truncation(bearing: CylindricalBearing, load: float) -> list[str]:
     return found
 
 
-def _flat_contact(bearing: CylindricalBearing, ring: str) -> ExactPointContact:
+def flat_rib_contact(bearing: CylindricalBearing, ring: str) -> ExactPointContact:
     """Work out the contact of a roller end: along the face the rib is straight, around the ring a cone."""
     radius, height = bearing.end_radius, bearing.rib_contact_height
     if ring == "cone":
@@ -115,5 +115,5 @@ def _flat_rib(bearing: CylindricalBearing, ring: str, side: float, play: float) 
         (0.5 * bearing.pitch_diameter, 0.5 * bearing.row_spacing + on_axis),
         edges,
         play * math.cos(lean),
-        _flat_contact(bearing, ring).factor,
+        flat_rib_contact(bearing, ring).factor,
     )

@@ -18,6 +18,11 @@ VIBRATION_TOLERANCE_DB = 1.5
 FRICTION_DB = 2.1
 _SMALLEST_PERCENT = 0.01
 UNITS = {name: "dB" if name == "vibration" else "%" for name in QUANTITIES}
+# how the parts of `Choice.summary` begin
+_CHOSEN, _LEFT = "chosen for ", "left out: "
+_BOUNDS = "differs from the full model by at most (bounds) "
+_UNKNOWN = "difference from the full model unknown"
+_WIDE = "the bound is wider than the wanted "
 FAST, FULL = frozenset({"lumped", "quasistatic"}), frozenset({"full"})
 
 # quantity -> error: a fraction, of vibration in dB
@@ -170,8 +175,8 @@ class Choice:
     def summary(self) -> str:
         """Write in a sentence what was asked for, what is expected, and what is left out."""
         off = ", ".join(each.effect for each in self.decisions if not each.on and each.left_out)
-        left = f"; left out: {off}" if off else ""
-        return f"chosen for {self.asked}; {self.difference}{left}"
+        left = f"; {_LEFT}{off}" if off else ""
+        return f"{_CHOSEN}{self.asked}; {self.difference}{left}"
 
     @property
     def difference(self) -> str:
@@ -186,11 +191,11 @@ class Choice:
         ]
         parts = []
         if bounds:
-            parts.append(f"differs from the full model by at most (bounds) {bounds}")
+            parts.append(f"{_BOUNDS}{bounds}")
         if unknown or not bounds:
-            parts.append(f"difference from the full model unknown{f' for {unknown}' if unknown else ''}")
+            parts.append(f"{_UNKNOWN}{f' for {unknown}' if unknown else ''}")
         if wide:
-            parts.append(f"the bound is wider than the wanted {', '.join(wide)}")
+            parts.append(f"{_WIDE}{', '.join(wide)}")
         return "; ".join(parts)
 
     @property
@@ -204,6 +209,11 @@ class Choice:
             *([] if self.rate is None else [f"rate {1e-3 * self.rate:g} kHz: {self.rate_reason}"]),
             *(decision.sentence() for decision in self.decisions),
         )
+
+    @property
+    def phrase(self) -> str:
+        """Write in a phrase how far the run may be from the full model, and what is left out."""
+        return shorten_summary(self.summary)
 
     def applied(self, scene: Scene) -> Scene:
         """Apply this choice to a scene; bearing, load, faults, places of sensors and seed stay."""
@@ -247,6 +257,34 @@ class Choice:
                 for decision in self.decisions
             ],
         }
+
+
+def shorten_summary(sentence: str) -> str:
+    """Write in a phrase what a choice gives up: of its bounds those that are wider than what was asked for.
+
+    Parameters
+    ----------
+    sentence : str
+        `Choice.summary`, as recordings have it; another sentence, or an empty one, is given back.
+    """
+    parts = sentence.removeprefix(_CHOSEN).split("; ")
+    bounds = _after(parts, _BOUNDS).split(", ")
+    wide = {each.split()[0] for each in _after(parts, _WIDE).split(", ") if each}
+    unknown = [part for part in parts if part.startswith(_UNKNOWN)]
+    if not sentence.startswith(_CHOSEN) or not (any(bounds) or unknown):
+        return sentence
+    beyond = [each for each in bounds if each.partition(" ")[0] in wide]
+    if beyond:
+        found = [f"differs from the full model by at most {', '.join(beyond)}"]
+    else:
+        found = [] if unknown else [f"within {parts[0].rpartition('within ')[2]} of the full model"]
+    left = [f"without {names}" for names in [_after(parts, _LEFT)] if names]
+    return "; ".join([*found, *unknown, *left]).replace("roller_load", "roller load")
+
+
+def _after(parts: list[str], beginning: str) -> str:
+    """Find what follows a beginning in one of the parts of a sentence; empty where there is none."""
+    return next((part.removeprefix(beginning) for part in parts if part.startswith(beginning)), "")
 
 
 def _errors(errors: Mapping[str, float]) -> dict[str, dict[str, Any]]:

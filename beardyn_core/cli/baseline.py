@@ -11,6 +11,9 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.options import add_json
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from beardyn_core.population.labelled_set import LabelledSet
     from beardyn_core.population.learner import Judgement, Learner
 
 
@@ -49,36 +52,42 @@ def run(args: argparse.Namespace) -> int:
     found += [learner.judged(str(path), other, None) for path, other in zip(args.test, others, strict=True)]
     if args.json:
         trained = len(runs.runs_of(TRAIN))
-        print(json_text("baseline", json_object(learner, trained, found)))
+        print(json_text("baseline", json_object(learner, trained, found, [runs, *others])))
     else:
-        print(table(learner, found))
+        print(table(learner, found, [runs, *others]))
     return 0
 
 
-def json_object(learner: Learner, trained: int, found: list[Judgement]) -> dict[str, Any]:
+def json_object(
+    learner: Learner, trained: int, found: list[Judgement], sets: Sequence[LabelledSet]
+) -> dict[str, Any]:
     """Give what `--json` prints."""
     return {
         "trained_on": trained,
         "features": learner.importance(),
         "tests": [
-            keyed_fields(
-                each,
-                count="runs",
-                balanced="balanced_accuracy",
-                matrix="named",
-                width_error="width_relative_error",
-            )
-            for each in found
+            {
+                **keyed_fields(
+                    each,
+                    count="runs",
+                    balanced="balanced_accuracy",
+                    matrix="named",
+                    width_error="width_relative_error",
+                ),
+                "difficulty": runs.difficulty,
+            }
+            for each, runs in zip(found, sets, strict=True)
         ],
     }
 
 
-def table(learner: Learner, found: list[Judgement]) -> str:
+def table(learner: Learner, found: list[Judgement], sets: Sequence[LabelledSet]) -> str:
     """Write what was found as tables."""
+    from beardyn_core.population.difficulty import difficulty_line
     from beardyn_core.study.table import Table
 
     lines: list[str] = []
-    for each in found:
+    for each, runs in zip(found, sets, strict=True):
         named = sorted({name for row in each.matrix.values() for name in row})
         title = (
             f"{each.name}: {each.count} runs, {100 * each.accuracy:.0f} % named right "
@@ -93,7 +102,7 @@ def table(learner: Learner, found: list[Judgement]) -> str:
                 f"width of the spall: median error {100 * each.width_error:.0f} %, bias "
                 f"{1e3 * each.width_bias:+.1f} mm"
             )
-        lines.append("")
+        lines += [difficulty_line(runs.difficulty), ""]
     best = list(learner.importance().items())[:5]
     lines.append("features that decide: " + ", ".join(f"{name} {100 * share:.0f} %" for name, share in best))
     return "\n".join(lines)

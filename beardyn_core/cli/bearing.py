@@ -31,7 +31,7 @@ _RINGS = {
     "rigid": "rigid rings: only the contacts yield",
 }
 _TEMPERATURE = parameters_of(life)["temperature_C"].default  # of the lubricant, [degrees Celsius]
-_BAR_WIDTH = 28
+_BAR_WIDTH = 22
 _ENDS = ("from its inner to its outer end", "from its small to its large end")
 _RPM = 2.0 * math.pi / 60.0
 
@@ -178,6 +178,12 @@ def _report(case: _Case, solution: StaticSolution) -> dict[str, Any]:
             "loaded_roller_count": sum(solution.loaded_roller_count),
             "loaded_roller_count_per_row": list(solution.loaded_roller_count),
             "largest_roller_load_N": solution.largest_roller_load,
+            "largest_pressure_Pa": solution.largest_pressure,
+            "roller_pressure_Pa": {
+                "cup": solution.cup_pressure,
+                "cone": solution.cone_pressure,
+                "rib": solution.rib_pressure,
+            },
             "rib_load_N": solution.rib_load,
             "most_loaded_roller": _most_loaded_roller(case.bearing, solution),
             "stiffness_tilt_held_N_per_m": solution.stiffness_tilt_held,
@@ -438,8 +444,11 @@ def _static_lines(solution: StaticSolution) -> list[str]:
         f"  cone moves ({move}) um and tilts ({tilt}) urad about x, z",
         f"  {loaded[0]} rollers loaded inboard, {loaded[1]} outboard; "
         f"largest roller load {solution.largest_roller_load:,.1f} N",
+        f"  largest Hertz pressure {solution.cup_pressure.max() * 1e-6:,.0f} MPa on the outer ring (cup), "
+        f"{solution.cone_pressure.max() * 1e-6:,.0f} MPa on the inner ring (cone)",
         "",
-        f"  azimuth     row 0, inboard {'':<{_BAR_WIDTH + 2}} row 1, outboard",
+        "  azimuth from +z (up) towards +x (forward); load on the cup, pressure in MPa",
+        f"              row 0, inboard {'':<{_BAR_WIDTH + 2}} row 1, outboard",
     ]
     largest = max(solution.largest_roller_load, 1.0e-9)
     count = solution.cup_load.shape[1]
@@ -448,7 +457,8 @@ def _static_lines(solution: StaticSolution) -> list[str]:
         for row in range(2):
             value = float(solution.cup_load[row, roller])
             bar = "#" * round(_BAR_WIDTH * value / largest)
-            cells.append(f"{value:11,.1f} N {bar:<{_BAR_WIDTH}}")
+            pressure = 1e-6 * float(solution.cup_pressure[row, roller])
+            cells.append(f"{value:11,.1f} N {pressure:5,.0f} {bar:<{_BAR_WIDTH}}")
         lines.append(f"  {360.0 * roller / count:6.1f} deg {cells[0]} {cells[1]}".rstrip())
     for title, matrix in (
         ("tilt held", solution.stiffness_tilt_held),

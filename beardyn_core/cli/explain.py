@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from beardyn_core.cli.files import check_inputs, tell_doubts
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_choice, add_json, gather_choices
+from beardyn_core.cli.options import add_choice, add_json, add_verbose, gather_choices
 
 if TYPE_CHECKING:
     from beardyn_core.choice import Explanation
@@ -30,6 +30,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("scene", metavar="SCENE", help="shipped scene or YAML file")
     add_choice(parser)
+    add_verbose(parser, "whole reasons, costs, slices, time step")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -41,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     with check_inputs():
         found = explain_scene(args.scene, **gather_choices(args))
     tell_doubts(found.scene)
-    print(json_text("explain", json_object(found)) if args.json else text(found))
+    print(json_text("explain", json_object(found)) if args.json else text(found, args.verbose))
     return DONE
 
 
@@ -58,8 +59,43 @@ def json_object(found: Explanation) -> dict[str, Any]:
     }
 
 
-def text(found: Explanation) -> str:
-    """Write the explanation for the terminal."""
+def text(found: Explanation, verbose: bool = False) -> str:
+    """Write the explanation for the terminal: an effect a line, or with ``verbose`` all reasons and costs."""
+    if verbose:
+        return _long_text(found)
+    parts = [f"{found.scene.name}: {found.scene.purpose}", "", *_short_lines(found.current)]
+    if found.automatic is not None:
+        parts += ["", "`effects: auto` would choose:", *_head(found.automatic)]
+    parts += [*_heard(found), "", "--verbose: whole reasons, costs, slices, time step, and effects of both."]
+    return "\n".join(parts)
+
+
+def _head(choice: Choice) -> list[str]:
+    """Write what is computed, how fast, and how near to the full model."""
+    effects = sum(each.on for each in choice.decisions)
+    return [
+        f"  tier {choice.tier}, {effects} effects, {choice.laminae} slices of each roller; expected "
+        f"real-time factor {choice.real_time_factor:.2g}",
+        f"  asked for: {choice.asked}".replace("roller_load", "roller load"),
+        f"  answer: {choice.phrase}",
+    ]
+
+
+def _short_lines(choice: Choice) -> list[str]:
+    """Write a line for each effect: on or off, and the reason in a phrase."""
+    lines = [*_head(choice), "", f"  {'':5}{'effect':20}why"]
+    for decision in sorted(choice.decisions, key=lambda each: not each.on):
+        phrase = decision.reason.split("; ")[0]
+        if decision.word not in ("on", "off"):
+            phrase = f"{decision.word.replace('_', ' ')}: {phrase}"
+        phrase += decision.left_out.replace("roller_load", "roller load")
+        phrase = textwrap.shorten(phrase, _WIDTH - 17, placeholder=" ...")
+        lines.append(f"  {'on' if decision.on else 'off':5}{decision.effect:20}{phrase}")
+    return lines
+
+
+def _long_text(found: Explanation) -> str:
+    """Write both choices with all reasons, costs and discretisation."""
     from beardyn_core.choice.costs import measured_costs
 
     costs = measured_costs()
@@ -79,7 +115,7 @@ def text(found: Explanation) -> str:
 
 
 def _heard(explanation: Explanation) -> list[str]:
-    """Name what sensors hear besides, paths that are filters and no model, bands that end too early."""
+    """Name what sensors measure besides, paths that are filters and no model, bands that end too early."""
     from beardyn_core.base.edge import write_noun
 
     scene, found = explanation.scene, list(explanation.current.notes)

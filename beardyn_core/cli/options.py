@@ -92,6 +92,11 @@ def tls_of(args: Namespace) -> dict[str, Path]:
     return {name: path for name, path in given.items() if path is not None}
 
 
+def add_verbose(parser: ArgumentParser, what: str) -> None:
+    """Add the long answer."""
+    parser.add_argument("--verbose", action="store_true", help=f"print more: {what}")
+
+
 def add_json(parser: ArgumentParser) -> None:
     """Add the output for programs."""
     parser.add_argument("--json", action="store_true", help="print one JSON object, nothing else, on stdout")

@@ -15,13 +15,14 @@ from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.cli.files import check_inputs, tell_doubts
 from beardyn_core.cli.generated_parser import add_command, add_parameter
 from beardyn_core.cli.json_output import json_text
-from beardyn_core.cli.options import add_choice, add_json, gather_choices
+from beardyn_core.cli.options import add_choice, add_json, add_verbose, gather_choices
 
 if TYPE_CHECKING:
     from beardyn_core.sensors.block import Block
     from beardyn_core.study.desk_run import RunSummary
 
 DONE, INVALID = 0, 3
+_RPM = math.pi / 30.0
 _RINGS = {
     "elastic": "elastic: the cup bends in its housing (effect structure)",
     "rigid": "rigid: only the contacts yield (no effect structure)",
@@ -41,7 +42,10 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_choice(parser)
     add_parameter(parser, simulate, "laminae", metavar="N")
     add_parameter(parser, simulate, "seed", metavar="N")
+    add_parameter(parser, simulate, "rings", metavar="KIND")
+    add_parameter(parser, simulate, "snapshot_rate", metavar="HZ")
     add_parameter(parser, simulate, "force")
+    add_verbose(parser, "effects, bounds of the accuracy, means, lives, losses, wall time")
     add_json(parser)
     parser.set_defaults(run=run)
 
@@ -80,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json_text("simulate", json_object(summary, args.output)))
     else:
-        print(text(summary, args.output))
+        print(text(summary, args.output, args.verbose))
     for sensor, count, total in summary.clipped:
         print(
             f"beardyn: warning: the accelerometer {sensor} has clipped {count} of {total} samples; give it a "
@@ -98,8 +102,11 @@ def changes_of(args: argparse.Namespace) -> dict[tuple[str | int, ...], Any]:
         "duration": ("duration_s",),
         "laminae": ("numerics", "laminae"),
         "vibration_to": ("vibration_to_Hz",),
+        "snapshot_rate": ("snapshot_rate_Hz",),
     }
-    given = {"duration": args.duration, "laminae": args.laminae, "seed": args.seed, **gather_choices(args)}
+    named = ("duration", "laminae", "seed", "snapshot_rate")
+    given = {name: getattr(args, name) for name in named}
+    given |= {**gather_choices(args), "rings": args.rings}  # rings are those of the effects before
     return {places.get(name, (name,)): value for name, value in given.items() if value is not None}
 
 
@@ -147,7 +154,12 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
         "shaft_torque_N_m": summary.shaft_torque,
         "cage_speed_ratio": summary.cage_speed_ratio,
         "energy_residual": summary.energy_residual,
-        "life": None if summary.life is None else life_object(summary.life),
+        "largest_roller_load_N": summary.largest_roller_load,
+        "largest_pressure_Pa": summary.largest_pressure,
+        "shaft_speed_rad_per_s": summary.shaft_speed,
+        "life": None
+        if (life := summary.life) is None
+        else {**life_object(life), "L10mr_m": life.distance(summary.wheel_diameter)},
         "torque_budget": None if summary.budget is None else summary.budget.to_json(),
         "temperature_K": dict(summary.temperatures) or None,
         "stages_s": {each.stage: each.seconds for each in summary.stages},
@@ -156,10 +168,9 @@ def json_object(summary: RunSummary, recording: Path | None) -> dict[str, Any]:
 
 
 def _means(summary: RunSummary) -> list[tuple[str, str]]:
-    """Write the lines of the mean values."""
+    """Write the means to all digits, and the time that they are taken over."""
     if summary.nothing_to_average:
-        why = f"too little: {summary.duration:g} s end before the first values have passed their filters"
-        return [("means", f"{why}; simulate 0.06 s or more")]
+        return []
     fx, fy, fz = summary.mean_force
     first, last = summary.averaged
     ratios = (
@@ -180,38 +191,90 @@ def _means(summary: RunSummary) -> list[tuple[str, str]]:
     ]
 
 
-def text(summary: RunSummary, recording: Path | None) -> str:
-    """Write the summary for the terminal."""
+def text(summary: RunSummary, recording: Path | None, verbose: bool = False) -> str:
+    """Write the summary for the terminal: the answers, and with ``verbose`` how they came about."""
+    return "\n".join([*_answers(summary, recording), *(["", *_details(summary)] if verbose else [])])
+
+
+def _answers(summary: RunSummary, recording: Path | None) -> list[str]:
+    """Write what ran, what it gives up, what came out of it and where it is."""
+    from beardyn_core.choice.rule import shorten_summary
+
+    absent = f", without {', '.join(summary.not_in_tier)}" if summary.not_in_tier else ""
+    lines = [
+        ("scene", f"{summary.scene}: {'; '.join(summary.faults) or 'healthy'}"),
+        (
+            "computed",
+            f"tier {summary.tier}, {len(summary.effects)} effects{absent}, {summary.rings} rings; "
+            f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, real-time factor "
+            f"{summary.real_time_factor:.2g}",
+        ),
+        *([("accuracy", shorten_summary(summary.chosen))] if summary.chosen else []),
+        *_results(summary),
+    ]
+    if summary.temperatures:
+        parts = (f"{part} {kelvin - ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
+        lines.append(("temperatures", f"{', '.join(parts)} °C"))
+    if summary.life is not None:
+        lines.append(("life", _life_words(summary)))
+    lines.append(("status", summary.status))
+    if recording is not None:
+        size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
+        lines.append(("recording", f"{recording}{size}"))
+    return [f"{name:12} {value}" for name, value in lines]
+
+
+def _results(summary: RunSummary) -> list[tuple[str, str]]:
+    """Write forces, torque and speed of a run."""
+    if summary.nothing_to_average:
+        why = f"too little: {summary.duration:g} s end before the first values have passed their filters"
+        return [("means", f"{why}; simulate 0.06 s or more")]
+    fx, fy, fz = (f"{round(each * 1e-3, 2) + 0.0:.2f}" for each in summary.mean_force)
+    force = f"on the cup x {fx}, y {fy}, z {fz} kN"
+    if math.isfinite(summary.largest_roller_load):
+        force += f"; largest roller load {summary.largest_roller_load * 1e-3:.3g} kN"
+    if math.isfinite(summary.largest_pressure):
+        force += f", Hertz pressure {summary.largest_pressure * 1e-9:.2f} GPa"
+    torque = f"{abs(summary.shaft_torque):.3g} N m at {abs(summary.shaft_speed) / _RPM:.4g} rpm"
+    if all(math.isfinite(ratio) for ratio in summary.cage_speed_ratio):
+        ratios = ", ".join(f"{ratio:.4f}" for ratio in summary.cage_speed_ratio)
+        torque += f"; cage speed over that of pure rolling {ratios}"
+    return [("force", force), ("torque", torque)]
+
+
+def _life_words(summary: RunSummary) -> str:
+    """Write the modified life in revolutions and, where a wheel is known, in kilometres."""
+    assert summary.life is not None
+    life = summary.life.reference_modified
+    if not math.isfinite(life):
+        return "endless (ISO 16281, modified)"
+    distance = summary.life.distance(summary.wheel_diameter)
+    way = "" if distance is None else f", {_to_three_digits(distance * 1e-9)} million km"
+    return (
+        f"{_to_three_digits(life * 1e-6)} million revolutions{way} at 90 % reliability (ISO 16281, modified)"
+    )
+
+
+def _to_three_digits(number: float) -> str:
+    """Write a number to three digits, thousands with commas."""
+    return f"{float(f'{number:.3g}'):,.0f}" if number >= 100.0 else f"{number:.3g}"
+
+
+def _details(summary: RunSummary) -> list[str]:
+    """Write how the answers came about: effects, bounds, means, lives, losses, wall time."""
     from beardyn_core.physics.statics.rating_life import life_sentence
     from beardyn_core.sensors.stage_clock import stage_lines
 
     residual = "not kept" if summary.energy_residual is None else f"{100.0 * summary.energy_residual:.3f} %"
     lines = [
-        ("scene", summary.scene),
-        ("tier", summary.tier),
         ("effects", ", ".join(summary.effects) or "none"),
         *([("", summary.chosen)] if summary.chosen else []),
-        *([("not in this tier", ", ".join(summary.not_in_tier))] if summary.not_in_tier else []),
         ("rings", _RINGS[summary.rings]),
-        ("faults", "; ".join(summary.faults) or "none"),
-        (
-            "simulated",
-            f"{summary.duration:.2f} s in {summary.wall_time:.2f} s, "
-            f"real-time factor {summary.real_time_factor:.2f}",
-        ),
         *_means(summary),
+        *([] if summary.life is None else [("rating life", life_sentence(summary.life))]),
         ("energy residual", residual),
-        ("status", summary.status),
     ]
-    if summary.temperatures:
-        parts = (f"{part} {kelvin - ZERO_CELSIUS:.1f}" for part, kelvin in summary.temperatures)
-        lines.insert(-1, ("temperatures", f"{', '.join(parts)} °C"))
-    if summary.life is not None:
-        lines.insert(-1, ("rating life", life_sentence(summary.life)))
-    if recording is not None:
-        size = f", {recording.stat().st_size / 1e6:.1f} MB" if recording.exists() else ""
-        lines.append(("recording", f"{recording}{size}"))
     table = [] if summary.budget is None else ["", *summary.budget.lines()]
     if summary.stages:
         table += ["", *stage_lines(summary.stages, summary.duration)]
-    return "\n".join([*(f"{name:20} {value}" for name, value in lines), *table])
+    return [*(f"{name:20} {value}" for name, value in lines), *table]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from beardyn_core.study.train_run import TrainRun
 
 DONE, INVALID = 0, 3
-SHOWN = 16  # boxes that the terminal lists
+SHOWN = 4  # boxes that the short answer lists
 
 
 def run(scene: Scene, args: argparse.Namespace) -> int:
@@ -46,8 +46,10 @@ def run(scene: Scene, args: argparse.Namespace) -> int:
 
         with last_words(lambda: _kept(args.output, bar.n)):
             done = train_run.advance(boxes, sink, progress=progress)
-    found = json_text("simulate", json_object(done, args.output)) if args.json else text(done, args.output)
-    print(found)
+    if args.json:
+        print(json_text("simulate", json_object(done, args.output)))
+    else:
+        print(text(done, args.output, args.verbose))
     for failure in done.failures:
         print(f"beardyn: {failure}", file=sys.stderr)
     return INVALID if done.failures else DONE
@@ -80,6 +82,8 @@ def json_object(done: TrainRun, recording: Path | None) -> dict[str, Any]:
                 "mean_force_N": each.mean_force,
                 "shaft_torque_N_m": each.shaft_torque,
                 "cage_speed_ratio": each.cage_speed_ratio,
+                "largest_roller_load_N": each.largest_roller_load,
+                "largest_pressure_Pa": each.largest_pressure,
                 "temperature_K": dict(each.temperatures) or None,
                 "clipped_samples": {sensor: count for sensor, count, _ in each.clipped},
                 "status": each.status,
@@ -90,31 +94,40 @@ def json_object(done: TrainRun, recording: Path | None) -> dict[str, Any]:
     }
 
 
-def text(done: TrainRun, recording: Path | None) -> str:
-    """Write the summary for the terminal."""
+def text(done: TrainRun, recording: Path | None, verbose: bool = False) -> str:
+    """Write the summary for the terminal: faulty boxes first, and with ``verbose`` all of them and more."""
+    from beardyn_core.choice.rule import shorten_summary
+
     summaries = done.summaries
     first = next(iter(summaries.values()))
     share = done.processor_time / done.duration / len(summaries)
+    absent = f", without {', '.join(first.not_in_tier)}" if first.not_in_tier else ""
     lines = [
-        ("scene", first.scene),
-        ("tier", first.tier),
-        ("effects", ", ".join(first.effects) or "none"),
-        *([("", first.chosen)] if first.chosen else []),
-        *([("not in this tier", ", ".join(first.not_in_tier))] if first.not_in_tier else []),
+        ("scene", f"{first.scene}, {len(summaries)} axleboxes"),
         (
-            "simulated",
-            f"{done.duration:.2f} s of {len(summaries)} axleboxes in {done.wall_time:.2f} s, real-time "
-            f"factor {done.real_time_factor:.2f}, {1e3 * share:.1f} ms of processor for a second of one",
+            "computed",
+            f"tier {first.tier}, {len(first.effects)} effects{absent}, {first.rings} rings; "
+            f"{done.duration:.2f} s in {done.wall_time:.2f} s, real-time factor {done.real_time_factor:.2g}",
         ),
+        *([("accuracy", shorten_summary(first.chosen))] if first.chosen else []),
     ]
+    if verbose:
+        lines += [
+            ("processor", f"{1e3 * share:.1f} ms for a second of one axlebox"),
+            ("effects", ", ".join(first.effects) or "none"),
+            *([("", first.chosen)] if first.chosen else []),
+        ]
     if recording is not None and recording.exists():
         lines.append(("recording", f"{recording}, {recording.stat().st_size / 1e6:.1f} MB"))
-    table = [f"{'axlebox':16}{'force z kN':>12}{'torque N m':>12}  faults"]
-    for name, each in list(summaries.items())[:SHOWN]:
+    table = [f"{'axlebox':16}{'force z kN':>12}{'roller kN':>12}{'GPa':>7}{'torque N m':>12}  faults"]
+    ordered = sorted(summaries.items(), key=lambda each: not each[1].faults)
+    shown = ordered if verbose else ordered[:SHOWN]
+    for name, each in shown:
         table.append(
-            f"{name:16}{each.mean_force[2] * 1e-3:12.2f}{each.shaft_torque:12.3f}  "
+            f"{name:16}{each.mean_force[2] * 1e-3:12.2f}{each.largest_roller_load * 1e-3:12.2f}"
+            f"{each.largest_pressure * 1e-9:7.2f}{abs(each.shaft_torque):12.3f}  "
             f"{'; '.join(each.faults) or 'none'}"
         )
-    if len(summaries) > SHOWN:
-        table.append(f"... and {len(summaries) - SHOWN} more; --json lists them all")
-    return "\n".join([*(f"{name:20} {value}" for name, value in lines), "", *table])
+    if len(summaries) > len(shown):
+        table.append(f"... and {len(summaries) - len(shown)} more: --verbose lists them all")
+    return "\n".join([*(f"{name:12} {value}" for name, value in lines), "", *table])

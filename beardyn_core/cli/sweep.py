@@ -116,18 +116,22 @@ def json_object(swept: Swept) -> dict[str, object]:
         "failed": swept.failed,
         "here": swept.here,
         "wall_time_s": swept.seconds,
+        "difficulty": swept.difficulty,
     }
 
 
 def describe_sweep(swept: Swept) -> str:
     """Say what there is."""
+    from beardyn_core.population.difficulty import difficulty_line
+
     if not swept.here:
-        return f"{swept.folder}: all {swept.done} runs were done before, {swept.failed} failed"
+        done = f"{swept.folder}: all {swept.done} runs were done before, {swept.failed} failed"
+        return f"{done}\n{difficulty_line(swept.difficulty)}"
     rate = swept.here / swept.seconds
     rest = "" if swept.complete else f" of {swept.total}; the same command goes on"
     return (
         f"{swept.folder}: {swept.done} runs{rest}, {swept.failed} failed; {swept.here} of them now, in "
-        f"{clock(swept.seconds)}, {rate:.2f} a second"
+        f"{clock(swept.seconds)}, {rate:.2f} a second\n{difficulty_line(swept.difficulty)}"
     )
 
 

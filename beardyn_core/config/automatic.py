@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from beardyn_core.base.errors import InputError
 from beardyn_core.scene.scene import EFFECTS, NOTHING, Free
 
 AUTO = "auto"
 REFERENCE = "all"
+RINGS = ("elastic", "rigid")
 UNNAMED = AUTO  # what a scene has that names no effects
 
 
@@ -21,6 +23,29 @@ def names_a_box(effects: Any) -> bool:
 def auto_in_its_box(effects: Any) -> Any:
     """Make `auto` out of effects as they are written, with the box that they have."""
     return {"preset": AUTO, "structure": effects["structure"]} if names_a_box(effects) else AUTO
+
+
+def set_rings(effects: Any, rings: str) -> dict[str, Any]:
+    """Let the rings of a scene bend or not, whatever else its effects are.
+
+    Parameters
+    ----------
+    effects : str, mapping or None
+        As a scene has them.
+    rings : str
+        ``elastic``: as the effects have it, or else with the usual housing; ``rigid``: no bending, no modes.
+
+    Raises
+    ------
+    InputError
+        Of another word.
+    """
+    if rings not in RINGS:
+        raise InputError(f"rings is {rings!r}; allowed are {', '.join(RINGS)}")
+    written = dict(effects) if isinstance(effects, dict) else {"preset": effects or UNNAMED}
+    if rings == "rigid":
+        return {**written, "structure": False}
+    return written if isinstance(written.get("structure"), dict) else {**written, "structure": True}
 
 
 def take_auto(data: dict[str, Any]) -> Free:

@@ -209,13 +209,13 @@ class SourcedModel(SourcedPart):
 
     @classmethod
     def _prepare(cls, data: dict[str, Any]) -> dict[str, Any]:
-        plain, sources = _without_sources(super()._prepare(data), "")
+        plain, sources = split_sources(super()._prepare(data))
         if sources and "sources" not in plain:
             plain["sources"] = sources
         return plain
 
 
-def _without_sources(data: dict[str, Any], owner: str) -> tuple[dict[str, Any], dict[str, Any]]:
+def split_sources(data: dict[str, Any], owner: str = "") -> tuple[dict[str, Any], dict[str, Any]]:
     """Replace each ``{value, source}`` by its value; return the mapping and the sources by dotted name."""
     plain: dict[str, Any] = {}
     sources: dict[str, Any] = {}
@@ -225,7 +225,7 @@ def _without_sources(data: dict[str, Any], owner: str) -> tuple[dict[str, Any], 
             plain[key] = value["value"]
             sources[name] = value["source"]
         elif isinstance(value, dict) and key != "sources":
-            plain[key], inner = _without_sources(value, f"{name}.")
+            plain[key], inner = split_sources(value, f"{name}.")
             sources |= inner
         else:
             plain[key] = value

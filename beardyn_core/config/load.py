@@ -19,7 +19,7 @@ from beardyn_core.bearing.any_bearing import BEARING_OF_KIND, refuse_kind
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
-from beardyn_core.config.automatic import AUTO, auto_in_its_box, take_auto
+from beardyn_core.config.automatic import AUTO, auto_in_its_box, set_rings, take_auto
 from beardyn_core.config.content import located_table, self_contained
 from beardyn_core.config.folders import find
 from beardyn_core.config.keys import keys_of, valid
@@ -154,6 +154,9 @@ class _Reading:
 
     def _override(self, place: Place, value: Any) -> None:
         owner = self.data
+        if place == ("rings",):
+            owner["effects"] = set_rings(owner.get("effects"), value)
+            return
         if place == ("effects",) and value == AUTO:
             value = auto_in_its_box(self._written_effects())
         for key in place[:-1]:

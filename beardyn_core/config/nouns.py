@@ -56,7 +56,14 @@ def bearing_from_mapping(data: dict[str, Any], label: str) -> AnyBearing:
         raise InputError(f"{label}: kind is {kind!r}; allowed are {', '.join(BEARING_OF_KIND)}")
     if kind == Bearing.kind:
         data = {key: value for key, value in data.items() if key != "kind"}
-    bearing: AnyBearing = read_noun(BEARING_OF_KIND[kind], data, label)
+    try:
+        bearing: AnyBearing = read_noun(BEARING_OF_KIND[kind], data, label)
+    except InputError as error:
+        several = sum(" is missing;" in problem for problem in error.problems) > 1
+        if kind == Bearing.kind and several and "derive" not in data:
+            hint = f"{label}: `derive: true` derives what is missing from five numbers; see bearing_data.md"
+            raise InputError([*error.problems, hint]) from None
+        raise
     if problems := check(bearing):
         raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
     return bearing

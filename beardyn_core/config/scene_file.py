@@ -21,7 +21,7 @@ from beardyn_core.effects import EffectSet
 from beardyn_core.scene.background import Background
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
-from beardyn_core.scene.scene import Numerics, Scene
+from beardyn_core.scene.scene import Numerics, Scene, snapshots_do_not_fit
 from beardyn_core.scene.sensor import FINE_STEPS, PASSBAND, RATES, rates_do_not_fit, steps_do_not_fit
 from beardyn_core.scene.tier import LARGEST_STEPS, LONG_STEPS, TIERS
 from beardyn_core.structure.mounted_box import modes_of_effects, mounting_of, seat_of
@@ -215,13 +215,15 @@ class SceneFile(FileModel):
         for index, name in enumerate(names):
             if name in names[:index]:
                 yield f"sensors[{index}].name is {name!r}, given twice; each sensor needs its own name"
-        if apart := rates_do_not_fit(given["sensors"]):
-            yield apart
+        if unlike := rates_do_not_fit(given["sensors"]):
+            yield unlike
         if isinstance(given["numerics"], Numerics):
             steps = given["numerics"].steps_per_sample
             found = steps_do_not_fit(given["sensors"], steps)
             if found:
                 yield found
+            if apart := snapshots_do_not_fit(given["snapshot_rate"], steps):
+                yield apart
             if steps < 1 and isinstance(given["background"], Background) and given["background"].forces:
                 yield (
                     f"numerics.steps_per_sample is {steps:g}; a background with forces needs at least 1, for "

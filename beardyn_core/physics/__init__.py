@@ -30,6 +30,7 @@ module             responsibility
 slow_thermal       slow warming next to the fast motion
 scatter            scatter as numbers of each roller
 lamina_table       table of the laminae
+hertz_pressure     largest pressure of the contacts from their loads
 laminae            the springs of a raceway contact and their sums
 lamina_springs     laminae as springs, summed (quasistatic tier)
 lamina_coupling    laminae that sink with each other, also partly over a patch

@@ -10,6 +10,7 @@ features       what a monitor works out of a run, and levels of bands
 batch          several runs in one process of a worker
 table          labels and features in Parquet, with units; parts by bearings
 folder         the folder of a set while it is made: its journal, what it says about itself
+difficulty     how hard a set is: what the shipped monitor finds, how far apart its classes are
 data_card      the data card
 finalizing     tables, card and checksums at the end, and checking them
 sweeping       the plan of a sweep, conducted by the common loop, and the set closed

@@ -19,7 +19,7 @@ from beardyn_core.base.jit import LANE_WIDTH
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.experiments.code_digest import simulator_digest
 from beardyn_core.population.draw import Row
-from beardyn_core.population.features import NAMES, features_of
+from beardyn_core.population.features import NAMES, VERDICT, judge_run
 from beardyn_core.population.sweep_scenes import SweepScenes, bearing_name, check_rows
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run import Run
@@ -54,7 +54,7 @@ class Made:
 
     run: int
     labels: A[dict[str, Any], "a row of the table"]
-    features: A[dict[str, float], "by `features.NAMES`"]
+    features: A[dict[str, Any], "by `features.NAMES`"]
     arrays: A[dict[str, NDArray[Any]], "by name; empty where the run did not begin"]
     seconds: A[float, "wall time on its worker, [s]"]
     processor: A[float, "processor time of its worker meanwhile, [s]"] = 0.0
@@ -109,7 +109,7 @@ def _made(row: Row, scenes: SweepScenes) -> tuple[Made, dict[str, Array], dict[s
     labels: dict[str, Any] = {"run": row.run, "status": FAILED, "reason": "", "bearing_id": ""}
     arrays: dict[str, Array] = {}
     times: dict[str, NDArray[np.int64]] = {}
-    features = dict.fromkeys(NAMES, float("nan"))
+    features: dict[str, Any] = {**dict.fromkeys(NAMES, float("nan")), VERDICT: ""}
     try:
         scene = scenes.scene(row)
         labels["bearing_id"] = bearing_name(scene)
@@ -118,7 +118,8 @@ def _made(row: Row, scenes: SweepScenes) -> tuple[Made, dict[str, Array], dict[s
         labels |= {"status": DONE if complete else FAILED, "reason": "" if complete else run.status}
         labels |= {name: value for name, value in run.labels.items() if name not in labels}
         arrays, times = arrays_of(run, scenes.sweep.signals)
-        features = features_of(run, fault_frequencies(scene.bearing), scene.bearing.roller_count)
+        worked_out, verdict = judge_run(run, fault_frequencies(scene.bearing), scene.bearing.roller_count)
+        features = {**worked_out, VERDICT: verdict}
     except (InputError, ValidityError) as error:
         labels |= {"status": FAILED, "reason": str(error)}
     except Exception as error:  # one run of thousands must not end the others

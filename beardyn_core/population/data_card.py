@@ -8,6 +8,7 @@ from typing import Any
 
 from beardyn_core.base.edge import write_noun
 from beardyn_core.config.yaml_text import write_mapping
+from beardyn_core.population.difficulty import card_lines
 from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import unit_in
 
@@ -56,7 +57,7 @@ def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapp
         "- `signals.zarr`: signals, an array each (Zarr 3), runs along the first axis, SI units in `units`",
         "- `runs.parquet`: a row a run: part, bearing, status, every drawn key and every label, units in the "
         "metadata of the columns",
-        "- `features.parquet`: what a monitor works out of each run, and band levels",
+        "- `features.parquet`: what a monitor works out of each run, its verdict, and band levels",
         "- `set.json`: the sweep, the scene that every run starts from, versions",
         "- `SHA256SUMS`: checksums; `sha256sum -c SHA256SUMS` or `beardyn sweep -o DIR --verify` checks them",
         "",
@@ -79,7 +80,14 @@ def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapp
         lines += ["What the scene leaves open was chosen:", "", *(f"- {each}" for each in scenes.chosen), ""]
     lines += ["## Columns that were drawn", "", "| column | unit | from | to |", "|---|---|---|---|"]
     lines += [_column(variable.key, rows) for variable in sweep.vary]
-    lines += ["", "## Known limits", "", *(f"- {limit}" for limit in _LIMITS), ""]
+    lines += [
+        "",
+        *card_lines(about["difficulty"]),
+        "## Known limits",
+        "",
+        *(f"- {limit}" for limit in _LIMITS),
+        "",
+    ]
     return "\n".join(lines)
 
 

@@ -50,6 +50,16 @@ UNITS = {
 }
 """Unit of each feature, in the order of the table."""
 NAMES = tuple(UNITS)
+# Levels against 1 m/s^2 and the place of the band depend on where the sensor sits and what machine it is: a
+# learner that uses them learns the machine. What is left compares a signal with itself.
+TRANSFERABLE = (
+    *("score_cup", "score_cone", "score_roller", "score", "threshold_margin", "lead"),
+    *("strongest_level", "strongest_order", "kurtosis", "crest"),
+    *("band_score_cup", "band_score_cone", "band_score_roller"),
+    *("band_strongest_level", "band_strongest_order", "band_kurtosis"),
+)
+VERDICT = "monitor_verdict"
+"""Column of the table with the verdict of the shipped monitor on each run; no feature of a learner."""
 
 
 def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: str = "") -> dict[str, float]:
@@ -66,8 +76,16 @@ def features_of(run: Run, orders: FaultFrequencies, roller_count: int, sensor: s
     sensor : str
         Accelerometer; by default the first.
     """
+    found, _ = judge_run(run, orders, roller_count, sensor)
+    return found
+
+
+def judge_run(
+    run: Run, orders: FaultFrequencies, roller_count: int, sensor: str = ""
+) -> tuple[dict[str, float], str]:
+    """Work out the features of a run, and the verdict of the shipped monitor; see `features_of`."""
     signal = run.sensors[sensor] if sensor else run.vibration
-    return features_from(run.monitor_inputs(sensor), signal.values, signal.rate, orders, roller_count)
+    return _judge(run.monitor_inputs(sensor), signal.values, signal.rate, orders, roller_count)
 
 
 def features_from(
@@ -91,6 +109,14 @@ def features_from(
     the lines are looked for there as well, as measured: in the squared envelope of the band with the
     largest spectral kurtosis.
     """
+    found, _ = _judge(inputs, values, rate, orders, roller_count)
+    return found
+
+
+def _judge(
+    inputs: Iterable[MonitorInput], values: Float, rate: float, orders: FaultFrequencies, roller_count: int
+) -> tuple[dict[str, float], str]:
+    """Work out features and verdict of signals; see `features_from`."""
     in_band = dict.fromkeys(_IN_BAND, nan)
 
     def both(
@@ -105,8 +131,9 @@ def features_from(
     for part in inputs:
         monitor.take(part)
     known = values[:, np.isfinite(values).all(axis=0)]
-    found = {**_of_result(monitor.result()), **in_band, **_levels(np.asarray(known, np.float64), rate)}
-    return {name: found[name] for name in NAMES}
+    result = monitor.result()
+    found = {**_of_result(result), **in_band, **_levels(np.asarray(known, np.float64), rate)}
+    return {name: found[name] for name in NAMES}, result.verdict
 
 
 def _of_result(result: MonitorResult) -> dict[str, float]:

@@ -12,6 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import write_whole
 from beardyn_core.experiments import Cluster
 from beardyn_core.population.data_card import card_text
+from beardyn_core.population.difficulty import difficulty_of
 from beardyn_core.population.features import UNITS as FEATURE_UNITS
 from beardyn_core.population.folder import CARD, SUMS, read_about, write_about
 from beardyn_core.population.signal_store import SIGNALS
@@ -55,6 +56,7 @@ def close_set(
     about["processes"] = len({each["worker"] for each in made})
     about["parts"] = dict(Counter(row["split"] for row in rows if row["split"]))
     about["split"] = scenes.sweep.split.shares
+    about["difficulty"] = difficulty_of(rows, features, scenes.sweep.seed)
     write_about(folder, about)
     write_whole(folder / CARD, card_text(scenes, about, rows))
     write_sums(folder)

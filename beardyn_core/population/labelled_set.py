@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.optional import library
+from beardyn_core.population.difficulty import difficulty_line
 from beardyn_core.population.finalizing import verify
 from beardyn_core.population.folder import read_about
 from beardyn_core.population.signal_store import RUN, SIGNALS, zarr_library
@@ -57,12 +58,21 @@ class LabelledSet:
         return len(self.table)
 
     def __repr__(self) -> str:
-        """Describe the set in two lines."""
+        """Describe the set in three lines."""
         parts = ", ".join(f"{name} {count}" for name, count in self.about["parts"].items())
         return (
             f"LabelledSet {self.about['sweep']}: {len(self)} runs, {self.about['failed']} failed\n"
-            f"  parts: {parts}; signals: {', '.join(self.signal_names)}"
+            f"  parts: {parts}; signals: {', '.join(self.signal_names)}\n  {difficulty_line(self.difficulty)}"
         )
+
+    @property
+    def difficulty(self) -> dict[str, Any] | None:
+        """What the shipped monitor finds in the set, and how far apart its conditions are.
+
+        See `population.difficulty.difficulty_of`; ``None`` of one condition, or of an earlier version.
+        """
+        found: dict[str, Any] | None = self.about.get("difficulty")
+        return found
 
     @cached_property
     def table(self) -> Any:

@@ -20,14 +20,6 @@ from beardyn_core.population.features import NAMES
 from beardyn_core.population.labelled_set import TEST, TRAIN, LabelledSet
 
 WIDTH = "fault_width_m"
-# Levels against 1 m/s^2 and the place of the band depend on where the sensor sits and what machine it is: a
-# learner that uses them learns the machine. What is left compares a signal with itself.
-TRANSFERABLE = (
-    *("score_cup", "score_cone", "score_roller", "score", "threshold_margin", "lead"),
-    *("strongest_level", "strongest_order", "kurtosis", "crest"),
-    *("band_score_cup", "band_score_cone", "band_score_roller"),
-    *("band_strongest_level", "band_strongest_order", "band_kurtosis"),
-)
 _TREES = 300
 
 

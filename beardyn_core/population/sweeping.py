@@ -17,7 +17,7 @@ from beardyn_core.experiments.loop import Report, run_plan
 from beardyn_core.experiments.plan import Plan
 from beardyn_core.population.batch import FAILED, Made, checked_batch, run_batch
 from beardyn_core.population.draw import Row, rows_of
-from beardyn_core.population.features import NAMES
+from beardyn_core.population.features import NAMES, VERDICT
 from beardyn_core.population.finalizing import close_set
 from beardyn_core.population.folder import SetStore, begin, folder_of_set_problems
 from beardyn_core.population.sweep_scenes import CHECKED_HERE, SweepScenes
@@ -36,6 +36,7 @@ class Swept:
     failed: A[int, "runs among them that left the model's validity"]
     here: A[int, "runs of this go"]
     seconds: A[float, "of this go, [s]"]
+    difficulty: A[dict[str, Any] | None, "see `population.difficulty.difficulty_of`"] = None
 
     @property
     def complete(self) -> bool:
@@ -98,7 +99,8 @@ def conduct(
             close_set(folder, scenes, about, {int(key): made for key, made in done.items()}, cluster)
     failed = sum(map(plan.has_failed, done.values()))
     here = len(done) - len(plan.kept)
-    return Swept(folder, len(rows), len(done), failed, here, time.monotonic() - begun)
+    took = time.monotonic() - begun
+    return Swept(folder, len(rows), len(done), failed, here, took, about.get("difficulty"))
 
 
 def plan_of(scenes: SweepScenes, rows: Sequence[Row]) -> Plan[Row, Any]:
@@ -138,4 +140,5 @@ def _give_up(row: Row, killed: int) -> Made:
         "a crash; it was not tried again"
     )
     labels = {"run": row.run, "status": FAILED, "reason": reason, "bearing_id": "", **row.drawn}
-    return Made(row.run, labels, dict.fromkeys(NAMES, float("nan")), {}, 0.0)
+    features = {**dict.fromkeys(NAMES, float("nan")), VERDICT: ""}
+    return Made(row.run, labels, features, {}, 0.0)

@@ -19,6 +19,7 @@ from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.sensors.block import CONTACT_KINDS, LARGEST, WATCHED
 
 if TYPE_CHECKING:
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.record.messages import Diagnostic
 
 Diagnostics = tuple[tuple[int, "tuple[Diagnostic, ...]"], ...]
@@ -120,12 +121,35 @@ class Contacts(Timed):
     # shape [snapshot, row, roller, kind], largest load in any step since the snapshot before, [N]; NaN of
     # pockets, whose loads are not watched, and in recordings of earlier versions
     largest: Float
+    bearing: A[RollerBearing | None, "whose contacts they are; ``None`` where no scene names it"] = None
     kinds = CONTACT_KINDS
 
     @cached_property
     def load(self) -> Float:
         """Magnitude of the force, shape [snapshot, row, roller, kind], [N]."""
         return np.asarray(np.linalg.norm(self.force, axis=-1), np.float64)
+
+    @cached_property
+    def pressure(self) -> Float:
+        """Largest Hertz pressure of each contact under `load`, shape [snapshot, row, roller, kind], [Pa].
+
+        See `physics.hertz_pressure.pressure_law`: the load of a raceway is spread evenly along the roller,
+        which tilt, profile and the edges of a spall exceed. NaN of pockets, and where no scene names the
+        bearing.
+        """
+        return self._pressure_under(self.load)
+
+    @cached_property
+    def largest_pressure(self) -> Float:
+        """`pressure` under the `largest` load in any step since the snapshot before, same shape, [Pa]."""
+        return self._pressure_under(self.largest)
+
+    def _pressure_under(self, load: Float) -> Float:
+        from beardyn_core.physics.hertz_pressure import NO_PRESSURE, pressure_law
+
+        bearing = self.bearing
+        laws = [NO_PRESSURE if bearing is None else pressure_law(bearing, kind) for kind in self.kinds]
+        return np.stack([law.of(load[..., k]) for k, law in enumerate(laws)], axis=-1)
 
     @property
     def touching(self) -> NDArray[np.bool_]:
@@ -138,7 +162,10 @@ class Contacts(Timed):
 
     def __repr__(self) -> str:
         """Give shape and rate."""
-        return f"Contacts{list(self.slip.shape)} (kinds {', '.join(self.kinds)}) at {self.rate:g} Hz"
+        return (
+            f"Contacts{list(self.slip.shape)} (kinds {', '.join(self.kinds)}) at {self.rate:g} Hz: "
+            "force [N], pressure [Pa], slip [m/s], film [m]"
+        )
 
 
 def contacts_of(time_ns: Int, numbers: Float) -> Contacts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from math import atan, pi, sin, tan
 from types import UnionType
 from typing import TYPE_CHECKING, Any, Union, get_args, get_origin, get_type_hints
@@ -105,6 +105,8 @@ class RunDescription:
         "A live graph records the topic instead",
     ] = None
     sensor_rates: A[tuple[float, ...], "of each of them, [Hz]"] = ()
+    # of a run in memory; in a file it stands in `scene_text`
+    bearing: Bearing | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if not self.sensor_rates:  # all at the usual one, as every recording before there was another
@@ -138,6 +140,7 @@ class RunDescription:
             truth=truth,
             load=load,
             sensor_rates=tuple(sensor.rate for sensor in scene.sensors),
+            bearing=scene.bearing,
         )
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -18,6 +19,7 @@ from beardyn_core.record.topics import NAMESPACE, vibration_topic
 from beardyn_core.sensors.labels import flat_labels, load_labels
 
 if TYPE_CHECKING:
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.record.block_source import BlockSource
     from beardyn_core.record.description import RunDescription
     from beardyn_core.record.message_source import MessageSource
@@ -199,7 +201,23 @@ class Run:
     @cached_property
     def contacts(self) -> arrays.Contacts:
         """Contacts of every roller at 200 Hz."""
-        return self._take(self._source.contacts)
+        return replace(self._take(self._source.contacts), bearing=self.bearing)
+
+    @cached_property
+    def bearing(self) -> RollerBearing | None:
+        """Bearing of the scene; ``None`` where no scene is known, or its text is of another program."""
+        if self.description is not None and self.description.bearing is not None:
+            return self.description.bearing
+        if not self.scene_text:
+            return None
+        from beardyn_core.config.nouns import bearing_from_mapping
+        from beardyn_core.config.yaml_text import read_mapping
+
+        try:
+            keys = read_mapping(self.scene_text, self.label).get("bearing")
+            return bearing_from_mapping(keys, self.label) if isinstance(keys, dict) else None
+        except InputError:
+            return None
 
     @cached_property
     def load(self) -> arrays.Load:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.physics.bodies.losses import LOSS_NAMES
 from beardyn_core.record.encoding import loss_key
@@ -65,7 +66,17 @@ def summary_of(run: Run) -> RunSummary:
         life=_life(run),
         faults=tuple(each.described() for each in (*description.defects, *waves)),
         temperatures=tuple(zip(warm.components, warm.values[-1].tolist(), strict=True)) if len(warm) else (),
+        shaft_speed=means.shaft_speed,
+        largest_roller_load=_largest(run.contacts.largest, 1),
+        largest_pressure=_largest(run.contacts.largest_pressure, 2),
+        wheel_diameter=truth.get("wheel_diameter_m"),
     )
+
+
+def _largest(values: Float, raceways: int) -> float:
+    """Find the largest number of the cup, or of cup and cone; NaN where none is known."""
+    seen = values[..., :raceways]
+    return float(np.nanmax(seen)) if np.isfinite(seen).any() else float("nan")
 
 
 def chosen_for(truth: Mapping[str, Any]) -> str | None:

@@ -42,6 +42,8 @@ _PARTS: dict[str, dict[str, tuple[tuple[str, ...], str]]] = {
         "slip": (_CONTACT, "m/s"),
         "film": (_CONTACT, "m"),
         "largest": (_CONTACT, "N"),
+        "pressure": (_CONTACT, "Pa"),
+        "largest_pressure": (_CONTACT, "Pa"),
     },
     "load": {
         "wrench": (("component",), "N, N m"),
@@ -171,7 +173,8 @@ def _contact_columns(contacts: Any) -> dict[str, NDArray[Any]]:
     }
     columns |= {axis: contacts.point[here][:, k] for k, axis in enumerate(_AXES)}
     columns |= {f"f{axis}": contacts.force[here][:, k] for k, axis in enumerate(_AXES)}
-    return columns | {name: getattr(contacts, name)[here] for name in ("slip", "film", "largest")}
+    names = ("slip", "film", "largest", "pressure", "largest_pressure")
+    return columns | {name: getattr(contacts, name)[here] for name in names}
 
 
 def to_pandas(run: Run, signal: str = VIBRATION) -> Any:

@@ -26,6 +26,7 @@ from beardyn_core.scene.waviness import Waviness
 # what a user can ask of a run; see `choice`
 QUANTITIES = ("force", "deflection", "roller_load", "torque", "vibration", "cage_speed")
 USUAL_QUANTITIES = QUANTITIES[:-1]
+SNAPSHOT_RATES = tuple(200.0 * 2**k for k in range(7))  # [Hz]
 EFFECTS = tuple(field.name for field in fields(EffectSet))
 
 
@@ -46,6 +47,18 @@ class Numerics:
         "explicit takes the contact forces of the beginning of a step: for references only, in "
         "tier full; friction hides an oscillation in it with steps above 0.5 us (dry) to 5 us (films)",
     ] = "implicit"
+
+
+def snapshots_do_not_fit(rate: float, steps_per_sample: float) -> str | None:
+    """Say why bodies and contacts cannot be kept at a rate [Hz]; ``None`` where they can."""
+    # a snapshot is every second one of the instants that a block of steps is divided into
+    fitting = [each for each in SNAPSHOT_RATES if each <= SNAPSHOT_RATES[-1] * min(steps_per_sample, 1.0)]
+    if rate in fitting:
+        return None
+    return (
+        f"snapshot_rate_Hz is {rate:g}; with steps_per_sample {steps_per_sample:g} allowed are "
+        f"{', '.join(f'{each:g}' for each in fitting)}"
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,6 +119,12 @@ class Scene:
     numerics: A[Numerics, "discretisation of the run, or auto"] = Numerics()
     duration: A[float, At("s", gt=0.0, le=86400.0), "simulated time"] = 2.0
     seed: A[int, SEED, "of irregularity, background and sensor noise"] = 1
+    snapshot_rate: A[
+        float,
+        At("Hz", ge=SNAPSHOT_RATES[0], le=SNAPSHOT_RATES[-1]),
+        "how often bodies and contacts are kept: 200, or twice that, four times, up to 12 800; their size in "
+        "memory and in a recording goes with it. At 200 `largest` of a contact has the loads in between",
+    ] = SNAPSHOT_RATES[0]
     # what has been chosen automatically, each with its reason
     chosen: A[tuple[str, ...], INTERNAL] = field(default=(), compare=False)
     # what it was chosen from, so that a changed scene is chosen for anew

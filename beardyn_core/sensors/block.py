@@ -77,6 +77,9 @@ class Pictures(Protocol):
     def contacts(self) -> Float:
         """See `Block.contacts`."""
 
+    def largest_loads(self) -> Float:
+        """See `Block.largest_loads`."""
+
 
 @dataclass(frozen=True)
 class Vibration:
@@ -170,6 +173,11 @@ class Block:
     def box_temperature(self) -> float | None:
         """Temperature of the axlebox at the end of the block, without the thermal effect none, [K]."""
         return None if self.temperature is None else float(self.temperature[BOX_NODE])
+
+    @property
+    def largest_loads(self) -> Float:
+        """Largest loads of any roller with cup, cone and rib in any step of the block, shape [3], [N]."""
+        return self.pictures.largest_loads()
 
     # two threads may both come to what follows: they work out the same
 

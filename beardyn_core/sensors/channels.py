@@ -25,7 +25,7 @@ from beardyn_core.physics.tiers.kinematics import (
     write_instants,
 )
 from beardyn_core.physics.tiers.parameters import Parameters
-from beardyn_core.scene.scene import Scene
+from beardyn_core.scene.scene import SNAPSHOT_RATES, Scene
 from beardyn_core.scene.sensor import RATES
 from beardyn_core.sensors.block import Block, EnergyAudit
 from beardyn_core.sensors.resampling import DELAY, AnyDecimator, Decimator, Interpolator, decimator, delay
@@ -52,6 +52,7 @@ class Observer:
 
     def __init__(self, scene: Scene, arrangement: Arrangement, parameters: Parameters, signal: Float) -> None:
         self._count = arrangement.roller_count
+        self._finer = round(scene.snapshot_rate / SNAPSHOT_RATES[0])  # instants for each trend
         self._roller = parameters.roller
         self._cage_place = 0.5 * scene.bearing.row_spacing
         # a step's signals are those of its end: sample 0 stands at the end of the step before the first
@@ -125,11 +126,17 @@ class Observer:
             Running number of the block, the first one of several.
         signals : float64 array, shape [step, SIGNAL_CHANNELS]
         loads : float64 array, shape [step + 1, 10]
-        rollers, bodies : float64 arrays, shape [trend, ...]
-            Copies of the state at 400 Hz, or for the rollers what makes them; the block keeps them.
+        rollers, bodies : float64 arrays, shape [instant, ...]
+            Copies of the state at twice the rate of the snapshots, or for the rollers what makes them; the
+            block keeps them.
         temperature : float64 array or None, shape [node]
             [K].
         """
+        pictures = self._pictures(rollers, bodies)
+        slow = slice(self._finer - 1, None, self._finer)
+        rollers, bodies = rollers[slow], np.ascontiguousarray(bodies[slow])
+        if isinstance(rollers, np.ndarray):
+            rollers = np.ascontiguousarray(rollers)
         waves = self._waveforms.push(signals)
         readings = self._sensors.read(index, waves, signals, self._motion(bodies), loads[:, 6])
         waves = self._held_back.push(waves)
@@ -147,11 +154,9 @@ class Observer:
         instants = self._remember(index + blocks, rollers, bodies, loads, first_kept, len(trends))
         waveform_sample = first_wave + keep_wave.start
         wave_index = np.arange(waveform_sample, first_wave + len(waves), dtype=np.int64)
-        shown = slice(TRENDS_PER_SNAPSHOT - 1, None, TRENDS_PER_SNAPSHOT)
-        first_snapshot = index * TRENDS_PER_BLOCK // TRENDS_PER_SNAPSHOT + 1
-        snapshots = np.arange(
-            first_snapshot, first_snapshot + len(bodies) // TRENDS_PER_SNAPSHOT, dtype=np.int64
-        )
+        per_trend = self._finer / TRENDS_PER_SNAPSHOT
+        first_snapshot = round(index * TRENDS_PER_BLOCK * per_trend) + 1
+        snapshots = np.arange(first_snapshot, first_snapshot + round(len(bodies) * per_trend), dtype=np.int64)
         angles = INSTANT_ROLLERS + 2 * self._count
         return Block(
             index=index,
@@ -174,13 +179,18 @@ class Observer:
             roller_angle=instants[:, INSTANT_ROLLERS:angles].reshape(-1, 2, self._count),
             roller_speed=instants[:, angles:].reshape(-1, 2, self._count),
             snapshot_sample=first_snapshot,
-            snapshot_time_ns=snapshots * (TRENDS_PER_SNAPSHOT * _TREND_NS),
-            pictures=Snapshots(rollers[shown], bodies[shown], self._count, self._roller, self._cage_place),
+            snapshot_time_ns=snapshots * round(_TREND_NS / per_trend),
+            pictures=pictures,
             status=status,
             audit=audit,
             wall_s=wall_s,
             temperature=temperature,
         )
+
+    def _pictures(self, rollers: Float | Instants, bodies: Float) -> Snapshots:
+        """Take the instants of the snapshots."""
+        shown = slice(TRENDS_PER_SNAPSHOT - 1, None, TRENDS_PER_SNAPSHOT)
+        return Snapshots(rollers[shown], bodies[shown], self._count, self._roller, self._cage_place)
 
     def _trends(self, signals: Float, waves: Float, reading: Float) -> Float:
         """Gather force, moment, specific force and torque at 400 Hz, shape [trend, 10]."""

@@ -131,6 +131,12 @@ class RunSummary:
     clipped: tuple[tuple[str, int, int], ...] = ()
     stages: A[tuple[StageTime, ...], "where the wall time went, recording and drawing included"] = ()
     chosen: A[str, "what the effects were chosen for, its errors and what it leaves out; '' where named"] = ""
+    shaft_speed: A[float, "mean, NaN where nothing is averaged, [rad/s]"] = math.nan
+    # of any roller with the cup in any step, [N]
+    largest_roller_load: A[float, "NaN in recordings of earlier versions"] = math.nan
+    # of any roller with a raceway, its load spread evenly along it, [Pa]
+    largest_pressure: A[float, "see `physics.hertz_pressure`"] = math.nan
+    wheel_diameter: A[float | None, "of the wheel on the axle; ``None`` where the scene has none, [m]"] = None
 
     def __repr__(self) -> str:
         """Give scene, length, torque, force and end of the run in one line."""

@@ -16,12 +16,14 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.base.interrupts import held_back, whole
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.physics.hertz_pressure import largest_pressure
 from beardyn_core.physics.thermal import NODES
 from beardyn_core.physics.tiers.status import describe
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.run_summary import life_of
 from beardyn_core.record.sinks import MemorySink, Sink
 from beardyn_core.run import Simulation, start
+from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import Accelerometer
 from beardyn_core.sensors.block import Block
@@ -166,6 +168,7 @@ class Trend:
         self._residual: float | None = None
         self._lost: list[tuple[float, ...]] = []  # block start [s], energy lost by source [J]
         self._temperature: Float | None = None
+        self._largest = np.zeros(3)  # loads of a roller with cup, cone and rib, [N]
         self.warnings = 0
 
     def add(self, block: Block) -> None:
@@ -175,6 +178,7 @@ class Trend:
         self.end_ns = block.end_ns
         self.warnings |= block.status
         self._temperature = block.temperature
+        self._largest = np.maximum(self._largest, block.largest_loads)
         for counts, sensor, vibration in zip(self._clipped, self._sensors, block.vibration, strict=True):
             counts[0] += int((np.abs(vibration.acceleration) >= sensor.range).any(axis=1).sum())
             counts[1] += len(vibration.acceleration)
@@ -218,6 +222,12 @@ class Trend:
             temperatures=()
             if self._temperature is None
             else tuple(zip(NODES, self._temperature.tolist(), strict=True)),
+            shaft_speed=means.shaft_speed,
+            largest_roller_load=float(self._largest[0]),
+            largest_pressure=largest_pressure(scene.bearing, *self._largest[:2].tolist()),
+            wheel_diameter=scene.operation.wheel_diameter
+            if isinstance(scene.operation, QuarterVehicleOperation)
+            else None,
         )
 
     def _budget(self, times: Float, shaft_speed: Float, first: float) -> TorqueBudget | None:

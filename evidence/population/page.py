@@ -16,9 +16,9 @@ from typing import Any
 
 from beardyn_core.base.outputs import write_whole
 from beardyn_core.config.automatic import AUTO
-from beardyn_core.population.features import NAMES
+from beardyn_core.population.features import NAMES, TRANSFERABLE
 from beardyn_core.population.labelled_set import TRAIN, LabelledSet
-from beardyn_core.population.learner import TRANSFERABLE, Learner
+from beardyn_core.population.learner import Learner
 from beardyn_core.study.table import Column, Table
 from evidence.pages import PICTURES, REPORTS, render, save_small
 from evidence.population import scale

@@ -108,7 +108,7 @@ def test_it_is_told_with_its_reason() -> None:
     said = "the third octave at 1 kHz ends at 1.122 kHz, and 3.2 kHz measures to 1.28 kHz"
     assert f"rate 3.2 kHz: {said}" in scene.chosen
     found = explain_scene("smooth_run", tier="lumped", effects="auto", vibration_to=ASKED)
-    assert "rate                 3.2 kHz" in text(found)
+    assert "rate                 3.2 kHz" in text(found, verbose=True)
     assert found.current.to_json()["rate_Hz"] == 3200.0
 
 

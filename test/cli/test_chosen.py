@@ -27,5 +27,5 @@ def test_summary_and_report_say_what_effects_were_chosen_for(
     summary = desk_run.run(scene, [McapSink(recording)])
     assert summary.chosen == (SENTENCE if chosen else "")
     assert main(["report", str(recording)]) == 0
-    for told in (text(summary, recording), capsys.readouterr().out):
+    for told in (text(summary, recording, verbose=True), capsys.readouterr().out):
         assert (SENTENCE in told) == bool(chosen)

@@ -48,7 +48,7 @@ def test_every_name_is_there_documented_and_offered_for_completion() -> None:
         assert name in dir(bd)
         found = getattr(bd, name)
         assert inspect.getdoc(found), name
-        assert callable(found)
+        assert callable(found) or inspect.ismodule(found)
     with pytest.raises(AttributeError, match="no attribute 'simulat'"):
         _ = bd.simulat  # type: ignore[attr-defined]
 
@@ -211,7 +211,7 @@ def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
     sources = dict(made.sources)
     assert sources["bore"].startswith("derived")
     assert sources["rib_contact_height"].startswith("assumed")
-    with pytest.raises(bd.InputError, match="contact_angle_deg not given"):
+    with pytest.raises(bd.InputError, match="contact_angle_deg is missing"):
         bd.bearing(rollers=17, pitch_diameter_mm=185, roller_diameter_mm=26.7, roller_length_mm=52)
     with pytest.raises(bd.InputError, match="roller_diameter_mm is -1"):
         bd.bearing(

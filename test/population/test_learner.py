@@ -13,10 +13,10 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.cli import main as command
-from beardyn_core.population.features import NAMES, UNITS, features_of
+from beardyn_core.population.features import NAMES, TRANSFERABLE, UNITS, features_of
 from beardyn_core.population.folder import ABOUT
 from beardyn_core.population.labelled_set import LabelledSet
-from beardyn_core.population.learner import TRANSFERABLE, Learner
+from beardyn_core.population.learner import Learner
 from beardyn_core.population.table import FEATURES, RUNS, write_table
 from test.cli.json_page import check
 

@@ -78,6 +78,10 @@ class Taken:
     def contacts(self) -> np.ndarray:
         return self._parts[2]
 
+    def largest_loads(self) -> np.ndarray:
+        found: np.ndarray = self._parts[2][..., :3, -1].max(axis=(0, 1, 2))
+        return found
+
 
 class SyntheticRun:
     """Blocks of pure rolling at a constant shaft speed.

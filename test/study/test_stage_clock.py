@@ -114,7 +114,7 @@ def test_summary_and_json_show_the_stages() -> None:
     assert list(stages) == [name for name in STAGES if name in stages]
     assert SINKS not in stages
     assert sum(stages.values()) == pytest.approx(sum(each.seconds for each in summary.stages))
-    assert "ms per simulated s" in text(summary, None)
+    assert "ms per simulated s" in text(summary, None, verbose=True)
 
 
 def test_waiting_between_blocks_belongs_to_no_stage() -> None:

@@ -93,12 +93,12 @@ def test_text_and_json_of_the_command_show_the_budget(
     lossy: tuple[desk_run.RunSummary, Report, Path],
 ) -> None:
     summary = lossy[0]
-    assert "\nrolling resistance " in text(summary, None)
+    assert "\nrolling resistance " in text(summary, None, verbose=True)
     content = json.loads(json_text("simulate", json_object(summary, None)), parse_constant=pytest.fail)
     assert set(content["torque_budget"]["power_W"]) == {*LOSS_NAMES, NUMERICAL}
 
 
 def test_without_audit_there_is_no_budget(lossy: tuple[desk_run.RunSummary, Report, Path]) -> None:
     silent = replace(lossy[0], budget=None)
-    assert "rolling resistance " not in text(silent, None)
+    assert "rolling resistance " not in text(silent, None, verbose=True)
     assert json_object(silent, None)["torque_budget"] is None

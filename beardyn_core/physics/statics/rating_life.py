@@ -75,6 +75,10 @@ class RatingLife:
     classes: int
     rings: str = "rigid"
 
+    def distance(self, wheel_diameter: float | None) -> float | None:
+        """Compute the way of a wheel in the life ``reference_modified``, [m]; ``None`` without a wheel."""
+        return None if wheel_diameter is None else math.pi * wheel_diameter * self.reference_modified
+
 
 def scene_life(
     scene: Scene, load: LoadHistory, contamination: float = USUAL_CONTAMINATION

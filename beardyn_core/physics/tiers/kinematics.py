@@ -31,6 +31,9 @@ class Instants(Protocol):
     def orbits(self) -> Float:
         """Return the same state, with no more of it than `write_instants` needs."""
 
+    def hardest(self) -> Instants:
+        """Take the instant with the largest load of a roller since the snapshot before."""
+
 
 class Snapshots:
     """Bodies and contacts at some instants, computed when first used.
@@ -74,6 +77,12 @@ class Snapshots:
         axial, transverse = self._roller.axial_inertia, self._roller.transverse_inertia
         _twists(self._rollers, self._bodies, self._count, axial, transverse, out)
         return out
+
+    def largest_loads(self) -> Float:
+        """Find the largest loads of any roller with cup, cone and rib since the first one began, [3], [N]."""
+        kept = self._kept if isinstance(self._kept, np.ndarray) else self._kept.hardest().whole()
+        squares = kept[:, :, layout.LARGEST : layout.LARGEST + layout.LARGEST_FIELDS]
+        return np.asarray(np.sqrt(squares.max(axis=(0, 1, 3))))
 
     def contacts(self) -> Float:
         """Compute the `CONTACT_FIELDS` of each of the four contacts, shape [time, row, roller, kind, 9]."""

@@ -119,6 +119,12 @@ class SpringTrend:
     def __getitem__(self, times: slice) -> SpringTrend:
         return SpringTrend(self._lanes, self._trends[times], self._parameters)
 
+    def hardest(self) -> SpringTrend:
+        """Take the instant with the largest load of a roller since the snapshot before."""
+        largest = self._trends[:, (self._trends.shape[1] + TREND_EXTRAS) // 2 :].max(axis=(1, 2, 3))
+        time = int(largest.argmax())
+        return self[time : time + 1]
+
     def _empty(self, fields: int) -> NDArray[np.float64]:
         times, rows, _one, lane = self._trends.shape
         return np.zeros((times, (rows - TREND_EXTRAS) // 2, fields, lane))
@@ -132,7 +138,7 @@ class SpringTrend:
     def orbits(self) -> NDArray[np.float64]:
         """Make angle, and speed as if at the radius 1: the first fields, shape [time, block, field, lane]."""
         rollers = self._empty(_ORBIT_FIELDS)
-        _orbits(self._trends, self._parameters.base.rollers, rollers)
+        _orbits(np.ascontiguousarray(self._trends), self._parameters.base.rollers, rollers)
         return rollers
 
 
