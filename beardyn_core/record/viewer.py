@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 SOFTWARE_DRIVERS = ("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", "/usr/share/vulkan/icd.d/lvp_icd.json")
 PICTURE_SECONDS = 120.0
 START_SECONDS = 30.0
-SETTLING_SECONDS = 1.0  # until views that the new time changes are drawn
+SETTLING_SECONDS = 5.0  # until the new time is drawn and the viewer's own notices are gone
 TIMELINE = "time"  # of a recording
 THIS_MACHINE = ("--bind", "127.0.0.1")  # else the viewer takes streams from the whole network
 
