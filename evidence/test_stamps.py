@@ -13,7 +13,6 @@ from PIL import Image
 
 from evidence.pages import save_small
 from evidence.stamps import (
-    PICTURES,
     ROOT,
     SOME_GO_THROUGH,
     changed_rooms,
@@ -22,9 +21,10 @@ from evidence.stamps import (
     rooms_of,
     stamp,
     stamp_of,
+    stamped_pictures,
 )
 
-EVERY = sorted(PICTURES.rglob("*.png"))
+EVERY = stamped_pictures()
 
 
 @pytest.fixture
@@ -42,6 +42,26 @@ def test_every_picture_names_a_command_that_there_is() -> None:
         place = Path(*words[2].split(".")).with_suffix(".py") if words[1] == "-m" else Path(words[1])
         assert (ROOT / place).is_file(), path
         assert len(stamp_of(path).rooms) > 10, path
+
+
+def test_a_stamp_leaves_the_frames_of_a_gif_and_is_replaced_by_the_next(tmp_path: Path) -> None:
+    path = tmp_path / "moving.gif"
+    frames = [Image.new("P", (8, 8), number) for number in range(3)]
+    for frame in frames:
+        frame.putpalette([0, 0, 0, 255, 0, 0, 0, 255, 0])
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=100)
+    assert stamp_of(path) == ("", {})
+    before = path.read_bytes()
+    for command, rooms in (
+        ("python docs/one.py", {"rail": "a" * 300}),
+        ("python docs/two.py", {"rail": "b"}),
+    ):
+        stamp(path, command, rooms)
+        assert stamp_of(path) == (command, rooms)
+        assert path.read_bytes().startswith(before[:-1])
+    with Image.open(path) as moving:
+        assert getattr(moving, "n_frames", 1) == 3
+    assert len(path.read_bytes()) < len(before) + 100
 
 
 def test_a_picture_is_of_the_present_code_until_a_room_changes(picture: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Build wheel and sdist, try both in new environments: ``python release/try_release.py [PYTHON ...]``.
+"""Build site, wheel and sdist; try both packages anew: ``python release/try_release.py [PYTHON ...]``.
 
 PYTHON are interpreters to try them with, by default those of `SUPPORTED` that are here. Nothing of the
 working tree is on their paths.
@@ -12,6 +12,9 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+from pack_site import packed_site
 
 ROOT = Path(__file__).parents[1]
 DIST = ROOT / "dist"
@@ -71,6 +74,7 @@ def main(pythons: list[str]) -> None:
     """Build, then try each package with each interpreter."""
     for old in packages():
         old.unlink()
+    packed_site(DIST)
     call(sys.executable, "-m", "build", "--outdir", DIST, ROOT, folder=ROOT)
     for package in packages():
         for python in pythons or [each for each in SUPPORTED if is_here(each)]:

@@ -18,6 +18,7 @@ from beardyn_core.laboratory.rolling import PLACE, Rolling
 DPI = 100
 _ROLLER, _CUP, _CONE, _CAGE = "#DD8452", "#4C72B0", "#55A868", "#8172B3"
 _POINT = "#C44E52"
+_ONE_OVER_ANOTHER = ((4.0, "-"), (2.2, "--"), (1.2, ":"))  # widths and styles of curves that coincide
 _MM = 1e3
 
 
@@ -118,6 +119,7 @@ def _from_outside(axes: Axes, found: Findings) -> None:
         axes.plot(along, around, color=_CAGE, lw=2.5)
     _mark(axes, found, 2, ("C2.1", "C3.1", "C3.2", "C4.1", "C4.2"))
     axes.set(xlabel="along the roller axis [mm]", ylabel="around the bearing [mm]", aspect="equal")
+    axes.set_xlim(-1.3 * _MM * length, 1.3 * _MM * length)
     axes.set_title("seen from outside: cage pocket", fontsize=10)
     axes.set_ylim(-1.45 * top, 1.45 * top)
 
@@ -172,8 +174,9 @@ def sphere_figure(found: Findings) -> Figure:
     right.bar(places + width / 2, bounded_depths, width, color=_CUP, label="closed form with edges and rim")
     right.set_xticks(places, [f"{ratio:.2f}" for ratio in ratios])
     right.set(xlabel=ratio_label, ylabel="depth that makes a force on the part [µm]")
-    for axes in (left, right):
-        axes.legend(fontsize=8, frameon=False, loc="lower left")
+    right.set_ylim(0.0, 1.25 * max(*depths, *bounded_depths, 1e-9))
+    left.legend(fontsize=8, frameon=False, loc="lower left")
+    right.legend(fontsize=8, frameon=False, loc="upper right", ncols=2)
     figure.suptitle("A roller end on a given rib, pushed in by 10 µm", fontsize=11)
     return figure
 
@@ -181,12 +184,12 @@ def sphere_figure(found: Findings) -> Figure:
 def rolling_figure(found: Findings) -> Figure:
     """Draw coin and roller in the trough: where they are, how high, where the energy is."""
     figure = _figure(12.0, 4.4)
-    left, middle, right = figure.subplots(1, 3, width_ratios=(1.1, 1.0, 1.0))
+    left, middle, right = figure.subplots(1, 3, width_ratios=(1.5, 1.0, 1.0))
     coin, roller = found.rolling[0], found.rolling[-1]
     _positions(left, coin)
-    for run in found.rolling:
+    for run, (width, style) in zip(found.rolling, _ONE_OVER_ANOTHER, strict=False):
         label = f"{run.body.name.split(',')[0]}, v_r {run.trough.transition_speed * 1e3:g} mm/s"
-        middle.plot(run.time, _MM * run.height, lw=1.2, label=label)
+        middle.plot(run.time, _MM * run.height, lw=width, ls=style, label=label)
     middle.axhline(_MM * coin.height[0], color="0.6", lw=0.8, ls="--")
     middle.set(xlabel="time [s]", ylabel="height of the centre [mm]", ylim=(0.0, 1.35 * _MM * coin.height[0]))
     middle.legend(fontsize=8, frameon=False, loc="upper center")

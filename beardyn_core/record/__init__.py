@@ -38,6 +38,8 @@ published         what a twin says it has published, beside what is recorded
 run_summary       the summary of a recorded run
 reporting         what a recording holds, in words and as JSON
 envelope_spectrum envelope order spectrum of a whole recording
+load_colours      colour of a roller by its load, and of the parts
+view_title        title of a view, with faults in the other axleboxes
 meshes            triangle meshes of the bearing's parts from its recorded shape
 rerun_bearing     the bearing in 3-D: motion, loads, contact forces
 rerun_scale       scale of the colours, key of the arrows, round axes

@@ -11,18 +11,16 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.record import meshes
 from beardyn_core.record.description import RunDescription
+from beardyn_core.record.load_colours import CONE_COLOUR, CUP_COLOUR, SPALL_COLOUR, load_colours
 from beardyn_core.record.meshes import Mesh
 from beardyn_core.record.run import Run
+from beardyn_core.record.viewer import TIMELINE
 from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.patch import Patch
 
-TIMELINE = "time"
 SNAPSHOT_NS = 5_000_000  # at 200 Hz, after which the first one is taken
 ROOT = "bearing"
-CUP_COLOUR = (150, 164, 184)
-CONE_COLOUR = (122, 136, 160)
 CAGE_COLOUR = (64, 150, 140)
-SPALL_COLOUR = (255, 40, 90)
 ARROW_COLOURS = {
     "cup": (255, 196, 64),
     "cone": (96, 190, 255),
@@ -33,20 +31,6 @@ RESULTANT_COLOUR = (255, 60, 255)
 LONGEST_ARROW = 0.042
 LONGEST_BAR = 0.055
 ZONE_RADIUS = 1.08
-
-# Colour of a roller over its load, from nothing to the largest load of the run.
-LOAD_COLOURS = np.array(
-    [(176, 184, 196), (120, 190, 200), (130, 210, 120), (245, 215, 60), (250, 140, 40), (225, 40, 35)], float
-)
-
-
-def load_colours(load: Float, largest: float) -> NDArray[np.uint8]:
-    """Choose the colour of each load, shape [..., 3]; loads in [N]."""
-    place = np.clip(load / max(largest, 1e-9), 0.0, 1.0) * (len(LOAD_COLOURS) - 1)
-    stations = np.arange(len(LOAD_COLOURS))
-    return np.stack([np.interp(place, stations, LOAD_COLOURS[:, i]) for i in range(3)], axis=-1).astype(
-        np.uint8
-    )
 
 
 def log_parts(stream: rr.RecordingStream, run: RunDescription) -> None:

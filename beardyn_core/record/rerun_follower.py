@@ -13,7 +13,8 @@ import rerun.blueprint as rrb
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.record.arrays import Told
-from beardyn_core.record.rerun_bearing import TIMELINE, send
+from beardyn_core.record.rerun_bearing import send
+from beardyn_core.record.viewer import TIMELINE
 
 ESTIMATES = "follower/estimates"
 RESIDUAL = "follower/residual"

@@ -11,8 +11,10 @@ import rerun.blueprint as rrb
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.record.rerun_bearing import TIMELINE, load_colours, send
+from beardyn_core.record.load_colours import load_colours
+from beardyn_core.record.rerun_bearing import send
 from beardyn_core.record.rerun_view import BACKGROUND, rerun_file
+from beardyn_core.record.viewer import TIMELINE
 from beardyn_core.structure.build import Built
 
 SHOWN = 8

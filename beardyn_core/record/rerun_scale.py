@@ -9,7 +9,8 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.record.rerun_bearing import ARROW_COLOURS, RESULTANT_COLOUR, load_colours
+from beardyn_core.record.load_colours import load_colours
+from beardyn_core.record.rerun_bearing import ARROW_COLOURS, RESULTANT_COLOUR
 
 ENTITY = "scale"
 NAME = "load of a roller on the cup, kN; arrows: forces"

@@ -17,13 +17,14 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import as_a_whole
 from beardyn_core.record.description import RunDescription
 from beardyn_core.record.mcap_writing import COMPLETE
-from beardyn_core.record.rerun_bearing import ROOT, TIMELINE, log_loads, log_motion, log_parts, roller_loads
+from beardyn_core.record.rerun_bearing import ROOT, log_loads, log_motion, log_parts, roller_loads
 from beardyn_core.record.rerun_follower import follower_view, log_follower, quantities_of
 from beardyn_core.record.rerun_plots import bounds, log_plots, ranges_of
 from beardyn_core.record.rerun_scale import log_scale, scale_view
 from beardyn_core.record.rerun_values import DRAWN, log_values, values_view
 from beardyn_core.record.run import Run
-from beardyn_core.record.viewer import require_display, waiting_window, web_viewer
+from beardyn_core.record.view_title import faults_elsewhere, view_title
+from beardyn_core.record.viewer import TIMELINE, require_display, waiting_window, web_viewer
 
 APPLICATION = "beardyn"
 _SHOWN = 200  # of a line of the scene
@@ -135,20 +136,13 @@ def log_run(stream: rr.RecordingStream, run: Run) -> None:
     stream.log("about", rr.TextDocument(about(run), media_type=rr.MediaType.MARKDOWN), static=True)
 
 
-def title(run: RunDescription, box: str = "") -> str:
-    """Say in a line what is shown; ``box`` names the axlebox where a recording has several."""
-    faults = ", ".join(each.described() for each in run.defects) or "no fault"
-    where = f", axlebox {box}" if box else ""
-    return f"{run.scene}{where}: bearing {run.shape.name}, {faults}"
-
-
 def blueprint(
     run: RunDescription | None,
     span: tuple[float, float] | None = None,
     follow: bool = False,
     ranges: Mapping[str, tuple[float, float]] | None = None,
     estimates: tuple[str, ...] = (),
-    box: str = "",
+    name: str = "",
     monitored: bool = False,
 ) -> rrb.Blueprint:
     """Lay out the view: a page of the bearing and its curves, one of a monitor's numbers, one of a follower.
@@ -156,11 +150,11 @@ def blueprint(
     ``run`` is `None` where the bearing is not known. The curves show a window of time [s], by default all
     there is, and the newest data of a running twin with ``follow``; else the time stands at the beginning.
     ``ranges`` are those of the curves' axes, by entity, ``estimates`` the keys of what a follower says,
-    ``box`` the name of the axlebox where there are several; ``monitored`` adds the numbers of a monitor.
+    ``name`` the title of the view of the bearing; ``monitored`` adds the numbers of a monitor.
     """
     whole = None if span is None else _window(rr.TimeRangeBoundary.absolute, *span)
     close = _window(rr.TimeRangeBoundary.cursor_relative, *(LIVE_WINDOW if follow else CLOSE_WINDOW))
-    pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {}, box)]
+    pages = [] if run is None else [_bearing_view(run, whole, close, ranges or {}, name or view_title(run))]
     pages += [values_view()] if monitored else []
     pages += [follower_view(estimates)] if estimates else []
     play: dict[str, Any] = {"play_state": "following"}
@@ -180,7 +174,7 @@ def _bearing_view(
     whole: rrb.archetypes.TimeAxis | None,
     close: rrb.archetypes.TimeAxis,
     ranges: Mapping[str, tuple[float, float]],
-    box: str,
+    title: str,
 ) -> rrb.Container:
     """Lay out the bearing with the scale of its colours on the left, curves on the right."""
     outer_diameter, sensors = run.shape.outer_diameter, run.sensor_names
@@ -202,7 +196,7 @@ def _bearing_view(
     bearing = rrb.Spatial3DView(
         origin="/",
         contents=[f"{ROOT}/**"],
-        name=title(run, box),
+        name=title,
         background=BACKGROUND,
         line_grid=False,
         eye_controls=eye,
@@ -243,7 +237,7 @@ def run_blueprint(run: Run) -> rrb.Blueprint:
         span,
         ranges=ranges_of(run),
         estimates=quantities_of(run.followed),
-        box=run.box,
+        name=view_title(run.described(), run.box, faults_elsewhere(run)),
         monitored=any(each.name in run.plot_values for each in DRAWN),
     )
 
@@ -284,7 +278,9 @@ def about(run: Run) -> str:
     if run.status not in (None, COMPLETE):
         lines.append(f"**The run ended:** {run.status}")
     faults = [f"- {defect.described()}" for defect in description.defects]
-    lines += ["## Faults", *(faults or ["none"]), "## Fault frequencies per shaft revolution"]
+    elsewhere = [f"- in axlebox {box}: {fault}" for box, fault in faults_elsewhere(run).items()]
+    lines += ["## Faults", *(faults or ["none in this bearing" if elsewhere else "none"]), *elsewhere]
+    lines += ["## Fault frequencies per shaft revolution"]
     lines += [f"- {name} {value:.4f}" for name, value in description.shape.fault_frequencies.items()]
     results = [s.message for _, statuses in run.results[-1:] for s in statuses]
     if results:

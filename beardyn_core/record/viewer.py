@@ -14,13 +14,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 from beardyn_core.base.errors import InputError
 
+if TYPE_CHECKING:
+    from rerun.experimental import ViewerClient
+
 SOFTWARE_DRIVERS = ("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json", "/usr/share/vulkan/icd.d/lvp_icd.json")
 PICTURE_SECONDS = 120.0
 START_SECONDS = 30.0
+SETTLING_SECONDS = 5.0  # until the new time is drawn and the viewer's own notices are gone
+TIMELINE = "time"  # of a recording
 THIS_MACHINE = ("--bind", "127.0.0.1")  # else the viewer takes streams from the whole network
 
 
@@ -67,10 +73,44 @@ def require_display() -> None:
         )
 
 
-def open_window(recording: Path) -> int:
-    """Open a recording in a window, wait until it is closed, return the viewer's exit code."""
+def open_window(recording: Path, at: float | None = None) -> int:
+    """Open a recording in a window, wait until it is closed, return the viewer's exit code.
+
+    Parameters
+    ----------
+    recording : Path
+        An ``.rrd`` file.
+    at : float, optional
+        Time that is shown first, [s]; by default the beginning.
+    """
     require_display()
-    return subprocess.run([viewer_executable(), str(recording), *THIS_MACHINE], check=False).returncode
+    port = _free_port()
+    command = [viewer_executable(), str(recording), "--port", str(port), *THIS_MACHINE]
+    process = subprocess.Popen(command)
+    try:
+        if at is not None:
+            _wait_for(process, port)
+            _set_time(port, at)
+        return process.wait()
+    except BaseException:
+        process.terminate()
+        raise
+
+
+def _set_time(port: int, at: float) -> ViewerClient:
+    """Move the time of a viewer as soon as its recording is there, and pause."""
+    from rerun.experimental import ViewerClient
+
+    client = ViewerClient.connect(f"rerun+http://127.0.0.1:{port}/proxy")
+    deadline = time.monotonic() + START_SECONDS
+    while time.monotonic() < deadline:
+        state = client.get_state()
+        ranges = [each for one in state.recordings for each in one.timelines if each.name == TIMELINE]
+        if ranges and not state.loading and any((each.end or 0) >= 1e9 * at for each in ranges):
+            client.set_time(TIMELINE, duration=at, play_state="paused")
+            return client
+        time.sleep(0.2)
+    raise InputError(f"the viewer did not show its recording within {START_SECONDS:.0f} s")
 
 
 def waiting_window() -> str:
@@ -152,7 +192,9 @@ def picture_problem() -> str | None:
     return None
 
 
-def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 900)) -> Path:
+def take_picture(
+    recording: Path, target: Path, size: tuple[int, int] = (1600, 900), at: float | None = None
+) -> Path:
     """Take a picture of the viewer with a recording open.
 
     Parameters
@@ -163,6 +205,8 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
         PNG.
     size : tuple of 2 ints
         Of the window, in its own units.
+    at : float, optional
+        Time that is shown, [s]; by default the beginning.
 
     Raises
     ------
@@ -172,8 +216,9 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
     problem = picture_problem()
     if problem is not None:
         raise InputError(problem)
-    command = [viewer_executable(), str(recording), "--port", "auto", *THIS_MACHINE]
-    command += ["--window-size", f"{size[0]}x{size[1]}", "--screenshot-to", str(target)]
+    port = _free_port()
+    command = [viewer_executable(), str(recording), "--port", str(port), *THIS_MACHINE]
+    command += ["--window-size", f"{size[0]}x{size[1]}"]
     environment = dict(os.environ)
     if not has_display():
         # The pointer rests in the middle of the screen; on a wide one that is outside the window, where
@@ -181,17 +226,43 @@ def take_picture(recording: Path, target: Path, size: tuple[int, int] = (1600, 9
         command = ["xvfb-run", "-a", "-s", f"-screen 0 {5 * size[0]}x{5 * size[1]}x24", *command]
         environment["VK_DRIVER_FILES"] = _software_driver() or ""
     target.unlink(missing_ok=True)
-    try:
-        done = subprocess.run(
-            command, env=environment, capture_output=True, timeout=PICTURE_SECONDS, check=False, text=True
-        )
-        output = done.stderr
-    except subprocess.TimeoutExpired:
-        output = f"no picture within {PICTURE_SECONDS:.0f} s"
+    output = (
+        _picture_at_once(command, environment, target)
+        if at is None
+        else (_picture_at(command, environment, target, port, at))
+    )
     if not target.exists():
         last = output.strip().splitlines()[-1:] or ["it printed nothing"]
         raise InputError(f"{target}: the viewer made no picture ({last[0]})")
     return target
+
+
+def _picture_at_once(command: list[str], environment: dict[str, str], target: Path) -> str:
+    """Let the viewer take a picture of its first sight and end; what it printed."""
+    command = [*command, "--screenshot-to", str(target)]
+    try:
+        return subprocess.run(
+            command, env=environment, capture_output=True, timeout=PICTURE_SECONDS, check=False, text=True
+        ).stderr
+    except subprocess.TimeoutExpired:
+        return f"no picture within {PICTURE_SECONDS:.0f} s"
+
+
+def _picture_at(command: list[str], environment: dict[str, str], target: Path, port: int, at: float) -> str:
+    """Let the viewer take a picture at a time [s], and end it; what went wrong, if anything."""
+    process = subprocess.Popen(
+        command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    try:
+        _wait_for(process, port)
+        client = _set_time(port, at)
+        time.sleep(SETTLING_SECONDS)
+        client.save_screenshot(str(target.resolve()))
+    except RuntimeError as error:  # of the viewer's own client
+        return str(error)
+    finally:
+        _end_session(process)
+    return ""
 
 
 def _software_driver() -> str | None:

@@ -11,6 +11,7 @@ report_page         a page about each inspected bearing, as HTML and PDF
 monitor_picture     the envelope spectrum behind the verdicts of a monitor
 summary_picture     one picture of a run
 plot_axes           drawing of `beardyn_core.plot`
+animation           moving pictures of a recording
 demo_console        arguments and progress of the demo
 demo_report         what the demo prints and draws
 measured_severity   how wide the spall is that a monitor found in a run

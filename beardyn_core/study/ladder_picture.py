@@ -13,13 +13,13 @@ from beardyn_core.study.ladder_report import percent
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import QUANTITIES
 
-WIDTH_PX, HEIGHT_PX, DPI = 1400, 860, 100
+WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
 _MARKERS = {"lumped": "^", "quasistatic": "s", "full": "o"}
 _COLOURS = ("#4C72B0", "#DD8452", "#55A868", "#C44E52", "#8172B3", "#937860", "#DA8BC3", "#64B5CD")
 _GOOD = "#55A868"
 _LOWEST = 1.0e-2  # what is smaller in units of its limit is drawn here
 _LABEL_HEIGHT = 0.035  # of the height of the axes
-_SIDE_PANELS = (4, 2)
+_SIDE_COLUMNS = 2
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def ladder_picture(ladder: Ladder, path: Path) -> None:
 def ladder_figure(ladder: Ladder) -> Figure:
     """Draw the picture as a figure; its first axes are the main panel."""
     figure = Figure(figsize=(WIDTH_PX / DPI, HEIGHT_PX / DPI), dpi=DPI, layout="constrained")
-    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.65, 1.0))[0]
+    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.15, 1.0))[0]
     names = list(dict.fromkeys(row.level.effects_name for row in (*ladder.rows, ladder.reference)))
     colours = {name: _COLOURS[i % len(_COLOURS)] for i, name in enumerate(names)}
     main = left.subplots()
@@ -58,15 +58,16 @@ def ladder_figure(ladder: Ladder) -> Figure:
     ]
     _panel(main, ladder, points, 1.0, colours)
     _dress(main, ladder, points, colours)
-    panels = right.subplots(*_SIDE_PANELS, squeeze=False, sharex=True).ravel()
     shown = [quantity for quantity in QUANTITIES if any(_point(row, quantity) for row in ladder.rows)]
+    rows = max(-(-len(shown) // _SIDE_COLUMNS), 1)
+    panels = right.subplots(rows, _SIDE_COLUMNS, squeeze=False, sharex=True).ravel()
     for axes, quantity in zip(panels, shown, strict=False):
         _side_panel(axes, ladder, quantity, colours)
     for axes in panels[len(shown) :]:
         axes.set_visible(False)
-    for axes in panels[max(len(shown) - _SIDE_PANELS[1], 0) : len(shown)]:
+    for axes in panels[max(len(shown) - _SIDE_COLUMNS, 0) : len(shown)]:
         axes.tick_params(labelbottom=True)
-    right.supxlabel("wall time per simulated second [s]", fontsize=9)
+    right.supxlabel("wall time per simulated second [s]", fontsize=10)
     return figure
 
 
@@ -84,11 +85,12 @@ def _side_panel(axes: Axes, ladder: Ladder, quantity: str, colours: dict[str, st
     error = points[0].row.of(quantity)
     assert error is not None
     limit = error.limit(ladder.accuracy) * (100.0 if error.unit == "%" else 1.0)
-    _panel(axes, ladder, points, limit, colours, size=5.0)
+    _panel(axes, ladder, points, limit, colours, size=6.0)
     line = "" if quantity != "fault_line" or ladder.fault_line is None else f" {ladder.fault_line.name}"
     asked = "" if quantity in ladder.asked else " (not asked)"
-    axes.set_title(f"{quantity}{line} [{error.unit}]{asked}", fontsize=9, loc="left")
-    axes.tick_params(labelsize=7.5)
+    name = quantity.replace("_", " ")
+    axes.set_title(f"{name}{line} [{error.unit}]{asked}", fontsize=10, loc="left")
+    axes.tick_params(labelsize=9)
 
 
 def _panel(

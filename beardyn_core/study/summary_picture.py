@@ -18,7 +18,7 @@ WIDTH_PX, HEIGHT_PX, DPI = 1600, 1000, 100
 _AXIS_COLOURS = ("#4C72B0", "#55A868", "#C44E52")
 _ROW_COLOURS = ("#C44E52", "#4C72B0")
 _FAULT_COLOURS = {"BPFO": "#C44E52", "BPFI": "#4C72B0", "2 BSF": "#DD8452", "FTF": "#8172B3"}
-_HARMONICS = 4
+_HARMONICS = 4  # of the highest marker, shown whole
 
 
 @dataclass(frozen=True)
@@ -46,25 +46,28 @@ def summary_picture(data: SummaryData, path: Path) -> None:
     figure.suptitle(f"{data.title}\n{data.verdict}", fontsize=15)
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.75, 1.0))[0]
     forces, speeds, spectrum = left.subplots(3, 1, height_ratios=(1.0, 0.7, 1.3))
-    zone = right.add_subplot(projection="polar")
+    rows = data.roller_load.shape[-2]
+    zones = right.subplots(rows, 1, squeeze=False, subplot_kw={"projection": "polar"})[:, 0]
     _draw_forces(forces, data)
     _draw_speeds(speeds, data)
     speeds.sharex(forces)
     _draw_spectrum(spectrum, data)
-    assert isinstance(zone, PolarAxes)
-    _draw_load_zone(zone, data)
+    for row, zone in enumerate(zones):
+        assert isinstance(zone, PolarAxes)
+        _draw_load_zone(zone, data, row)
     figure.savefig(path, dpi=DPI, format="png")
 
 
 def _draw_forces(axes: Axes, data: SummaryData) -> None:
     for column, (name, colour) in enumerate(zip("xyz", _AXIS_COLOURS, strict=True)):
         axes.plot(data.time, data.force[:, column] / 1e3, color=colour, lw=0.9, label=f"cup force {name}")
-        axes.plot(data.time, data.load[:, column] / 1e3, color=colour, lw=0.9, ls=":", alpha=0.8)
-    axes.plot([], [], color="0.3", ls=":", label="load on the journal")
+    for column, (name, colour) in enumerate(zip("xyz", _AXIS_COLOURS, strict=True)):
+        label = f"journal load {name}"
+        axes.plot(data.time, data.load[:, column] / 1e3, color=colour, lw=0.9, ls=":", alpha=0.8, label=label)
     axes.set_ylabel("force [kN]")
     axes.set_title("Bearing force: rollers on the cup", fontsize=11, loc="left")
     axes.tick_params(labelbottom=False)
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, ncols=4, frameon=False)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, ncols=6, frameon=False)
     axes.grid(alpha=0.3)
 
 
@@ -93,7 +96,7 @@ def _draw_spectrum(axes: Axes, data: SummaryData) -> None:
         colour = _FAULT_COLOURS.get(name, "0.5")
         # one line of text a marker: neighbours such as 2 BSF and BPFO do not overlap
         height = top * (0.985 - 0.062 * level)
-        for h in range(1, 1 + (1 if name == "FTF" else _HARMONICS)):
+        for h in range(1, 1 + (1 if name == "FTF" else int(highest / marked))):
             fade = 0.9 if h == 1 else 0.45
             axes.axvline(h * marked, color=colour, lw=1.1, ls="--", alpha=fade, zorder=0)
             text = f" {name}" if h == 1 else f" {h}x"
@@ -109,25 +112,22 @@ def _draw_spectrum(axes: Axes, data: SummaryData) -> None:
         scale.tick_params(labelsize=8)
 
 
-def _draw_load_zone(axes: PolarAxes, data: SummaryData) -> None:
+def _draw_load_zone(axes: PolarAxes, data: SummaryData, row: int) -> None:
+    """Draw the load of each roller of a row at each moment, a panel a row: none hides the other."""
     azimuth, load = (
         values[None] if values.ndim == 2 else values for values in (data.roller_azimuth, data.roller_load)
     )
     # azimuth 0 is up (+z), and forward (+x) is drawn to the right
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)
-    for row, colour in enumerate(_ROW_COLOURS[: azimuth.shape[1]]):
-        angle = np.mod(azimuth[:, row].ravel(), 2.0 * np.pi)
-        force = load[:, row].ravel() / 1e3
-        label = (
-            f"row {row} ({'inboard' if row == 0 else 'outboard'}), largest {force.max(initial=0.0):.2f} kN"
-        )
-        if len(azimuth) == 1:
-            axes.vlines(angle, 0.0, force, color=colour, alpha=0.5, lw=2)
-        axes.scatter(angle, force, color=colour, s=30 if len(azimuth) == 1 else 5, alpha=0.8, label=label)
+    angle, force, colour = azimuth[:, row].ravel(), load[:, row].ravel() / 1e3, _ROW_COLOURS[row]
+    if len(azimuth) == 1:
+        axes.vlines(angle, 0.0, force, color=colour, alpha=0.5, lw=2)
+    axes.scatter(angle, force, color=colour, s=30 if len(azimuth) == 1 else 4, alpha=0.7)
     axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
     axes.set_xticklabels(["0° (+z, up)", "45°", "90°\n(+x)", "135°", "180°", "225°", "270°", "315°"])
     axes.set_ylim(0.0, 1.1 * float(load.max(initial=0.0)) / 1e3 or 1.0)
     axes.set_rlabel_position(112.0)
-    axes.set_title("Load zone: cup–roller load [kN] by azimuth", fontsize=11, pad=18)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), fontsize=9)
+    side = "inboard" if row == 0 else "outboard"
+    title = f"Load zone of row {row} ({side}): cup–roller load [kN], largest {force.max(initial=0.0):.2f}"
+    axes.set_title(title, fontsize=11, pad=14)

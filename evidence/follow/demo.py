@@ -31,6 +31,13 @@ TRUTH = {
     "length": 1e-3 * LENGTH_MM,
     "depth": 1e-6 * DEPTH_UM,
 }
+LABELS = {
+    "lateral_load": "lateral load",
+    "end_play": "end play",
+    "width": "width of the spall",
+    "length": "length of the spall",
+    "depth": "depth of the spall",
+}
 
 
 def played() -> bd.Run:
@@ -82,19 +89,23 @@ def draw(found: Following, path: Path) -> None:
         axis.plot(time_s, [scale * each.estimates[name].value for each in found.steps], "o-", ms=3)
         axis.plot(time_s, [scale * each.heard[name].value for each in found.steps], "x", color="gray", ms=4)
         axis.axhline(scale * TRUTH[name], color="black", ls="--", lw=1)
-        axis.set_ylabel(f"{name.replace('_', ' ')}\n[{quantity.shown}]")
+        axis.set_ylabel(f"{LABELS[name]}\n[{quantity.shown}]")
     axes[0].set_title(
-        "estimates, 50 and 90 % intervals; crosses: one stretch alone; dashed: hidden truth", fontsize=10
+        "estimates with 50 and 90 % intervals; crosses: one stretch alone; dashed: the truth, which the "
+        "follower does not know",
+        fontsize=10,
     )
     axes[-2].set_xlabel("time [s]")
     if found.residual is not None:
         both, last = found.residual, len(found.residual.axes) - 1
-        axes[-1].semilogx(both.middles, both.measured[last], "o-", ms=3, label="heard (full)")
-        axes[-1].semilogx(both.middles, both.twin[last], "s-", ms=3, label="twin beside (quasistatic)")
+        axes[-1].semilogx(
+            both.middles, both.measured[last], "o-", ms=3, label="measured (simulated in tier full)"
+        )
+        axes[-1].semilogx(both.middles, both.twin[last], "s-", ms=3, label="twin (tier quasistatic)")
         low, high = both.twin[last] - both.tolerance[last], both.twin[last] + both.tolerance[last]
         axes[-1].fill_between(both.middles, low, high, color="tab:orange", alpha=0.2, lw=0, label="tolerance")
         axes[-1].set_xlabel("third octave [Hz]")
-        axes[-1].set_ylabel(f"{both.axes[last]} [dB re 1 m/s²]")
+        axes[-1].set_ylabel(f"vibration {both.axes[last]}\n[dB re 1 m/s²]")
         axes[-1].legend(fontsize=8)
     figure.savefig(path, dpi=110)
 

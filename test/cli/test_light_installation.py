@@ -12,7 +12,19 @@ import pytest
 
 # all that an extra brings and nothing else does
 EXTRAS = (
-    *("asammdf", "cma", "dask", "distributed", "gmsh", "h5py", "matplotlib", "nptdms", "pandas", "pyarrow"),
+    *(
+        "asammdf",
+        "cma",
+        "dask",
+        "distributed",
+        "gmsh",
+        "h5py",
+        "imageio_ffmpeg",
+        "matplotlib",
+        "nptdms",
+        "pandas",
+        "pyarrow",
+    ),
     *("pyuff", "rerun", "skfem", "sklearn", "soundfile", "torch", "xarray", "zarr"),
 )
 WITHOUT = f"""
@@ -61,6 +73,8 @@ def test_nodes_are_imported(node: str, tmp_path: Path) -> None:
     ("library", "extra", "arguments"),
     [
         ("rerun", "view", ("view", "none.mcap")),
+        ("matplotlib", "plot", ("view", "none.mcap", "--gif", "moving.gif")),
+        ("imageio_ffmpeg", "mp4", ("view", "none.mcap", "--mp4", "moving.mp4")),
         ("rerun", "view", ("demo",)),
         ("matplotlib", "plot", ("demo",)),
         ("matplotlib", "plot", ("trial", "quick", "-o", "folder")),

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import json
 import re
+import sys
 import tomllib
+import zipfile
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -14,6 +17,9 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "release"))
+pack_site = importlib.import_module("pack_site")
+sys.path.pop(0)
 
 
 def setup_words() -> dict[str, Any]:
@@ -86,6 +92,38 @@ def test_the_dev_container_is_set_up_by_a_target_of_the_makefile() -> None:
     (target,) = re.findall(r"make (\S+)", settings["postCreateCommand"].replace("make xvfb", ""))
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
     assert re.search(rf"^{re.escape(target.replace('.venv', '$(VENV)'))}:", makefile, re.MULTILINE)
+
+
+def test_the_site_is_packed_the_same_each_time_without_what_only_sphinx_reads(tmp_path: Path) -> None:
+    html = tmp_path / "html"
+    (html / ".doctrees").mkdir(parents=True)
+    (html / "sub").mkdir()
+    for name in ("index.html", "sub/page.html", ".buildinfo", ".doctrees/index.doctree"):
+        (html / name).write_text(f"<p>{name}</p>", encoding="utf-8")
+    archives = [tmp_path / name / "beardyn-1.2.3-site.zip" for name in ("one", "two")]
+    assert [pack_site.pack(html, archive) for archive in archives] == [2, 2]
+    assert archives[0].read_bytes() == archives[1].read_bytes()
+    with zipfile.ZipFile(archives[0]) as packed:
+        names = ["beardyn-1.2.3-site/index.html", "beardyn-1.2.3-site/sub/page.html"]
+        assert packed.namelist() == names
+        assert packed.read(names[1]) == b"<p>sub/page.html</p>"
+
+
+def test_a_link_of_the_site_that_leads_nowhere_is_found(tmp_path: Path) -> None:
+    (tmp_path / "a b.html").write_text("<p>b</p>", encoding="utf-8")
+    links = ("a%20b.html#part", "index.html", "#here", "https://example.org/x", "mailto:a@b.c", "gone.html")
+    page = "".join(f'<a href="{link}">x</a>' for link in links) + '<img src="lost.png">'
+    (tmp_path / "index.html").write_text(page, encoding="utf-8")
+    assert pack_site.dead_links(tmp_path) == ["index.html: gone.html", "index.html: lost.png"]
+
+
+def test_a_release_has_the_site() -> None:
+    """The script that makes wheel and sdist packs the site first, of the same version."""
+    text = (ROOT / "release" / "try_release.py").read_text(encoding="utf-8")
+    assert text.index("packed_site(DIST)") < text.index('"build"')
+    version = pack_site.VERSION.search((ROOT / "setup.py").read_text(encoding="utf-8"))
+    assert version is not None
+    assert version[1] == SETUP["version"]
 
 
 @pytest.mark.parametrize("extra", ["docs", "release"])

@@ -17,7 +17,8 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.choice.load import choice_for
 from beardyn_core.cli.main import main
 from beardyn_core.config import read_scene
-from beardyn_core.record.rerun_view import about, title
+from beardyn_core.record.rerun_view import about
+from beardyn_core.record.view_title import faults_elsewhere, view_title
 from beardyn_core.study.demo_report import FILES, demo_folder
 
 LUMPED: dict[str, Any] = {"tier": "lumped", "effects": "standard", "duration": 0.02}
@@ -106,12 +107,17 @@ def test_view_names_the_axlebox_of_several_and_lists_the_others(
     read = bd.read(recording)
     for each in (run, read):
         assert {name: one.box for name, one in each.boxes.items()} == {name: name for name in each.boxes}
-    for name, fault in (("axle_1_left", "no fault"), ("axle_1_right", "spall")):
+    spall = read.boxes["axle_1_right"].described().defects[0].described()
+    assert "spall on the cup" in spall
+    for name, faults in (
+        ("axle_1_left", f"no fault here; in axle_1_right: {spall}"),
+        ("axle_1_right", spall),
+    ):
         one = read.boxes[name]
-        assert title(one.described(), one.box).startswith(f"cup_spall, axlebox {name}: bearing ")
-        assert fault in title(one.described(), one.box)
+        title = view_title(one.described(), one.box, faults_elsewhere(one))
+        assert title == f"cup_spall, axlebox {name}: bearing HS130x230, {faults}"
         assert f"Axlebox **{name}** of axle_1_left, axle_1_right." in about(one)
     assert main(["view", str(recording), "--save", str(tmp_path / "left.rrd")]) == 0
     assert capsys.readouterr().err.endswith(
-        "shows the axlebox axle_1_left; --box shows another: axle_1_right\n"
+        f"shows the axlebox axle_1_left; --box shows another: axle_1_right ({spall})\n"
     )

@@ -96,6 +96,18 @@ def test_the_data_set_has_a_row_of_labels_for_each_run(
     assert truth["faults"][0]["width"] == table["fault_width_m"][3]
 
 
+def test_the_strikes_of_a_wheel_flat_show_in_the_loads_of_the_rollers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (EXAMPLES / "wheel_flat.py").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= MOST_LINES
+    names = run_text(changed(text, "duration=2.0", "duration=1.0"), tmp_path, monkeypatch)
+    names["plt"].close("all")
+    assert (tmp_path / "wheel_flat.png").stat().st_size > 5_000
+    assert re.search(r"most loaded roller: [\d.]+ kN, at the strikes [\d.]+ kN", capsys.readouterr().out)
+    assert 1.2 * names["usual"] < names["strike"] < 4.0 * names["usual"]
+
+
 def test_the_page_shows_the_examples_as_they_run() -> None:
     for name in ("class_k", "data_set"):
         text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")

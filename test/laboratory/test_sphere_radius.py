@@ -1,7 +1,11 @@
 """The roller end that is too large for its rib."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import pytest
 
+from beardyn_core.laboratory.contacts_picture import sphere_figure
 from beardyn_core.laboratory.sphere_radius import PUSH, SphereCase, sphere_case, sphere_cases
 from test.laboratory.bearings import bearing
 
@@ -48,3 +52,14 @@ def test_the_consistency_check_refuses_what_would_fail(cases) -> None:
 def test_contact_sinks_as_the_radius_grows() -> None:
     heights = [sphere_case(bearing(), ratio).search_height for ratio in (0.82, 0.88, 0.94)]
     assert heights[0] > heights[1] > heights[2]
+
+
+def test_no_legend_of_the_picture_hides_a_bar(cases) -> None:
+    found: Any = SimpleNamespace(bearing=bearing(), spheres=tuple(cases.values()))
+    figure = sphere_figure(found)
+    figure.draw_without_rendering()
+    _, bars = figure.axes
+    legend = bars.get_legend().get_window_extent()
+    drawn = [each.get_window_extent() for each in bars.patches if each.get_height() > 0.0]
+    assert len(drawn) >= len(cases)
+    assert not any(legend.overlaps(each) for each in drawn)

@@ -336,3 +336,17 @@ def test_a_picture_of_the_view_shows_bearing_and_curves(recording: Path, tmp_pat
     assert pixels.shape[0] >= 700
     left = pixels[:, : pixels.shape[1] // 2, :3]
     assert np.mean(left.max(axis=2) > 0.35) > 0.1  # the bearing covers more than a tenth of its view
+
+
+@pytest.mark.browser
+def test_a_picture_at_a_time_shows_the_rollers_of_that_time(recording: Path, tmp_path: Path) -> None:
+    problem = picture_problem()
+    if problem is not None:
+        pytest.skip(problem)
+    shown = []
+    for name, time in (("one", "0.5"), ("again", "0.5"), ("later", "0.53")):
+        path = tmp_path / f"{name}.png"
+        assert run_view([str(recording), "--screenshot", str(path), "--at", time]) == 0
+        shown.append(pytest.importorskip("matplotlib.image").imread(path)[60:-120, :700, :3])
+    np.testing.assert_array_equal(shown[0], shown[1])
+    assert np.mean(np.abs(shown[2] - shown[0]).max(axis=2) > 0.1) > 0.01  # rollers and bars have moved

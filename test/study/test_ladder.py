@@ -274,7 +274,12 @@ def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(comparis
 
 def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path: Path) -> None:
     ladder = climbed(comparison, FakeRuns())
-    axes = ladder_figure(ladder).axes[0]
+    figure = ladder_figure(ladder)
+    axes, *sides = [each for each in figure.axes if each.get_visible()]
+    figure.draw_without_rendering()
+    sizes = [each.get_window_extent() for each in sides]
+    assert min(each.height for each in sizes) > 200.0  # pixels: a panel of each quantity can be read
+    assert min(each.width for each in sizes) > 200.0
     written = [text.get_text() for text in axes.texts]
     assert {"fast: torque", "middle: vibration"} <= set(written)
     assert any(text.startswith("exact: ") for text in written)
@@ -282,7 +287,7 @@ def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path
     path = tmp_path / "ladder.png"
     ladder_picture(ladder, path)
     with Image.open(path) as picture:
-        assert picture.size == (1400, 860)
+        assert picture.size == (1600, 1000)
         assert np.unique(np.asarray(picture.convert("L"))).size > 50
     ladder_picture(climbed(comparison, FakeRuns(invalid=4)), path)
 

@@ -5,8 +5,9 @@ import dataclasses
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
-from beardyn_core.study.summary_picture import SummaryData, summary_picture
+from beardyn_core.study.summary_picture import SummaryData, _draw_forces, _draw_spectrum, summary_picture
 
 
 def _data():
@@ -51,6 +52,62 @@ def test_picture_is_1600_by_1000_and_changes_with_every_array(tmp_path, usual):
     for name in ("force", "load", "shaft_speed", "cage_speed", "roller_load", "envelope_amplitude"):
         other = dataclasses.replace(data, **{name: 0.5 * getattr(data, name)})
         assert not np.array_equal(_picture(other, tmp_path / "other.png"), picture), name
+
+
+def _axes(function, data, **kind):
+    axes = Figure().add_subplot(**kind)
+    function(axes, data)
+    return axes
+
+
+def test_every_marked_line_is_labelled_up_to_the_end_of_the_axis():
+    data = _data()
+    axes = _axes(_draw_spectrum, data)
+    highest = axes.get_xlim()[1]
+    for name in data.markers:
+        labels = [text for text in axes.texts if text.get_text().strip() == name]
+        assert len(labels) == 1, name
+    lines = [float(line.get_xdata()[0]) for line in axes.get_lines()[1:]]
+    named = [text.get_position()[0] for text in axes.texts]
+    assert sorted(named) == sorted(lines)
+    five = [place for place in named if place == pytest.approx(5 * data.markers["BPFO"])]
+    assert five == [pytest.approx(36.47)]
+    assert max(lines) <= highest
+
+
+def test_the_legend_has_the_colours_and_styles_of_the_curves():
+    axes = _axes(_draw_forces, _data())
+    entries = dict(
+        zip(
+            (text.get_text() for text in axes.get_legend().get_texts()),
+            axes.get_legend().legend_handles,
+            strict=True,
+        )
+    )
+    curves = axes.get_lines()
+    assert len(entries) == len(curves) == 6
+    for curve in curves:
+        entry = entries[curve.get_label()]
+        assert (entry.get_color(), entry.get_linestyle()) == (curve.get_color(), curve.get_linestyle())
+
+
+def test_no_row_hides_the_other(tmp_path, usual):
+    """The load of either row alone changes the picture, where the other row has the same loads."""
+    for row in range(2):
+        load = _data().roller_load.copy()
+        load[1 - row] = load[row]
+        azimuth = np.tile(_data().roller_azimuth[row], (2, 1))
+        both = dataclasses.replace(_data(), roller_load=load, roller_azimuth=azimuth)
+        less = load.copy()
+        less[row] *= 0.6
+        changed = dataclasses.replace(both, roller_load=less)
+        one, other = _picture(both, tmp_path / "both.png"), _picture(changed, tmp_path / "less.png")
+        half = one.shape[0] // 2
+        part = slice(0, half) if row == 0 else slice(half, None)
+        rest = slice(half, None) if row == 0 else slice(0, half)
+        right = slice(1100, None)
+        assert not np.array_equal(one[part, right], other[part, right])
+        np.testing.assert_array_equal(one[rest, right], other[rest, right])
 
 
 @pytest.mark.parametrize("moments", [1, 40])
