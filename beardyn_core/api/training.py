@@ -170,7 +170,7 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
     from beardyn_core.config import load_bearing
 
     if isinstance(bearing, RollerBearing):
-        return require_tapered(bearing, "runs")
+        return require_tapered(bearing, "estimators")
     if Path(bearing).suffix != ".mcap":
         return load_bearing(bearing)
     found = heard_of(bearing, None, "")[1]
@@ -183,10 +183,11 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
 
 
 def _bearing_of_scene(scene: Path | str | None) -> Bearing:
+    from beardyn_core.bearing.any_bearing import require_tapered
     from beardyn_core.config import read_scene
 
     assert scene is not None
-    return read_scene(scene).scene.bearing
+    return require_tapered(read_scene(scene).scene.bearing, "estimators", str(scene))
 
 
 def _name(bearing: Bearing, sensor: str) -> str:

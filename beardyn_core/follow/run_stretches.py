@@ -12,6 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.descriptors import describe
 from beardyn_core.follow.estimator import Estimator, read_estimator
@@ -26,7 +27,7 @@ from beardyn_core.record.run import Run
 
 
 def follower_of(
-    plate: Bearing | NamePlate,
+    plate: RollerBearing | NamePlate,
     estimator: Estimator | Path | str | None = None,
     *,
     service: Service | None = None,
@@ -57,7 +58,7 @@ def follower_of(
     )  # fmt: skip
 
 
-def whole_bearing(plate: Bearing | NamePlate) -> Bearing | None:
+def whole_bearing(plate: RollerBearing | NamePlate) -> Bearing | None:
     """Find the bearing of bearing data; none where only these are known."""
     if isinstance(plate, Bearing):
         return plate
@@ -68,7 +69,7 @@ def whole_bearing(plate: Bearing | NamePlate) -> Bearing | None:
 
 
 def stretches_followed(
-    run: Run, follower: Follower, plate: Bearing | NamePlate, sensor: str
+    run: Run, follower: Follower, plate: RollerBearing | NamePlate, sensor: str
 ) -> Iterator[tuple[Float, float, float]]:
     """Give descriptors, end [s] and way of the wheel since the begin [m] of each stretch of a run."""
     estimator, wheel = follower.estimator, follower.service.wheel_diameter
