@@ -36,7 +36,7 @@ from beardyn_core.physics.tiers.build import build_parameters
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.start import at_rest, initial_state
 from beardyn_core.physics.tiers.state import Output, State, work_space
-from beardyn_core.physics.tiers.status import assess, describe, is_fatal, status_of_cages
+from beardyn_core.physics.tiers.status import Status, assess, describe, is_fatal, status_of_cages
 from beardyn_core.physics.tiers.tiers import TIERS
 from beardyn_core.rail.events import events_of
 from beardyn_core.rail.load_buffer import LoadBuffer
@@ -171,12 +171,17 @@ class Twin:
         rollers, bodies = self._run(
             state, loads[: self._instants + 1].copy(), self._signals[: self._instants].copy(), 1
         )
-        assess(state, steps, self.scene.bearing.large_end_radius, self._parameters.effects.rib)
+        self._assess(state, steps)
         signals = np.zeros((steps, self._channels))
         observer = Observer(self.scene, self._arrangement, self._parameters, signals[0])
         observer.first_instant(*self._complete(state.rollers, state.bodies), loads[0, :6])
         block = observer.observe(0, signals, loads, rollers, bodies, 0, None, 0.0, None)
         _ = block.body_pose, block.body_twist, block.contacts  # worked out at the first look
+
+    def _assess(self, state: State, steps: int) -> Status:
+        """Judge the status after some steps."""
+        effects = self._parameters.effects
+        return assess(state, steps, self.scene.bearing.large_end_radius, effects.rib, effects.flanges)
 
     def start(self, load: LoadHistory) -> None:
         """Solve the static equilibrium under the first sample and begin at t = 0.
@@ -270,9 +275,7 @@ class Twin:
         if self._index % STAGES_SHARED_EVERY < blocks:
             self._stage_cycles = stage_cycles(self._parameters.effects.timers)
         self.stages.lap_kernel(self._stage_cycles)
-        status = assess(
-            self._state, len(signals), self.scene.bearing.large_end_radius, self._parameters.effects.rib
-        )
+        status = self._assess(self._state, len(signals))
         if self._cages is not None:
             seconds = blocks * BLOCK_NS * 1e-9
             self._cages = self._cages.after(self.scene.bearing, bodies, float(loads[:, 6].mean()), seconds)
@@ -330,7 +333,7 @@ class Twin:
             return before.temperature
         speed = float(loads[-1, 6])
         after = advance_temperatures(scene, thermal, before, state.energy, speed, between * BLOCK_NS * 1e-9)
-        if (after.film_temperature, after.end_play) != (before.film_temperature, before.end_play):
+        if (after.film_temperature, after.play) != (before.film_temperature, before.play):
             old = self._parameters
             new = build_parameters(scene_at(scene, after), self._arrangement, old.mounting.preload)
             self._parameters = new._replace(rollers=old.rollers, mounting=old.mounting)

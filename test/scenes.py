@@ -8,6 +8,8 @@ from typing import Any
 
 import yaml
 
+from beardyn_core.bearing.any_bearing import require_tapered
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.choice import load_scene, scene_from_mapping, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.config.folders import find
@@ -28,6 +30,11 @@ RIGID: dict[str, Any] = {"preset": "auto"}
 def standard_scene() -> Scene:
     """The shipped 80 kN scene: cup held, no play, the effects of `EffectSet()`."""
     return replace(load_scene("static_80kN"), effects=EffectSet())
+
+
+def tapered(scene: Scene) -> Bearing:
+    """The bearing of a scene that has a tapered one."""
+    return require_tapered(scene.bearing, "tests of tapered rollers")
 
 
 def scene_with(

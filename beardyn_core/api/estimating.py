@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.follow.estimator import Estimates, Estimator
     from beardyn_core.follow.forecast import Forecast
     from beardyn_core.follow.growth import GrowthLaw
@@ -29,7 +30,7 @@ def estimate(
     run: Run | Path | str,
     estimator: Estimator | Path | str | None = None,
     *,
-    bearing: Bearing | NamePlate | str | None = None,
+    bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
     load_kn: KnownLoad | str | float | None = None,
     load_sensor: str | Sequence[str] = (),
@@ -230,7 +231,7 @@ def _bearing_of(run: Run | Path | str, bearing: Bearing | str | None) -> Bearing
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.config import load_bearing
 
-    known: Bearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
+    known: RollerBearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
     if isinstance(known, Bearing):
         return known
     # bearing data alone have no raceways

@@ -356,7 +356,7 @@ def _vibration(run: Run, sensor: str) -> Signal:
 def _heard(source: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str) -> _Heard:
     from beardyn_core.api.reading import heard_of
 
-    run, plate, sensor = heard_of(source, bearing, sensor)  # type: ignore[arg-type]
+    run, plate, sensor = heard_of(source, bearing, sensor)
     return _Heard(run, _vibration(run, sensor), plate.frequencies)
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.monitor.chain import Algorithm, MonitorSettings
     from beardyn_core.monitor.severity import Severity
     from beardyn_core.record.run import Run
@@ -40,7 +40,7 @@ def monitor(
     run: Run | Path | str,
     algorithm: Algorithm | None = None,
     *,
-    bearing: Bearing | NamePlate | str | None = None,
+    bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
     settings: MonitorSettings | None = None,
 ) -> Conclusion:
@@ -86,7 +86,7 @@ def severity(
     run: Run | Path | str,
     conclusion: Conclusion | None = None,
     *,
-    bearing: Bearing | NamePlate | str | None = None,
+    bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
 ) -> Severity | None:
     """Measure how wide the spall is that a monitor has found: not every fault matters.
@@ -113,8 +113,8 @@ def severity(
 
 
 def heard_of(
-    run: Run | Path | str, bearing: Bearing | NamePlate | str | None, sensor: str
-) -> tuple[Run, Bearing | NamePlate, str]:
+    run: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str
+) -> tuple[Run, RollerBearing | NamePlate, str]:
     """Find run, bearing and accelerometer."""
     from beardyn_core.choice import scene_from_text
     from beardyn_core.config import load_plate

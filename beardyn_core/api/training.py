@@ -171,7 +171,7 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
     from beardyn_core.config import load_bearing
 
     if isinstance(bearing, RollerBearing):
-        return require_tapered(bearing, "runs")
+        return require_tapered(bearing, "estimators")
     if entry := _catalogue_entry(str(bearing)):
         raise InputError(
             f"bearing: {bearing} is a {entry.kind} bearing of the catalogue, bearing data for the monitor; "
@@ -210,10 +210,11 @@ def _tapered_names() -> list[str]:
 
 
 def _bearing_of_scene(scene: Path | str | None) -> Bearing:
+    from beardyn_core.bearing.any_bearing import require_tapered
     from beardyn_core.config import read_scene
 
     assert scene is not None
-    return read_scene(scene).scene.bearing
+    return require_tapered(read_scene(scene).scene.bearing, "estimators", str(scene))
 
 
 def _name(bearing: Bearing, sensor: str) -> str:

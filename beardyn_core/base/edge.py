@@ -171,6 +171,11 @@ def is_kind(noun: type) -> bool:
     return isinstance(noun.__dict__.get("kind"), (str, property)) and "kind" not in _defaults(noun)
 
 
+def needs_no_kind(noun: type) -> bool:
+    """Tell whether a mapping without a kind is one of a noun that has kinds beside it."""
+    return not is_kind(noun) and all(place.key != "kind" for place in places(noun))
+
+
 def write_noun(noun: Any) -> dict[str, Any]:
     """Write a noun as the mapping of its file: edge units, every number, nothing that is ``None``.
 

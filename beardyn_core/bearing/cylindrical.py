@@ -8,9 +8,9 @@ carries axial load one way, and between both the axle floats by the end play.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import INTERNAL, At
@@ -51,7 +51,13 @@ class CylindricalBearing(RadialBearing):
     rib_undercut: A[float, At("mm", gt=0.0), "lower end of the rib faces above the raceway"] = 1.0e-3
     rib_contact_height: A[float, At("mm", gt=0.0), "of the roller end on a rib, above the raceway"]
     rib_opening: A[float, At("deg", gt=0.0, le=5.0), "angle of the rib faces to the radial plane"]
+    rib_roughness: A[float, At("um", gt=0.0), "composite rms"] = 0.4e-6
+    roller_chamfer: A[float, At("mm", gt=0.0), "radius of a roller less that of its crowned ends"] = 0.5e-3
     contact_angle: A[float, INTERNAL] = 0.0
+
+    def mounted(self, end_play: float) -> Self:
+        """Give the bearing with ribs that leave this end play, [m]."""
+        return self if end_play == self.end_play else replace(self, end_play=end_play)
 
     def lamina_drop(self, count: int) -> Float:
         """Compute the drop of each of `count` equal laminae of the generator, [m]."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from beardyn_core.bearing.contact_law import rib_contact
+from beardyn_core.bearing.contact_law import PointContact, rib_contact
 from beardyn_core.bearing.geometry import Bearing
 
 SPEED_EXPONENT, MATERIAL_EXPONENT, LOAD_EXPONENT = 0.67, 0.53, -0.067  # of the rib film
@@ -143,7 +143,20 @@ def rib_film_thickness(
     ----------
     Hamrock, B. J. and Dowson, D. (1977), H_c = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)).
     """
-    contact = rib_contact(bearing)
+    return point_film_thickness(rib_contact(bearing), load, entrainment_speed, viscosity, pressure_viscosity)
+
+
+def point_film_thickness(
+    contact: PointContact,
+    load: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_viscosity: float,
+) -> float:
+    """Compute the central film of a flooded point contact that is entrained along its second radius, [m].
+
+    Arguments and formula as of `rib_film_thickness`.
+    """
     modulus = contact.contact_modulus
     radius, side_radius = contact.radius_y, contact.radius_x
     ellipticity = 1.0339 * (side_radius / radius) ** 0.636
@@ -161,8 +174,8 @@ def rib_film_thickness(
     )
 
 
-def log2_rib_film_factor(
-    bearing: Bearing, viscosity: float, pressure_viscosity: float, starvation: float
+def log2_point_film_factor(
+    contact: PointContact, viscosity: float, pressure_viscosity: float, starvation: float
 ) -> float:
     """Compute the binary logarithm of the film thickness at 1 N and 1 m/s, [log2 m]."""
-    return math.log2(starvation * rib_film_thickness(bearing, 1.0, 1.0, viscosity, pressure_viscosity))
+    return math.log2(starvation * point_film_thickness(contact, 1.0, 1.0, viscosity, pressure_viscosity))

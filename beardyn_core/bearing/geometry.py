@@ -155,6 +155,16 @@ class Bearing(RollerBearing):
         """Radius and axial place of a point of the cone raceway's generator: its apex, [m]."""
         return 0.0, self.apex_place
 
+    @property
+    def cup_line(self) -> tuple[float, float]:
+        """The same of the cup raceway, [m]."""
+        return 0.0, self.apex_place
+
+    @property
+    def cup_place(self) -> tuple[float, float]:
+        """Radius and axial place of the middle of the contact with the cup, [m]."""
+        return self.cup_radius, self.apex_place + self.contact_distance * math.cos(self.cup_angle)
+
     def radius_at(self, place: Float) -> Float:
         """Compute the radius of the rollers at places along them from mid-length, [m]."""
         return (self.apex_distance + place) * math.tan(self.half_angle)
@@ -255,6 +265,11 @@ class Bearing(RollerBearing):
     def rolling_radii(self) -> tuple[float, float]:
         """Radii of cup and roller that roll on each other, over their distance from the apex, [-]."""
         return math.sin(self.cup_angle), math.sin(self.half_angle)
+
+    @property
+    def cone_spin_radii(self) -> tuple[float, float]:
+        """Radii of the orbit of the roller's axis and of the roller, over the distance from the apex, [-]."""
+        return math.sin(self.contact_angle), math.sin(self.half_angle)
 
     @property
     def roller_mass(self) -> float:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from typing import Annotated as A
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.roller_bearing import RollerBearing
 
 
@@ -85,10 +84,11 @@ def centrifugal_force(bearing: RollerBearing, shaft_speed: float) -> float:
     return bearing.roller_mass * cage_speed(bearing, shaft_speed) ** 2 * bearing.roller_orbit_radius
 
 
-def roller_cone_spin(bearing: Bearing, shaft_speed: float) -> float:
+def roller_cone_spin(bearing: RollerBearing, shaft_speed: float) -> float:
     """Compute the relative speed of roller and cone about their common generator, [rad/s].
 
     The rib contact slides with this speed times its height above the cone raceway.
     """
     slip = shaft_speed - cage_speed(bearing, shaft_speed)
-    return slip * math.sin(bearing.contact_angle) / math.sin(bearing.half_angle)
+    orbit, roller = bearing.cone_spin_radii
+    return slip * orbit / roller

@@ -14,6 +14,8 @@ from beardyn_core.base.edge import INTERNAL, At, Vector
 from beardyn_core.bearing.geometry import CageData, Material
 from beardyn_core.bearing.roller_bearing import RollerBearing
 
+MOST_PRELOAD, MOST_CLEARANCE = 1.0e-4, 1.0e-3  # of the diameter [m]
+
 
 @dataclass(frozen=True, kw_only=True)
 class RadialBearing(RollerBearing):
@@ -32,7 +34,9 @@ class RadialBearing(RollerBearing):
     outer_diameter: A[float, At("mm", gt=0.0), "of the outer ring"]
     width: A[float, At("mm", gt=0.0), "over both rows, along the bearing axis"]
     radial_clearance: A[
-        float, At("mm", ge=-0.1, le=1.0), "total radial travel when mounted, negative for preload"
+        float,
+        At("mm", ge=-1e3 * MOST_PRELOAD, le=1e3 * MOST_CLEARANCE),
+        "total radial travel when mounted, negative for preload",
     ]
     raceway_roughness: A[float, At("um", gt=0.0), "composite rms"]
     material: A[Material, "of rings and rollers"] = Material()
@@ -104,7 +108,7 @@ class RadialBearing(RollerBearing):
 
     def radius_at(self, place: Float) -> Float:
         """Compute the radius of the rollers at places along them from mid-length, less the profile, [m]."""
-        return np.full(place.shape, 0.5 * self.roller_diameter)
+        return np.asarray(0.5 * self.roller_diameter + 0.0 * place)
 
     @property
     def cage_ratio(self) -> float:
@@ -115,6 +119,26 @@ class RadialBearing(RollerBearing):
     def rolling_radii(self) -> tuple[float, float]:
         """Radii of outer raceway and roller that roll on each other, [m]."""
         return self.cup_radius, 0.5 * self.roller_diameter
+
+    @property
+    def cone_spin_radii(self) -> tuple[float, float]:
+        """Radii of the orbit of the roller's axis and of the roller, [m]."""
+        return 0.5 * self.pitch_diameter, 0.5 * self.roller_diameter
+
+    @property
+    def cup_line(self) -> tuple[float, float]:
+        """Radius and axial place of a point of the outer raceway of a row, [m]."""
+        return self.cup_radius, 0.5 * self.row_spacing
+
+    @property
+    def cup_place(self) -> tuple[float, float]:
+        """Radius and axial place of the middle of the contact with the outer raceway, [m]."""
+        return self.cup_line
+
+    @property
+    def large_end_radius(self) -> float:
+        """Radius of a roller at both ends, [m]."""
+        return 0.5 * self.roller_diameter
 
     @property
     def roller_mass(self) -> float:

@@ -6,7 +6,7 @@ import math
 from functools import cache
 from typing import NamedTuple
 
-from beardyn_core.bearing.contact_law import ExactPointContact, rib_contact_factor
+from beardyn_core.bearing.contact_law import ExactPointContact, PointContact, rib_contact
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
@@ -26,7 +26,12 @@ class RibFace(NamedTuple):
     sphere_place: tuple[float, float]  # radius and axial place of that centre [m]
     edges: tuple[float, float]  # of the face along its generator from the nominal contact [m]
     gap: float  # between end and face along the normal [m]
-    factor: float  # stiffness factor K of its contact, Q = K delta^1.5 [N/m^1.5]
+    contact: PointContact
+
+    @property
+    def factor(self) -> float:
+        """Stiffness factor K of its contact, Q = K delta^1.5, [N/m^1.5]."""
+        return self.contact.factor
 
 
 @cache
@@ -62,7 +67,7 @@ def _large_rib(bearing: Bearing) -> RibFace:
         bearing.end_sphere,
         bearing.rib_face,
         0.0,
-        rib_contact_factor(bearing),
+        rib_contact(bearing),
     )
 
 
@@ -115,5 +120,5 @@ def _flat_rib(bearing: CylindricalBearing, ring: str, side: float, play: float) 
         (0.5 * bearing.pitch_diameter, 0.5 * bearing.row_spacing + on_axis),
         edges,
         play * math.cos(lean),
-        flat_rib_contact(bearing, ring).factor,
+        flat_rib_contact(bearing, ring),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Self
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
@@ -131,8 +131,32 @@ class RollerBearing:
             """Radii of cup and roller that roll on each other, to one scale."""
 
         @property
+        def cup_inertia(self) -> tuple[float, float, float]:
+            """Of the outer ring or rings about x, y, z through the bearing centre, [kg m^2]."""
+
+        @property
+        def cone_mass(self) -> float:
+            """Of the inner rings, [kg]."""
+
+        @property
+        def raceway_roughness(self) -> float:
+            """Composite rms, [m]."""
+
+        @property
         def cone_line(self) -> tuple[float, float]:
             """Radius and axial place, outwards, of a point of the inner raceway's generator, [m]."""
+
+        @property
+        def cup_line(self) -> tuple[float, float]:
+            """The same of the outer raceway, at the same axial place, [m]."""
+
+        @property
+        def cup_place(self) -> tuple[float, float]:
+            """Radius and axial place, outwards, of the middle of the contact with the outer raceway, [m]."""
+
+        @property
+        def cone_spin_radii(self) -> tuple[float, float]:
+            """Radii of the orbit of the roller's axis and of the roller, to one scale."""
 
         def normal_gap(self, end_play: float) -> float:
             """Compute the gap between roller and cup along its normal, all parts in the middle, [m]."""
@@ -150,6 +174,10 @@ class RollerBearing:
         @property
         def tilt_lever(self) -> float:
             """Lever by which statics measure a tilt as a motion, [m]."""
+
+        @property
+        def large_end_radius(self) -> float:
+            """Radius of a roller at its larger end, [m]."""
 
         @property
         def roller_mass(self) -> float:
@@ -170,6 +198,10 @@ class RollerBearing:
         @property
         def roller_orbit_radius(self) -> float:
             """Radius on which the centres of mass orbit, [m]."""
+
+    def mounted(self, end_play: float) -> Self:
+        """Give the bearing with the end play of its mounting, where that is a dimension of its ribs."""
+        return self
 
     @property
     def frequencies(self) -> FaultFrequencies:

@@ -18,7 +18,10 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At
 from beardyn_core.base.units import UNITS
+from beardyn_core.bearing.any_bearing import require_simulated
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
 
@@ -42,14 +45,14 @@ class Temperatures:
     assembly: A[float, At("C", ge=-60.0, le=80.0), "at which the end play was measured"] = 293.15
     expansion: A[float, At("um_per_m_K", ge=0.0), "of rings and rollers"] = STEEL_EXPANSION
 
-    def closure(self, bearing: Bearing) -> float:
-        """Compute what the temperatures add to the end play of a bearing, [m]."""
+    def closure(self, bearing: RollerBearing) -> float:
+        """Compute what the temperatures add to the play of a bearing, see `play_per_kelvin`, [m]."""
         # differences of the numbers as they are written, so that zeros of the scales cost no digit
         cup, cone, rollers, assembly = (
             UNITS["C"].to_edge(value) for value in (self.cup, self.cone, self.rollers, self.assembly)
         )
         change = PartTemperatures(cup - assembly, cone - assembly, rollers - assembly)
-        return end_play_change(bearing, change, self.expansion)
+        return play_change(bearing, change, self.expansion)
 
 
 def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
@@ -79,9 +82,37 @@ def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) ->
     )
 
 
-def end_play_change(bearing: Bearing, change: PartTemperatures, expansion: float = STEEL_EXPANSION) -> float:
-    """Compute the change of the end play by temperatures against where it was measured [K], [m]."""
-    rate = end_play_per_kelvin(bearing, expansion)
+def clearance_per_kelvin(bearing: CylindricalBearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
+    """Change of the radial clearance of cylinders with the temperature of each part, [m/K].
+
+    Diameters of raceways and rollers grow in proportion to themselves.
+    """
+    return PartTemperatures(
+        cup=2.0 * expansion * bearing.cup_radius,
+        cone=-2.0 * expansion * bearing.cone_radius,
+        rollers=-2.0 * expansion * bearing.roller_diameter,
+    )
+
+
+def play_per_kelvin(bearing: RollerBearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
+    """Change of the end play of tapered rollers, or of the radial clearance of cylinders, [m/K].
+
+    Raises
+    ------
+    InputError
+        For a bearing of another kind.
+    """
+    bearing = require_simulated(bearing)
+    if isinstance(bearing, CylindricalBearing):
+        return clearance_per_kelvin(bearing, expansion)
+    return end_play_per_kelvin(bearing, expansion)
+
+
+def play_change(
+    bearing: RollerBearing, change: PartTemperatures, expansion: float = STEEL_EXPANSION
+) -> float:
+    """Compute the change of the play by temperatures against where it was measured [K], [m]."""
+    rate = play_per_kelvin(bearing, expansion)
     return rate.cup * change.cup + rate.cone * change.cone + rate.rollers * change.rollers
 
 

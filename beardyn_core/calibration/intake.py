@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.calibration.spectra import Hearing, Ride, heard_in, rides_of
 from beardyn_core.calibration.twin import operation_at
 from beardyn_core.calibration.unknowns import UNKNOWNS, Unknown
@@ -58,7 +58,7 @@ def unknowns_of(
 
 
 def rides_heard(
-    scene: Scene, sensor: int, heard: list[tuple[Run, Bearing | NamePlate, str]]
+    scene: Scene, sensor: int, heard: list[tuple[Run, RollerBearing | NamePlate, str]]
 ) -> tuple[Hearing, tuple[Ride, ...]]:
     """Hear the recordings, and refuse those that are not of such an axlebox."""
     rate, problems, axes, speeds = scene.sensors[sensor].rate, list[str](), set(AXES), list[float]()

@@ -9,9 +9,9 @@ from functools import cache, partial
 import numpy as np
 
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
 from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_exponent
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Choice, Influence, Verdict, percent
@@ -129,7 +129,7 @@ def lever_error(patch: Patch, length: float, count: int) -> float:
 
 
 @cache
-def taking_error(patch: Patch, bearing: Bearing, coupling: LaminaCoupling, count: int) -> float:
+def taking_error(patch: Patch, bearing: RollerBearing, coupling: LaminaCoupling, count: int) -> float:
     """Compute the error of coupled laminae in the load that a roller loses over a patch, [-].
 
     Relative to what the reference's laminae take.

@@ -7,8 +7,10 @@ import math
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.life import static_rating
+from beardyn_core.bearing.rib_face import rib_faces
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.journal import bending_give
 from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
@@ -30,7 +32,7 @@ _MOST_STEPS = 64
 
 
 def fastest_mode(
-    bearing: Bearing, mounting: Mounting, preloaded: bool, rows: int = 2, bending: Float | None = None
+    bearing: RollerBearing, mounting: Mounting, preloaded: bool, rows: int = 2, bending: Float | None = None
 ) -> float:
     """Estimate of the rings' angular frequency on the springs of the rollers, on the heavy side, [rad/s].
 
@@ -47,6 +49,7 @@ def fastest_mode(
     tangent = roller_tangent(bearing) * heaviest**0.1
     carrying = rollers * (1.0 if preloaded else 0.5)
     across, along = 0.5 * carrying * tangent * cosine**2, carrying * tangent * sine**2
+    along += thrust_stiffness(bearing, rows)
     about = 0.5 * carrying * tangent * (lever**2 + bearing.effective_length**2 / 12.0)
     moving = [0, 1, 2, 3, 5]
     give = np.zeros((6, 6))
@@ -66,6 +69,20 @@ def fastest_mode(
     root = np.sqrt([across, along, across, about, about])
     squared = root[:, None] * give[np.ix_(moving, moving)] * root
     return math.sqrt(float(np.linalg.eigvalsh(squared).max()))
+
+
+def thrust_stiffness(bearing: RollerBearing, rows: int) -> float:
+    """Estimate the axial stiffness of all ends of cylinders on their ribs, on the heavy side, [N/m].
+
+    All rollers share the largest thrust that catalogues allow at the static rating. 0 for other rollers.
+    """
+    faces = rib_faces(bearing)
+    if not isinstance(bearing, CylindricalBearing) or not bearing.carries_thrust:
+        return 0.0
+    rollers = rows * bearing.roller_count
+    each = bearing.largest_thrust * 0.5 * rows * static_rating(bearing) / rollers
+    softness = 2.0 * max(face.factor for face in faces) ** (-2.0 / 3.0)
+    return rollers * 1.5 * each ** (1.0 / 3.0) / softness
 
 
 def fast_steps(scene: Scene, long: bool = True, band: float = math.inf) -> StepChoice:
@@ -102,7 +119,7 @@ def fast_steps(scene: Scene, long: bool = True, band: float = math.inf) -> StepC
 def _fastest(scene: Scene, steps: int) -> float:
     """Estimate the rate of `fastest_mode` with so many steps per sample, [rad/s]."""
     bending = bending_give(scene, 1.0 / (steps * WAVEFORM_RATE))
-    return fastest_mode(scene.bearing, scene.mounting, scene.end_play < 0.0, scene.rows, bending)
+    return fastest_mode(scene.bearing, scene.mounting, scene.play < 0.0, scene.rows, bending)
 
 
 def _rings(fastest: float, steps: float) -> str:

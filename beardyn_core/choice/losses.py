@@ -17,13 +17,19 @@ from beardyn_core.physics.bodies.layout import CONE
 from beardyn_core.physics.cage.drag import cage_drag_torque
 from beardyn_core.physics.cage.rubbing import bar_weight
 from beardyn_core.physics.drag import drag_params, drag_push, drag_torque
+from beardyn_core.physics.flanges import flange_params
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.pure_rolling import kinematic_params
-from beardyn_core.physics.rib import rib_params
+from beardyn_core.physics.rib import large_rib_params
 from beardyn_core.physics.rolling_resistance import oil_supply
 from beardyn_core.physics.seal import seal_params, seal_torque
 from beardyn_core.physics.statics.static import StaticSolution
-from beardyn_core.physics.statics.torque import entrainment_speeds, rib_torque, running_torque
+from beardyn_core.physics.statics.torque import (
+    entrainment_speeds,
+    flanges_torque,
+    rib_torque,
+    running_torque,
+)
 from beardyn_core.physics.traction import TractionLaws, lamina_friction, rolling_lamina, traction_laws
 from beardyn_core.scene.scene import Scene
 
@@ -122,8 +128,10 @@ class Losses:
     def rib(self, rib: Rib | None) -> float:
         """Compute the torque of the sliding ribs with some options, [N m]."""
         scene = self.scene
-        law = rib_params(scene.bearing, rib, scene.lubricant, scene.temperature)
-        return rib_torque(scene.bearing, self.static, self.speed, law)
+        law = large_rib_params(scene.bearing, rib, scene.lubricant, scene.temperature)
+        ribs = flange_params(scene.mounted_bearing, rib, scene.lubricant, scene.temperature)
+        of_one = rib_torque(scene.bearing, self.static, self.speed, law)
+        return of_one + flanges_torque(self.static, self.speed, ribs)
 
     @property
     def pocket(self) -> float:

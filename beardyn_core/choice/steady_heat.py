@@ -13,7 +13,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
+from beardyn_core.bearing.thermal import PartTemperatures, play_change
 from beardyn_core.choice.load_cases import LoadCase, circumstances
 from beardyn_core.choice.losses import Losses
 from beardyn_core.choice.statics import Statics
@@ -134,12 +134,12 @@ def torque_by_source(scene: Scene, case: LoadCase) -> dict[str, float]:
 
 
 def _warm_scene(scene: Scene, thermal: Thermal, temperature: Float, start: Float) -> Scene:
-    """Give the scene the film temperature and end play that go with some temperatures."""
+    """Give the scene the film temperature and play that go with some temperatures."""
     change = temperature - start
-    closed = end_play_change(
+    closed = play_change(
         scene.bearing,
         PartTemperatures(change[CUP_NODE], change[CONE_NODE], change[ROLLER_NODE]),
         thermal.expansion,
     )
     film = scene.temperature + film_temperature(temperature) - film_temperature(start)
-    return replace(scene, temperature=film, end_play=scene.end_play + closed)
+    return replace(scene.with_play(scene.play + closed), temperature=film)

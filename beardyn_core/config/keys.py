@@ -20,6 +20,7 @@ from beardyn_core.base.edge import (
     is_noun,
     kinds_of,
     may_be_none,
+    needs_no_kind,
     places,
     plain_hint,
 )
@@ -183,7 +184,8 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
             return model
         tagged = [Annotated[model, Tag("<options>" if at.switch else "<inline>")]]
     else:
-        usual = kinds_of(options[0])[0] if at.switch else next(filter(None, map(_usual_kind, options)), None)
+        first = at.switch or needs_no_kind(options[0])
+        usual = kinds_of(options[0])[0] if first else next(filter(None, map(_usual_kind, options)), None)
         for option in options:
             model = keys_of(option, usual if usual in kinds_of(option) and is_kind(option) else None, sourced)
             tagged += [Annotated[model, Tag(f"<{kind}>")] for kind in kinds_of(option)]
@@ -196,10 +198,10 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
         """Tell what a value is, or the kind that it says or usually has."""
         if at.switch and (value is None or isinstance(value, bool)):
             return "<switch>"
-        if at.reference:
-            return "<name>" if isinstance(value, str) else "<inline>"
+        if at.reference and isinstance(value, str):
+            return "<name>"
         if len(options) == 1:
-            return "<options>"
+            return "<inline>" if at.reference else "<options>"
         kind = value.get("kind", usual) if isinstance(value, dict) else getattr(value, "kind", None)
         return f"<{kind}>" if kind is not None or isinstance(value, dict) else None
 

@@ -15,10 +15,16 @@ from pydantic import ValidationError
 from beardyn_core.base.edge import places
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS, stem_of
-from beardyn_core.bearing.any_bearing import BEARING_OF_KIND, refuse_kind
+from beardyn_core.bearing.any_bearing import (
+    BEARING_OF_KIND,
+    SIMULATED_KINDS,
+    SimulatedBearing,
+    refuse_kind,
+)
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.config.automatic import AUTO, auto_in_its_box, set_rings, take_auto
 from beardyn_core.config.content import located_table, self_contained
 from beardyn_core.config.folders import find
@@ -110,7 +116,7 @@ class _Reading:
         for place, value in overrides.items():
             self._override(place, value)
         self._inline(self.data, "bearing", "bearings", ())
-        self._require_tapered()
+        self._require_simulated()
         self._inline(self.data, "lubricant", "lubricants", ())
         self._inline(self.data, "background", "backgrounds", ())
         free = take_auto(self.data)
@@ -133,8 +139,8 @@ class _Reading:
         given = "steps_per_sample" in self.data.get("numerics", {})
         return OpenScene(self_contained(scene), free, given, self.data)
 
-    def _require_tapered(self) -> None:
-        """Refuse a bearing of another kind at once: no other key of the scene is about it."""
+    def _require_simulated(self) -> None:
+        """Refuse a bearing of a kind without runs at once: no other key of the scene is about it."""
         bearing = self.data.get("bearing")
         if not isinstance(bearing, dict) or "kind" not in bearing:
             return
@@ -142,10 +148,11 @@ class _Reading:
             allowed = ", ".join(BEARING_OF_KIND)
             where = self.origins[0].label
             raise InputError(f"{where}: bearing.kind is {bearing['kind']!r}; allowed are {allowed}")
-        if bearing["kind"] != Bearing.kind:
-            label = f"{self.origins[0].label}: bearing"
-            refuse_kind(str(bearing.get("name", "the bearing")), bearing["kind"], "runs", label)
-        self.data["bearing"] = {key: value for key, value in bearing.items() if key != "kind"}
+        if bearing["kind"] not in SIMULATED_KINDS:
+            label, name = f"{self.origins[0].label}: bearing", str(bearing.get("name", "the bearing"))
+            refuse_kind(name, bearing["kind"], "runs", label, SIMULATED_KINDS)
+        if bearing["kind"] == Bearing.kind:  # its keys have none
+            self.data["bearing"] = {key: value for key, value in bearing.items() if key != "kind"}
 
     def _complain(self, place: Place, problems: list[str]) -> None:
         label, key = locate(place, self.origins)
@@ -259,7 +266,7 @@ class _Reading:
         self._check_tier(free)
         self._check_pockets()
         self._check_wheel()
-        bearing = valid(Bearing, self.data.get("bearing"))
+        bearing = valid(SimulatedBearing, self.data.get("bearing"))
         if bearing is None:
             return
         label, _ = locate(("bearing",), self.origins)
@@ -278,7 +285,7 @@ class _Reading:
         for place, problem in missing_problems(self.data, bearing):
             self._complain(place, [problem])
 
-    def _check_forces(self, bearing: Bearing) -> None:
+    def _check_forces(self, bearing: RollerBearing) -> None:
         """Refuse forces that no bearing of this size can be meant to carry."""
         operation = self.data.get("operation")
         if not isinstance(operation, dict):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.config.keys import valid
 from beardyn_core.config.problems import Place
 from beardyn_core.scene.defect import MissingRoller
@@ -13,7 +13,7 @@ from beardyn_core.scene.defect import MissingRoller
 _ROW_NAMES = ("inboard", "outboard")
 
 
-def missing_problems(scene: Mapping[str, Any], bearing: Bearing) -> list[tuple[Place, str]]:
+def missing_problems(scene: Mapping[str, Any], bearing: RollerBearing) -> list[tuple[Place, str]]:
     """Find contradictions of `rows` and `missing_rollers` with each other and with the faults.
 
     Of the scene as written, entries with other mistakes are left out. Returned are the place of an entry, and

@@ -12,7 +12,13 @@ import beardyn_core.config.part_files
 import beardyn_core.config.scene_file  # noqa: F401  both say what the files of nouns may have besides
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
-from beardyn_core.bearing.any_bearing import BEARING_OF_KIND, AnyBearing, require_tapered
+from beardyn_core.bearing.any_bearing import (
+    BEARING_OF_KIND,
+    AnyBearing,
+    SimulatedBearing,
+    require_simulated,
+    require_tapered,
+)
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
@@ -40,7 +46,12 @@ def load_bearing(name: str | Path) -> Bearing:
     InputError
         With every mistake and contradiction, or for a bearing of another kind with what that one can do.
     """
-    return require_tapered(load_any_bearing(name), "runs, boxes, estimates and what is made of them")
+    return require_tapered(load_any_bearing(name), "estimates, forecasts and what is made of them")
+
+
+def load_simulated_bearing(name: str | Path) -> SimulatedBearing:
+    """Load a shipped bearing that a twin runs, or that of a file; see `load_bearing`."""
+    return require_simulated(load_any_bearing(name))
 
 
 def load_any_bearing(name: str | Path) -> AnyBearing:
@@ -116,8 +127,8 @@ def box_for(box: Box, bearing: str | Path, name: str | None = None) -> Box:
     name : str, optional
         Of the box; that of the other one and of the bearing when left out.
     """
-    carried = load_bearing(bearing)
-    fitted = fit_box(box, load_bearing(box.bearing), carried)
+    carried = load_simulated_bearing(bearing)
+    fitted = fit_box(box, load_simulated_bearing(box.bearing), carried)
     return replace(fitted, name=name or f"{box.name}_{carried.name}", bearing=str(bearing))
 
 

@@ -13,7 +13,10 @@ from pydantic_core import PydanticKnownError
 from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, places, written_value
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
-from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
+from beardyn_core.bearing.any_bearing import SimulatedBearing
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.geometry import MOST_END_PLAY
+from beardyn_core.bearing.radial_bearing import MOST_CLEARANCE, MOST_PRELOAD
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import choose_form
@@ -174,11 +177,15 @@ class SceneFile(FileModel):
         if self.roughness.rib_um is not None:
             bearing = replace(bearing, rib_roughness=um.to_si(self.roughness.rib_um))
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
-        end_play = _mounted_end_play(given, bearing) + _closure(given, bearing)
+        end_play = _mounted_end_play(given, bearing)
+        if isinstance(bearing, CylindricalBearing):
+            bearing = replace(bearing, radial_clearance=bearing.radial_clearance + _closure(given, bearing))
+        else:
+            end_play += _closure(given, bearing)
         given |= {"bearing": bearing, "end_play": end_play, "defects": defects}
         return Scene(**{**given, "mounting": self._with_box_of_table(given, bearing)})
 
-    def _with_box_of_table(self, given: dict[str, Any], bearing: Bearing) -> Mounting:
+    def _with_box_of_table(self, given: dict[str, Any], bearing: SimulatedBearing) -> Mounting:
         """Take the box from the table of its modes, and find sensors that sit nowhere on it."""
         mounting: Mounting = given["mounting"]
         problems = []
@@ -236,7 +243,7 @@ class SceneFile(FileModel):
                     "box rings on its end at 2.7 kHz"
                 )
         yield from _axle_held_twice(given["operation"], given["mounting"])
-        if isinstance(given["bearing"], Bearing):
+        if isinstance(given["bearing"], SimulatedBearing):
             yield from _play_out_of_range(given, given["bearing"])
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
@@ -248,19 +255,29 @@ class SceneFile(FileModel):
         yield from _rough_twice(given["background"], given["operation"])
 
 
-def _mounted_end_play(given: dict[str, Any], bearing: Bearing) -> float:
+def _mounted_end_play(given: dict[str, Any], bearing: SimulatedBearing) -> float:
     """Return the end play when mounted, [m]."""
     return float(bearing.end_play if given["end_play"] is None else given["end_play"])
 
 
-def _closure(given: dict[str, Any], bearing: Bearing) -> float:
+def _closure(given: dict[str, Any], bearing: SimulatedBearing) -> float:
     """Return what the temperatures of the parts add to it, [m]."""
     return float(given["temperatures"].closure(bearing)) if given["temperatures"] else 0.0
 
 
-def _play_out_of_range(given: dict[str, Any], bearing: Bearing) -> Iterator[Problem]:
+def _play_out_of_range(given: dict[str, Any], bearing: SimulatedBearing) -> Iterator[Problem]:
     """Find temperatures that open or close the bearing beyond what its contacts are for."""
     mm, mounted, closure = UNITS["mm"], _mounted_end_play(given, bearing), _closure(given, bearing)
+    if isinstance(bearing, CylindricalBearing):
+        open_by = bearing.radial_clearance + closure
+        if not -MOST_PRELOAD <= open_by <= MOST_CLEARANCE:
+            yield Problem(
+                f"temperatures make the radial clearance of {mm.to_edge(bearing.radial_clearance):.3g} mm "
+                f"when mounted one of {mm.to_edge(open_by):.3g} mm; it must lie between "
+                f"{-mm.to_edge(MOST_PRELOAD):g} and {mm.to_edge(MOST_CLEARANCE):g} mm",
+                ("temperatures",),
+            )
+        return
     if abs(mounted + closure) > MOST_END_PLAY:
         yield Problem(
             f"temperatures make the end play of {mm.to_edge(mounted):.3g} mm when mounted one of "

@@ -9,7 +9,7 @@ from typing import ClassVar, NamedTuple
 
 from beardyn_core.base.edge import At
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects.about import About
 
 AIR_PRESSURE = 101325.0  # [Pa]
@@ -72,7 +72,7 @@ class Windage:
         1.0
     )
 
-    def parameters(self, bearing: Bearing, temperature: float) -> WindageParams:
+    def parameters(self, bearing: RollerBearing, temperature: float) -> WindageParams:
         """Work out torques at 1 rad/s for a cage on the pitch circle, as long as its rollers; [K]."""
         viscosity = air_viscosity(temperature)
         density = self.density or air_density(temperature)

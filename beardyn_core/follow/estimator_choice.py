@@ -9,6 +9,7 @@ from beardyn_core.base.data_root import data_root
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.config import load_bearing
 from beardyn_core.config.folders import shipped_names
 from beardyn_core.follow.descriptors import AXES
@@ -43,7 +44,7 @@ def readable_estimators() -> Iterator[Estimator]:
 
 
 def estimator_for(
-    bearing: Bearing | NamePlate,
+    bearing: RollerBearing | NamePlate,
     axes: Sequence[str] = AXES,
     recording: str = "",
     known: Iterable[Estimator] | None = None,
@@ -83,12 +84,12 @@ def estimator_for(
     raise InputError(f"{bearing.name} {what}: {how_to_train(bearing, axes, recording)}")
 
 
-def estimator_of_run(run: Run, bearing: Bearing | NamePlate, sensor: str = "") -> Estimator:
+def estimator_of_run(run: Run, bearing: RollerBearing | NamePlate, sensor: str = "") -> Estimator:
     """Read the estimator of the bearing and of the measured axes of a run; see `estimator_for`."""
     return estimator_for(bearing, measured_axes(run, sensor), "" if run.path is None else str(run.path))
 
 
-def how_to_train(bearing: Bearing | NamePlate, axes: Sequence[str] = AXES, recording: str = "") -> str:
+def how_to_train(bearing: RollerBearing | NamePlate, axes: Sequence[str] = AXES, recording: str = "") -> str:
     """Say which command makes an estimator of a bearing, that is found without further options."""
     one = "".join(each for each in AXES if each in axes)
     option = f" --axes {one}" if one not in ("", *USUAL_AXES) else ""

@@ -13,7 +13,6 @@ from scipy.signal import resample_poly
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.descriptors import AXES, describe
@@ -45,7 +44,7 @@ class Ear(Protocol):
         """Length, [s]."""
 
 
-def doubt_of(estimator: Estimator, bearing: Bearing | NamePlate) -> str:
+def doubt_of(estimator: Estimator, bearing: RollerBearing | NamePlate) -> str:
     """Say why an estimator is not for a bearing; empty when it is."""
     plate = estimator.plate
     if alike(plate, bearing):
@@ -64,7 +63,7 @@ def alike(one: RollerBearing | NamePlate, other: RollerBearing | NamePlate) -> b
     return all(abs(getattr(one, name) / getattr(other, name) - 1.0) < _ALIKE for name in sizes)
 
 
-def sizes_text(bearing: Bearing | NamePlate) -> str:
+def sizes_text(bearing: RollerBearing | NamePlate) -> str:
     """Write the sizes by which bearings are told apart."""
     if isinstance(bearing, NamePlate) and not bearing.has_dimensions:
         return "maker's factors without diameters"
@@ -72,7 +71,9 @@ def sizes_text(bearing: Bearing | NamePlate) -> str:
     return f"{bearing.roller_count} rollers of {roller:.1f} mm on {pitch:.0f} mm"
 
 
-def estimates_of(run: Run, estimator: Estimator, bearing: Bearing | NamePlate, sensor: str = "") -> Estimates:
+def estimates_of(
+    run: Run, estimator: Estimator, bearing: RollerBearing | NamePlate, sensor: str = ""
+) -> Estimates:
     """Estimate from the vibration and the shaft of a run, and nothing else.
 
     Raises

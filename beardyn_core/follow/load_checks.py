@@ -10,8 +10,8 @@ from typing import Annotated as A
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import STANDARD_GRAVITY
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import load_doubts
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.known_load import KnownLoad
 
 LEAST_USUAL, MOST_USUAL = 12e3, 200e3  # on a journal: axles of some 4 to 42 t on the rail, [N]
@@ -57,7 +57,7 @@ class Evidence:
     axle_loads: AxleLoads | None = None
 
 
-def doubts_of(load: KnownLoad, bearing: Bearing | None, evidence: Evidence) -> tuple[str, ...]:
+def doubts_of(load: KnownLoad, bearing: RollerBearing | None, evidence: Evidence) -> tuple[str, ...]:
     """Say what contradicts a load, in sentences; empty where nothing does.
 
     Raises

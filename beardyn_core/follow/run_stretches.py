@@ -14,6 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.config import load_bearing, load_lubricant
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimator, read_estimator
@@ -29,7 +30,7 @@ from beardyn_core.record.run import Run
 
 
 def follower_of(
-    plate: Bearing | NamePlate,
+    plate: RollerBearing | NamePlate,
     estimator: Estimator | Path | str | None = None,
     *,
     service: Service | None = None,
@@ -60,7 +61,7 @@ def follower_of(
     )  # fmt: skip
 
 
-def whole_bearing(plate: Bearing | NamePlate) -> Bearing | None:
+def whole_bearing(plate: RollerBearing | NamePlate) -> Bearing | None:
     """Find the bearing of bearing data; none where only these are known."""
     if isinstance(plate, Bearing):
         return plate
@@ -80,7 +81,7 @@ class FollowedStretch(NamedTuple):
 
 
 def stretches_followed(
-    run: Run, follower: Follower, plate: Bearing | NamePlate, sensor: str
+    run: Run, follower: Follower, plate: RollerBearing | NamePlate, sensor: str
 ) -> Iterator[FollowedStretch]:
     """Give the stretches of a run as a filter takes them."""
     estimator, wheel = follower.estimator, follower.service.wheel_diameter

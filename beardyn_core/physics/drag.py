@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies.contact_output import account, account_loss, react
 from beardyn_core.physics.bodies.layout import CUP, LOSS_DRAG
 from beardyn_core.physics.bodies.power import squared_over
@@ -55,7 +55,7 @@ def drag_params(scene: Scene) -> DragParams | None:
     )
 
 
-def _radius(bearing: Bearing) -> float:
+def _radius(bearing: RollerBearing) -> float:
     return 0.5 * bearing.roller_diameter
 
 

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.rigid_bodies import X, Z, kick_cone
 from beardyn_core.physics.oscillators import exact_oscillators
@@ -57,7 +57,7 @@ def modes_of(scene: Scene) -> Modes | None:
 
 
 @lru_cache(maxsize=8)  # a warming bearing asks again and again
-def _modes(operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing) -> Modes | None:
+def _modes(operation: QuarterVehicleOperation, mounting: Mounting, bearing: RollerBearing) -> Modes | None:
     return bending_modes(operation, mounting, bearing)
 
 

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lamina_coupling import part_exponent
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.bodies import layout
@@ -50,7 +50,7 @@ class CouplingParams(NamedTuple):
 
 
 def coupling_params(
-    bearing: Bearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
+    bearing: RollerBearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
 ) -> CouplingParams | None:
     """Make matrices and work space for `count` laminae, or ``None`` without the effect."""
     if coupling is None:

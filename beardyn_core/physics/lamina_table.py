@@ -41,18 +41,18 @@ def equivalent_radius(bearing: RollerBearing, place: NDArray[np.float64], ring: 
     return 1.0 / (1.0 / roller + side / raceway)
 
 
-def contact_radii(bearing: Bearing, on: str, count: int) -> Float:
+def contact_radii(bearing: RollerBearing, on: str, count: int) -> Float:
     """Take radii of cylinders on a plane in place of the laminae's contacts with a surface, [lamina], [m].
 
     A patch of a roller meets both rings: there a radius is the roller's own.
     """
     places = lamina_places(bearing, count)
     if on == "roller":
-        return np.asarray((bearing.apex_distance + places) * math.tan(bearing.half_angle))
+        return bearing.radius_at(places)
     return equivalent_radius(bearing, places, on)
 
 
-def surface_radius(bearing: Bearing, on: str) -> float:
+def surface_radius(bearing: RollerBearing, on: str) -> float:
     """Work out the radius that turns an azimuth of cup, cone or roller into an arc at mid-length, [m]."""
     radii = {"cup": bearing.cup_radius, "cone": bearing.cone_radius, "roller": 0.5 * bearing.roller_diameter}
     return radii[on]
@@ -101,11 +101,9 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
     modulus = bearing.material.contact_modulus
     table = np.zeros((layout.LAMINA_ROWS, count))
     table[layout.LAMINA_PLACE] = place - bearing.roller_mass_offset
-    table[layout.LAMINA_DROP] = bearing.profile.lamina_drop(
-        count, bearing.effective_length, bearing.roller_diameter, modulus
-    )
+    table[layout.LAMINA_DROP] = bearing.lamina_drop(count)
     table[layout.LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
-    table[layout.LAMINA_RADIUS] = (bearing.apex_distance + place) * math.tan(bearing.half_angle)
+    table[layout.LAMINA_RADIUS] = bearing.radius_at(place)
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
     pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)
     for ring, name in enumerate(("cup", "cone")):

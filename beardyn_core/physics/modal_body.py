@@ -16,7 +16,6 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.ring_bending import cup_ring, housing_ring
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import RingStructure, Structure
@@ -75,7 +74,7 @@ def body_of(scene: Scene) -> ModalBody | None:
 
 @lru_cache(maxsize=32)
 def _body(
-    bearing: Bearing, structure: Structure, modes: Modes | None, mounting: Mounting, rows: int
+    bearing: RollerBearing, structure: Structure, modes: Modes | None, mounting: Mounting, rows: int
 ) -> ModalBody:
     if isinstance(structure, RingStructure):
         return rings(bearing, structure, rows)

@@ -8,7 +8,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.patch import Patch
 
 PATH_CELLS = 256
@@ -45,7 +45,7 @@ def sharp(patch: Patch) -> bool:
     return patch.kind in SHARP_KINDS and patch.rim_height == 0.0
 
 
-def reach_of(patch: Patch, size: tuple[float, float, float], radius: float, bearing: Bearing) -> float:
+def reach_of(patch: Patch, size: tuple[float, float, float], radius: float, bearing: RollerBearing) -> float:
     """Work out the arc from the centre beyond which a roller does not feel the patch, [m].
 
     ``size``: width, depth and rim height [m]; ``radius``: of the contact [m].
@@ -93,7 +93,7 @@ def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, r
 # --- sharp edges under load
 
 
-def contact_half_width(pressure: float, radius: float, bearing: Bearing) -> float:
+def contact_half_width(pressure: float, radius: float, bearing: RollerBearing) -> float:
     """Work out half of the width of a sound line contact of a largest pressure [Pa], [m]."""
     return 4.0 * radius * pressure / bearing.material.contact_modulus
 
@@ -137,7 +137,12 @@ def edge_sink(inside: Float, half_width: float, radius: float) -> Float:
 
 
 def edge_softness(
-    patch: Patch, size: tuple[float, float, float], radius: float, reach: float, path: Float, bearing: Bearing
+    patch: Patch,
+    size: tuple[float, float, float],
+    radius: float,
+    reach: float,
+    path: Float,
+    bearing: RollerBearing,
 ) -> Float:
     """Work out how much softer a contact is near sharp edges, at the arcs of a `path`, [PATH_CELLS + 1], [-].
 

@@ -1,4 +1,4 @@
-"""Contact of a roller with the cone at one point, which both ribs share."""
+"""Contact of a roller with a ring at one point, which all ribs share."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.contact_output import account, account_loss, react
-from beardyn_core.physics.bodies.layout import CONE, LOSS_DAMPING
+from beardyn_core.physics.bodies.layout import LOSS_DAMPING
 from beardyn_core.physics.contact_damping import implicit_time
 from beardyn_core.physics.lanes.lane_math import where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
@@ -31,15 +31,15 @@ class PointContact(NamedTuple):
     follows and nothing presses.
     """
 
-    centre: Vector  # of mass of the roller from the cone's origin [m]
-    normal: Vector  # into the cone
+    centre: Vector  # of mass of the roller from the ring's origin [m]
+    normal: Vector  # into the ring
     arm: Vector  # from the centre of mass [m]
     load: Any  # [N]
     tangent: Any  # stiffness [N/m]
     friction: Any  # over slip [N s/m]
     elastic: Any  # force [N]
     energy: Any  # [J]
-    slip: Vector  # of the roller against the cone [m/s]
+    slip: Vector  # of the roller against the ring [m/s]
     drilling: Any  # friction moment over spin about the normal [N m s]
     spin: Any  # about the normal [rad/s]
     film: Any  # thickness [m]
@@ -102,12 +102,12 @@ def _drilling_loss(contact, d_spin, drilling):
 
 
 @inline
-def settle_point(contact, change, here, source, time_constant, drilling, p):
-    """Settle a point contact with the cone after the solve: reaction and audit.
+def settle_point(contact, change, here, ring, source, time_constant, drilling, p):
+    """Settle a point contact with a ring after the solve: reaction and audit.
 
-    ``source``: which loss the friction counts as; ``time_constant``: damping over stiffness [s];
-    ``drilling``: whether the contact resists the spin about its normal. Returns the `Wrench` on the
-    roller that the step ends with.
+    ``ring``: ``CUP`` or ``CONE``; ``source``: which loss the friction counts as; ``time_constant``: damping
+    over stiffness [s]; ``drilling``: whether the contact resists the spin about its normal. Returns the
+    `Wrench` on the roller that the step ends with.
     """
     if not is_pressed(contact):
         still = 0.0 * contact.elastic
@@ -126,7 +126,7 @@ def settle_point(contact, change, here, source, time_constant, drilling, p):
     middle = add_scaled(before, 0.5, d_sliding)
     force = add_scaled(scale(-load, normal), -friction, sliding_after)
     wrench = Wrench(force, _add_drilling_moment(cross(arm, force), contact, contact.spin + d_spin, drilling))
-    react(CONE, contact.centre, wrench, here)
+    react(ring, contact.centre, wrench, here)
     damping = time_constant * tangent
     drilled, extra = _drilling_loss(contact, d_spin, drilling)
     numerical = 0.5 * friction * dot(d_sliding, middle) + extra

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, roller_cone_spin
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.cage.rubbing import PocketParams, pocket_params
 from beardyn_core.scene.scene import Scene
 
@@ -33,13 +34,15 @@ class KinematicParams(NamedTuple):
     pocket: PocketParams | None
 
 
-def pure_rolling(bearing: Bearing) -> KinematicParams:
+def pure_rolling(bearing: RollerBearing) -> KinematicParams:
     """Work out the pure rolling of one roller of a bearing, without weight and without pockets."""
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     offset = bearing.roller_mass_offset
     radius = bearing.roller_orbit_radius
     axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
-    spin_ratio = math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    cup, roller = bearing.rolling_radii
+    spin_ratio = cup / roller
+    spin = roller_cone_spin(bearing, 1.0)
     return KinematicParams(
         cage_ratio=cage_speed_ratio(bearing),
         spin_ratio=-spin_ratio,
@@ -51,8 +54,8 @@ def pure_rolling(bearing: Bearing) -> KinematicParams:
         axis_axial=cosine,
         cup_radius=bearing.cup_radius,
         cone_radius=bearing.cone_radius,
-        rib_slip=roller_cone_spin(bearing, 1.0) * bearing.rib_contact_height,
-        rib_spin=roller_cone_spin(bearing, 1.0),
+        rib_slip=spin * bearing.rib_contact_height if isinstance(bearing, Bearing) else 0.0,
+        rib_spin=spin,
         rolling_on_cup=bearing.cone_radius / bearing.roller_diameter,
         rolling_on_cone=bearing.cup_radius / bearing.roller_diameter,
         rolling_weight=0.0,

@@ -10,6 +10,7 @@ from beardyn_core.bearing import contact_law
 from beardyn_core.bearing.contact_law import exact_rib_contact
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import Rib
 from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
@@ -17,7 +18,14 @@ from beardyn_core.physics.bodies.contact_output import (
     output_contact,
     watch_largest,
 )
-from beardyn_core.physics.bodies.layout import CONTACT_OUTPUT, LOSS_RIB, OUTPUT_FIELDS, OUTPUT_FORCE, RIB
+from beardyn_core.physics.bodies.layout import (
+    CONE,
+    CONTACT_OUTPUT,
+    LOSS_RIB,
+    OUTPUT_FIELDS,
+    OUTPUT_FORCE,
+    RIB,
+)
 from beardyn_core.physics.contact_damping import damper_time
 from beardyn_core.physics.lanes.lane_math import at_least, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
@@ -93,9 +101,18 @@ def rib_params(
         regularisation=rib.regularisation_speed,
         window=rib_window(bearing, nominal, rib),
         end=roller_end(bearing) if rib.roller_end else None,
-        film=rib_film_params(bearing, rib, lubricant, temperature, contact),
+        film=rib_film_params(
+            bearing.rib_roughness, rib, lubricant, temperature, contact, contact_law.rib_contact(bearing)
+        ),
         drilling=rib_drilling_params(rib, contact),
     )
+
+
+def large_rib_params(
+    bearing: RollerBearing, rib: Rib | None, lubricant: Lubricant, temperature: float
+) -> RibParams | None:
+    """Describe the rib of tapered rollers as `rib_params`; ``None`` for rollers with two like ends."""
+    return rib_params(bearing, rib, lubricant, temperature) if isinstance(bearing, Bearing) else None
 
 
 _RIB_FORCE = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_FORCE
@@ -242,7 +259,7 @@ def settle_rib(contact, change, total, here, rib, p):
     if rib is None:
         return total
     first, time_constant = contact.first, damper_time(p.effects.damping)
-    wrench = settle_point(first, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    wrench = settle_point(first, change, here, CONE, LOSS_RIB, time_constant, rib.drilling, p)
     sliding = add_scaled(first.slip, -dot(first.slip, first.normal), first.normal)
     output = ContactOutput(wrench.force, first.arm, sqrt(dot(sliding, sliding)), first.film)
     output_contact(here.lanes, here.rollers, here.block, RIB, output)
@@ -261,7 +278,7 @@ def _settle_other(contact, change, total, here, law, end):
     if not is_pressed(second):
         return total
     time_constant = damper_time(p.effects.damping)
-    wrench = settle_point(second, change, here, LOSS_RIB, time_constant, rib.drilling, p)
+    wrench = settle_point(second, change, here, CONE, LOSS_RIB, time_constant, rib.drilling, p)
     both = add_wrenches(total, wrench)
     share = second.elastic / (first.elastic + second.elastic + _SMALLEST_ELASTIC)
     arm = add_scaled(first.arm, share, subtract(second.arm, first.arm))

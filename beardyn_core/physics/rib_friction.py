@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing.contact_law import SPIN_SHARE, PointContact
-from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_rib_film_factor
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.film_thickness import LOAD_EXPONENT, SPEED_EXPONENT, log2_point_film_factor
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.effects import Rib, RibShearedFilm
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD, squared_over
@@ -57,9 +56,18 @@ class RibDrillingParams(NamedTuple):
 
 
 def rib_film_params(
-    bearing: Bearing, rib: Rib, lubricant: Lubricant, temperature: float, contact: PointContact
+    roughness: float,
+    rib: Rib,
+    lubricant: Lubricant,
+    temperature: float,
+    contact: PointContact,
+    fitted: PointContact,
 ) -> RibFilmParams | None:
-    """Work out film thickness at the temperature of the inlet, and its friction."""
+    """Work out film thickness at the temperature of the inlet, and its friction.
+
+    ``roughness``: composite rms [m]; ``contact``: whose pressure shears the film; ``fitted``: the one with
+    the formula's radii.
+    """
     lubrication = rib.lubrication
     if lubrication is None:
         return None
@@ -72,10 +80,10 @@ def rib_film_params(
         pressure = 1.0 / (math.pi * larger * smaller) / math.sqrt(approach)
         sheared = RibShearParams(viscosity, pressure_viscosity, lubrication.limiting_shear, pressure)
     return RibFilmParams(
-        log2_factor=log2_rib_film_factor(bearing, viscosity, pressure_viscosity, lubrication.starvation),
+        log2_factor=log2_point_film_factor(fitted, viscosity, pressure_viscosity, lubrication.starvation),
         speed_exponent=SPEED_EXPONENT,
         load_exponent=LOAD_EXPONENT,
-        log2_roughness=math.log2(bearing.rib_roughness),
+        log2_roughness=math.log2(roughness),
         boundary_friction=lubrication.boundary_friction,
         film_friction=0.0 if isinstance(lubrication, RibShearedFilm) else lubrication.film_friction,
         sheared=sheared,

@@ -70,9 +70,14 @@ def roller_end(bearing: Bearing) -> RibEndParams:
         radius=radius,
         place=bearing.sphere_centre - bearing.roller_mass_offset + ahead,
         cosine=ahead / bearing.sphere_radius,
-        smallest_bend=_SMALLEST_BEND * math.sin(bearing.rib_polar_angle),
+        smallest_bend=smallest_bend(bearing.rib_polar_angle),
         both=1.0 if bearing.sphere_ratio >= 1.0 else None,
     )
+
+
+def smallest_bend(polar_angle: float) -> float:
+    """Work out the floor of the second derivative in the search along a rim, from the rib's polar angle."""
+    return _SMALLEST_BEND * math.sin(polar_angle)
 
 
 class RibPoint(NamedTuple):

@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 
 class SpringParams(NamedTuple):
@@ -25,12 +25,12 @@ class SpringParams(NamedTuple):
     reach: float  # half of the length that holds a tilt of the rings [m]
 
 
-def place_on_cup(bearing: Bearing) -> tuple[float, float]:
+def place_on_cup(bearing: RollerBearing) -> tuple[float, float]:
     """Work out radius and axial place, from the middle, of where a roller touches the cup, [m]."""
-    return bearing.cup_radius, bearing.apex_place + bearing.contact_distance * math.cos(bearing.cup_angle)
+    return bearing.cup_place
 
 
-def roller_tangent(bearing: Bearing) -> float:
+def roller_tangent(bearing: RollerBearing) -> float:
     """Work out the stiffness of a roller between cup and cone over the tenth root of its load, [N^0.9/m].
 
     Two line contacts in series, for which 10/9 Q / D of Q = K D^(10/9) is 10/9 K^0.9 Q^0.1; profile and rib
@@ -40,7 +40,7 @@ def roller_tangent(bearing: Bearing) -> float:
     return LINE_EXPONENT * factor ** (1.0 / LINE_EXPONENT)
 
 
-def lever_of_cup(bearing: Bearing) -> float:
+def lever_of_cup(bearing: RollerBearing) -> float:
     """Work out the arm of the cup's contact normal about the bearing centre, in a meridian plane, [m]."""
     radial, axial = place_on_cup(bearing)
     return axial * math.cos(bearing.cup_angle) + radial * math.sin(bearing.cup_angle)

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing import rolling_resistance as laws
 from beardyn_core.bearing.film_thickness import LINE_FORMULAS, thermal_loading
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.oil_layer import ELASTIC_FIT, RIGID_FIT, CoupleShares
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.bearing.starvation import couple_shares
 from beardyn_core.bearing.starved_rolling import FLOODED, OilSupply, flooded_film, rigid_film
 from beardyn_core.effects import LineFilm, RollingResistance
@@ -98,7 +98,7 @@ POWER_LAWS: dict[str, Any] = {
 
 
 def rolling_params(
-    bearing: Bearing,
+    bearing: RollerBearing,
     effect: RollingResistance | None,
     lubricant: Lubricant,
     temperature: float,

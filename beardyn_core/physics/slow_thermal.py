@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.thermal import PartTemperatures, end_play_change
+from beardyn_core.bearing.thermal import PartTemperatures, play_change
 from beardyn_core.effects import Thermal
 from beardyn_core.physics.bodies.layout import ENERGY_LOST
 from beardyn_core.physics.bodies.losses import LOSSES
 from beardyn_core.physics.thermal import CONE_NODE, CUP_NODE, NODES, ROLLER_NODE, heat_shares, thermal_network
 from beardyn_core.scene.scene import Scene
 
-# Parameters are rebuilt when the film has warmed by this much or the end play has moved that far.
+# Parameters are rebuilt when the film has warmed by this much or the play has moved that far.
 _NOTICEABLE_WARMING = 0.02  # [K]
 _NOTICEABLE_CLOSURE = 2.0e-8  # [m]
 _LONGEST = 10  # blocks: as often as temperatures are recorded
@@ -27,7 +27,7 @@ class Warmth:
     temperature: Float  # [node], of `physics.thermal.NODES` [K]
     lost: Float  # [source], since the start of the run [J]
     film_temperature: float  # that the kernels work with now [K]
-    end_play: float  # likewise [m]
+    play: float  # likewise: end play, or radial clearance of cylinders [m]
 
 
 def film_temperature(temperature: Float) -> float:
@@ -46,7 +46,7 @@ def cold_start(scene: Scene) -> Warmth:
     if scene.temperatures is not None:
         parts = scene.temperatures
         temperature[[CUP_NODE, CONE_NODE, ROLLER_NODE]] = parts.cup, parts.cone, parts.rollers
-    return Warmth(temperature, np.zeros(LOSSES), scene.temperature, scene.end_play)
+    return Warmth(temperature, np.zeros(LOSSES), scene.temperature, scene.play)
 
 
 def advance_temperatures(
@@ -77,20 +77,17 @@ def advance_temperatures(
     temperature = network.after(now.temperature, heat, thermal.ambient, duration)
     start = cold_start(scene).temperature
     change = temperature - start
-    end_play = scene.end_play + end_play_change(
+    play = scene.play + play_change(
         scene.bearing,
         PartTemperatures(change[CUP_NODE], change[CONE_NODE], change[ROLLER_NODE]),
         thermal.expansion,
     )
     film = scene.temperature + film_temperature(temperature) - film_temperature(start)
-    if (
-        abs(film - now.film_temperature) < _NOTICEABLE_WARMING
-        and abs(end_play - now.end_play) < _NOTICEABLE_CLOSURE
-    ):
-        film, end_play = now.film_temperature, now.end_play
-    return Warmth(temperature, lost, film, end_play)
+    if abs(film - now.film_temperature) < _NOTICEABLE_WARMING and abs(play - now.play) < _NOTICEABLE_CLOSURE:
+        film, play = now.film_temperature, now.play
+    return Warmth(temperature, lost, film, play)
 
 
 def scene_at(scene: Scene, warmth: Warmth) -> Scene:
-    """Give the scene film temperature and end play as they are now."""
-    return replace(scene, temperature=warmth.film_temperature, end_play=warmth.end_play)
+    """Give the scene film temperature and play as they are now."""
+    return replace(scene.with_play(warmth.play), temperature=warmth.film_temperature)

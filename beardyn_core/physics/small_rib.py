@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import EffectSet
-from beardyn_core.physics.bodies.layout import LOSS_SMALL_RIB
+from beardyn_core.physics.bodies.layout import CONE, LOSS_SMALL_RIB
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.lanes.lane_math import at_least, sqrt, where_greater
 from beardyn_core.physics.lanes.vectors import add, add_scaled, add_wrenches, cross, dot, scale, subtract
@@ -34,10 +35,10 @@ class SmallRibParams(NamedTuple):
     regularisation: float  # [m/s]
 
 
-def small_rib_params(bearing: Bearing, effects: EffectSet) -> SmallRibParams | None:
+def small_rib_params(bearing: RollerBearing, effects: EffectSet) -> SmallRibParams | None:
     """Describe the small rib in cone coordinates; its clearance opens with the roller on the large rib."""
     effect = effects.small_rib
-    if effect is None:
+    if effect is None or not isinstance(bearing, Bearing):
         return None
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     along = -0.5 * bearing.roller_length - bearing.small_rib_clearance
@@ -119,4 +120,6 @@ def settle_small_rib(contact, change, total, here, rib, p):
     if rib is None:
         return total
     time_constant = rib.damping.time_constant
-    return add_wrenches(total, settle_point(contact, change, here, LOSS_SMALL_RIB, time_constant, None, p))
+    return add_wrenches(
+        total, settle_point(contact, change, here, CONE, LOSS_SMALL_RIB, time_constant, None, p)
+    )

@@ -16,9 +16,9 @@ from scipy.optimize import brentq
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.holed_line import PRESSURE, lost_share
 from beardyn_core.bearing.lamina_coupling import coupled_law, joint_depth, part_exponent
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.lamina_table import contact_radii, lamina_places, surface_radius
@@ -29,7 +29,7 @@ _LEAST_FACTOR = 0.02  # of a cover, so that gaps stay finite
 _DEEP = 1.0e-3  # a hole without a floor [m]
 
 
-def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
+def lamina_cover(bearing: RollerBearing, patch: Patch, count: int) -> Float:
     """Compute the share of the length of each lamina that a patch covers, shape [lamina], [-].
 
     A part that is rounding is none: the surface under it does not exist.
@@ -45,7 +45,7 @@ def lamina_cover(bearing: Bearing, patch: Patch, count: int) -> Float:
 
 
 def counted_cover(
-    bearing: Bearing, patches: Sequence[Patch], count: int, coupling: LaminaCoupling | None
+    bearing: RollerBearing, patches: Sequence[Patch], count: int, coupling: LaminaCoupling | None
 ) -> Float:
     """Compute the share of each lamina that counts as lost over patches of a surface, [patch, lamina], [-].
 
@@ -80,7 +80,7 @@ def counted_cover(
     return counted
 
 
-def shared_cover(bearing: Bearing, patches: Sequence[Patch], count: int) -> Float:
+def shared_cover(bearing: RollerBearing, patches: Sequence[Patch], count: int) -> Float:
     """Compute the share of each lamina that two patches both cover, [patch, patch, lamina].
 
     Empty where no patches that a roller can meet lie over each other.
@@ -89,7 +89,7 @@ def shared_cover(bearing: Bearing, patches: Sequence[Patch], count: int) -> Floa
     return shared if np.any(shared > 0.0) else np.zeros((0, 0, count))
 
 
-def _all_shared(bearing: Bearing, patches: Sequence[Patch], count: int) -> Float:
+def _all_shared(bearing: RollerBearing, patches: Sequence[Patch], count: int) -> Float:
     cover = [lamina_cover(bearing, patch, count) for patch in patches]
     shared = np.zeros((len(patches), len(patches), count))
     for first, one in enumerate(patches):
@@ -108,7 +108,7 @@ def _interval(patch: Patch) -> tuple[float, float]:
     return patch.offset - 0.5 * patch.length, patch.offset + 0.5 * patch.length
 
 
-def _meet(one: Patch, other: Patch, bearing: Bearing) -> bool:
+def _meet(one: Patch, other: Patch, bearing: RollerBearing) -> bool:
     """Tell whether a roller at the middle of a patch is over the other as well."""
     if (one.row, one.roller) != (other.row, other.roller):
         return False
@@ -117,13 +117,15 @@ def _meet(one: Patch, other: Patch, bearing: Bearing) -> bool:
     return abs(apart) * surface_radius(bearing, one.on) < 0.5 * max(one.width, other.width)
 
 
-def _lost(bearing: Bearing, holes: Sequence[tuple[float, float]]) -> float:
+def _lost(bearing: RollerBearing, holes: Sequence[tuple[float, float]]) -> float:
     """Take one radius for cup and cone: patches of ring and roller that meet then count alike."""
     radius = 0.5 * sum(float(contact_radii(bearing, ring, 1)[0]) for ring in ("cup", "cone"))
     return lost_share(holes, bearing.effective_length, radius, bearing.material.contact_modulus)
 
 
-def _lost_by_law(bearing: Bearing, count: int, coupling: LaminaCoupling | None) -> Callable[[Float], float]:
+def _lost_by_law(
+    bearing: RollerBearing, count: int, coupling: LaminaCoupling | None
+) -> Callable[[Float], float]:
     """Take the share of the load that a contact loses by its law over deep holes that cover its laminae."""
     if coupling is None:
         return lambda cover: float(np.mean(cover))

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.rigid_bodies import LOAD_BOGIE, fall, kick_cup
 from beardyn_core.physics.journal import JournalParams
@@ -68,7 +68,9 @@ def move_stiffness(diagonal: ArrayLike, centre: ArrayLike) -> Float:
     return np.asarray(motion.T @ np.diag(np.asarray(diagonal, dtype=float)) @ motion)
 
 
-def box_coupling(bearing: Bearing, mounting: Mounting, modes: Modes | None = None) -> BoxCoupling | None:
+def box_coupling(
+    bearing: RollerBearing, mounting: Mounting, modes: Modes | None = None
+) -> BoxCoupling | None:
     """Make full matrices of the box with the cup; ``None`` with everything at the bearing centre.
 
     ``modes``: those of the box, whose seats may give way; its inertia is taken from there.
@@ -92,7 +94,7 @@ def box_coupling(bearing: Bearing, mounting: Mounting, modes: Modes | None = Non
 
 
 def mounting_params(
-    bearing: Bearing,
+    bearing: RollerBearing,
     mounting: Mounting,
     preload: Float,
     modes: Modes | None = None,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.bearing.thermal import ThermalNetwork
 from beardyn_core.effects import Thermal
 from beardyn_core.effects.catalogue import heat_by_loss
@@ -48,14 +48,14 @@ def moving_air(speed: float, diameter: float) -> float:
     return nusselt * _AIR_CONDUCTIVITY / diameter
 
 
-def axle_fin(bearing: Bearing, heat_transfer: float) -> float:
+def axle_fin(bearing: RollerBearing, heat_transfer: float) -> float:
     """Work out the conductance from the cones along a long axle into the air: a fin, sqrt(h P k A), [W/K]."""
     around, section = math.pi * bearing.bore, 0.25 * math.pi * bearing.bore**2
     return math.sqrt(heat_transfer * around * _STEEL_CONDUCTIVITY * section)
 
 
 def thermal_network(
-    bearing: Bearing,
+    bearing: RollerBearing,
     thermal: Thermal,
     box_mass: float,
     shaft_speed: float,

@@ -13,6 +13,7 @@ from typing import Any
 
 from beardyn_core.base.edge import Vector, write_noun
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.any_bearing import require_tapered
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import dynamic_rating
 from beardyn_core.config import load_bearing, load_box, read_scene, read_sweep
@@ -118,7 +119,8 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: 
     keys = read_file(path)
     sweep, label = read_sweep(path)
     model = open_base(sweep, label)[1].scene
-    own, structure = model.bearing, model.effects.structure
+    own = require_tapered(model.bearing, "estimators", label)
+    structure = model.effects.structure
     if not isinstance(structure, ModalStructure):
         raise InputError(f"{label}: its scene {sweep.scene} has no box that rings; an estimator needs one")
     if sweep.scene not in shipped_names("scenes"):

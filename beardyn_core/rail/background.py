@@ -7,15 +7,17 @@ from math import pi
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.background import Background, Knocks, OtherBearing
 
 _STREAM = 0x62616367  # keeps these random numbers apart from those of rail and sensors
 _DRIVE, _OTHER, _KNOCKS = range(3)
 
 
-def background_force(background: Background, bearing: Bearing, time: Float, speed: Float, seed: int) -> Float:
+def background_force(
+    background: Background, bearing: RollerBearing, time: Float, speed: Float, seed: int
+) -> Float:
     """Compute the vertical force on the journal, upwards, shape [sample], [N].
 
     Lines follow the shaft angle, and their phases are random; a line above 0.4 of the rate is left out. They
@@ -23,7 +25,7 @@ def background_force(background: Background, bearing: Bearing, time: Float, spee
 
     Parameters
     ----------
-    bearing : Bearing
+    bearing : RollerBearing
         Type of the other bearing.
     time, speed : float64 arrays, shape [sample]
         Evenly spaced from 0, [s]; of the shaft, [rad/s].
@@ -62,7 +64,7 @@ def _lines(
 
 def _other_bearing(
     other: OtherBearing,
-    bearing: Bearing,
+    bearing: RollerBearing,
     angle: Float,
     speed: Float,
     step: float,

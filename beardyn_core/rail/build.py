@@ -7,7 +7,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.low_pass import decimate, thinning_kernel
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.rail.background import background_force
 from beardyn_core.rail.excitation import rail_height, wheel_height
 from beardyn_core.rail.irregularity import irregular_height
@@ -45,7 +45,7 @@ def load_history(
     duration: float,
     seed: int,
     background: Background | None = None,
-    bearing: Bearing | None = None,
+    bearing: RollerBearing | None = None,
 ) -> LoadHistory:
     """Compute load on the journal and shaft speed, from time 0 to the first sample at or after the end.
 
@@ -61,7 +61,7 @@ def load_history(
         Of the irregularity and the background.
     background : Background, optional
         What acts on the journal besides.
-    bearing : Bearing, optional
+    bearing : RollerBearing, optional
         Of which a coupled wheelset has the masses, and a background the faults; only these need it.
 
     Raises
@@ -144,7 +144,7 @@ def ride_steps(
     steps: int,
     seed: int,
     background: Background | None = None,
-    bearing: Bearing | None = None,
+    bearing: RollerBearing | None = None,
 ) -> tuple[Ride, Running | None]:
     """Compute the motion of the rail model's bodies, and what acts besides the profile, at `RIDE_RATE`."""
     time = np.arange(steps) / RIDE_RATE
@@ -176,7 +176,7 @@ def _quarter_vehicle(
     rate: float,
     seed: int,
     background: Background | None,
-    bearing: Bearing | None,
+    bearing: RollerBearing | None,
 ) -> LoadHistory:
     """Compute the wheel-rail force, less the weight of the half wheelset, and the motion of the bogie.
 

@@ -14,7 +14,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import entry, inline
 from beardyn_core.base.low_pass import first_order
 from beardyn_core.base.units import STANDARD_GRAVITY
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.rail.track import RailWaves, rail_waves
 from beardyn_core.rail.wheelset import Modes, bending_modes
 from beardyn_core.scene.mounting import Mounting, ProgressiveSuspension
@@ -133,7 +133,7 @@ class Ride:
 
 
 def quarter_vehicle(
-    operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing | None = None
+    operation: QuarterVehicleOperation, mounting: Mounting, bearing: RollerBearing | None = None
 ) -> QuarterVehicle:
     """Build one axlebox's share: an eighth of the body, a quarter of a bogie, half a wheelset, one rail.
 

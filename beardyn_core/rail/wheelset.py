@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.wheelset import Wheelset
@@ -107,7 +107,7 @@ class Modes:
 
 
 def bending_modes(
-    operation: QuarterVehicleOperation, mounting: Mounting, bearing: Bearing | None = None
+    operation: QuarterVehicleOperation, mounting: Mounting, bearing: RollerBearing | None = None
 ) -> Modes | None:
     """Compute the modes of a wheelset in which both wheels move alike; ``None`` when it is rigid.
 

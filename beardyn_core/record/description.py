@@ -20,7 +20,7 @@ from beardyn_core.scene.sensor import RATES
 from beardyn_core.sensors.labels import load_labels
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.scene.scene import Scene
 
 DESCRIPTION_KEY = "description"
@@ -46,19 +46,24 @@ class BearingShape:
     rib_contact_height: A[float, "of the rib contact above the cone raceway"]
 
     @classmethod
-    def of(cls, bearing: Bearing) -> BearingShape:
+    def of(cls, bearing: RollerBearing) -> BearingShape:
         """Take the shape of a bearing."""
         return cls(**{member.name: getattr(bearing, member.name) for member in fields(cls)})
 
     @property
+    def is_cylindrical(self) -> bool:
+        """Whether the rollers are cylinders: their axes are parallel to that of the bearing."""
+        return self.contact_angle == 0.0
+
+    @property
     def apex_distance(self) -> float:
-        """From the common apex to the middle of a roller, along the roller axis, [m]."""
+        """From the common apex of tapered rollers to the middle of one, along its axis, [m]."""
         return self.pitch_diameter / (2.0 * sin(self.contact_angle))
 
     @property
     def half_angle(self) -> float:
         """Half the cone angle of a roller, [rad]."""
-        return atan(self.roller_diameter / (2.0 * self.apex_distance))
+        return atan(self.roller_diameter * sin(self.contact_angle) / self.pitch_diameter)
 
     @property
     def cup_angle(self) -> float:
@@ -73,12 +78,16 @@ class BearingShape:
     @property
     def large_end_radius(self) -> float:
         """Radius of a roller at its large end, [m]."""
-        return (self.apex_distance + self.roller_length / 2.0) * tan(self.half_angle)
+        return self.radius_at(self.roller_length / 2.0)
 
     @property
     def small_end_radius(self) -> float:
         """Radius of a roller at its small end, [m]."""
-        return (self.apex_distance - self.roller_length / 2.0) * tan(self.half_angle)
+        return self.radius_at(-self.roller_length / 2.0)
+
+    def radius_at(self, place: float) -> float:
+        """Compute the radius of a roller at a place along its axis, from its middle to the large end, [m]."""
+        return 0.5 * self.roller_diameter + place * tan(self.half_angle)
 
     @property
     def fault_frequencies(self) -> dict[str, float]:
@@ -106,7 +115,7 @@ class RunDescription:
     ] = None
     sensor_rates: A[tuple[float, ...], "of each of them, [Hz]"] = ()
     # of a run in memory; in a file it stands in `scene_text`
-    bearing: Bearing | None = field(default=None, compare=False, repr=False)
+    bearing: RollerBearing | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if not self.sensor_rates:  # all at the usual one, as every recording before there was another
@@ -218,7 +227,7 @@ def _check(run: RunDescription) -> None:
     if not 1 <= shape.roller_count <= MOST_ROLLERS:
         raise ValueError(f"roller_count is {shape.roller_count}; allowed is 1 to {MOST_ROLLERS}")
     sizes = (shape.pitch_diameter, shape.roller_diameter, shape.roller_length, shape.outer_diameter)
-    if not (all(0.0 < size < LARGEST_SIZE for size in sizes) and 0.0 < shape.contact_angle < pi / 2.0):
+    if not (all(0.0 < size < LARGEST_SIZE for size in sizes) and 0.0 <= shape.contact_angle < pi / 2.0):
         raise ValueError("a dimension of the bearing is none")
     texts = (run.scene, run.scene_text, *run.body_names)
     if not all(isinstance(text, str) for text in texts) or len(run.body_names) > MOST_BODIES:

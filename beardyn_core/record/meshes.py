@@ -94,23 +94,22 @@ def section(profile: Float, azimuth: float, facing: float) -> Mesh:
     return Mesh(vertices, normals, triangles, np.full_like(vertices, 0.72))
 
 
-def raceway_radius(shape: BearingShape, angle: float, distance: float) -> tuple[float, float]:
-    """Compute axial distance from the row centre (towards the large end) and radius on a raceway cone, [m].
+def raceway_radius(shape: BearingShape, ring: str, distance: float) -> tuple[float, float]:
+    """Compute axial distance from the row centre (towards the large end) and radius on a raceway, [m].
 
-    The angle is the half angle of the cone [rad], the distance [m] that along the roller axis from its
-    middle, towards the large end.
+    The raceway is that of ``cup`` or ``cone``, the distance [m] that along the roller axis from its middle,
+    towards the large end.
     """
-    # The generator touches the roller where the apex distance is projected on it.
-    along = (shape.apex_distance + distance) / cos(shape.half_angle)
-    apex = shape.apex_distance * cos(shape.contact_angle)
-    return along * cos(angle) - apex, along * sin(angle)
+    y, r = _on_pitch_cone(shape, distance)
+    out = shape.radius_at(distance) * (1.0 if ring == "cup" else -1.0)
+    return y - out * sin(shape.contact_angle), r + out * cos(shape.contact_angle)
 
 
 def cup(shape: BearingShape) -> Mesh:
     """Build the cup, cut open over `CUT_OPEN`."""
     half = shape.roller_length / 2.0
-    inner_small = raceway_radius(shape, shape.cup_angle, -1.06 * half)
-    inner_large = raceway_radius(shape, shape.cup_angle, 1.30 * half)
+    inner_small = raceway_radius(shape, "cup", -1.06 * half)
+    inner_large = raceway_radius(shape, "cup", 1.30 * half)
     middle = shape.row_spacing / 2.0
     outer = shape.outer_diameter / 2.0
     edge, chamfer = middle + inner_large[0], 0.03 * outer
@@ -131,8 +130,8 @@ def cone(shape: BearingShape) -> Mesh:
     """Build both cones with their ribs and the spacer, with a dark mark that shows the rotation."""
     half = shape.roller_length / 2.0
     bore, middle = shape.bore / 2.0, shape.row_spacing / 2.0
-    small = raceway_radius(shape, shape.cone_angle, -1.04 * half)
-    large = raceway_radius(shape, shape.cone_angle, 1.01 * half)
+    small = raceway_radius(shape, "cone", -1.04 * half)
+    large = raceway_radius(shape, "cone", 1.01 * half)
     rib = large[1] + 2.2 * shape.rib_contact_height
     land = small[1] + 0.6 * shape.rib_contact_height
     end = max(shape.width / 2.0, middle + large[0] + 0.004)
@@ -210,12 +209,13 @@ def cage(shape: BearingShape, row: int) -> Mesh:
 
 def spall(shape: BearingShape, defect: Patch | FieldSpall) -> Mesh:
     """Build a spall on a raceway of the cup or the cone, slightly raised so that it is visible."""
-    angle = shape.cup_angle if defect.on == "cup" else shape.cone_angle
     if isinstance(defect, FieldSpall):
-        radius = raceway_radius(shape, angle, 0.0)[1]
+        radius = raceway_radius(shape, defect.on, 0.0)[1]
         return join_meshes(*(spall(shape, patch) for patch in defect.patches_at(radius)))
     lift = -4e-4 if defect.on == "cup" else 4e-4
-    ends = [raceway_radius(shape, angle, defect.offset + sign * defect.length / 2.0) for sign in (-1.0, 1.0)]
+    ends = [
+        raceway_radius(shape, defect.on, defect.offset + sign * defect.length / 2.0) for sign in (-1.0, 1.0)
+    ]
     profile = np.array([(shape.row_spacing / 2.0 + y, r + lift) for y, r in ends])
     half = max(defect.width / 2.0 / float(profile[:, 1].mean()), 0.004)
     mesh = revolve(profile, np.linspace(defect.azimuth - half, defect.azimuth + half, 12))
@@ -248,5 +248,5 @@ def _in_sector(mesh: Mesh, half: float) -> NDArray[np.bool_]:
 
 
 def _on_pitch_cone(shape: BearingShape, distance: float) -> tuple[float, float]:
-    along, angle = shape.apex_distance + distance, shape.contact_angle
-    return along * cos(angle) - shape.apex_distance * cos(angle), along * sin(angle)
+    angle = shape.contact_angle
+    return distance * cos(angle), 0.5 * shape.pitch_diameter + distance * sin(angle)

@@ -9,7 +9,7 @@ from typing import Annotated as A
 from typing import Any, ClassVar
 
 from beardyn_core.base.edge import INTERNAL, ROW, At
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.field_spall import FieldSpall
 from beardyn_core.scene.patch import LEAST_DEPTH, Growth, Patch, no_such, raceway_diameter
 
@@ -23,7 +23,7 @@ class _OneRoller:
     row: A[int, ROW, "0 inboard, 1 outboard"]
     roller: A[int, At(ge=0), "which roller"]
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that the roller is one of the bearing."""
         return no_such("roller", self.roller, bearing)
 
@@ -57,7 +57,7 @@ class WornPocket:
     ]
     kind: A[str, At(one_of=("worn_pocket",), required=True), "which of the kinds this is"] = "worn_pocket"
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that the defect is possible in the bearing."""
         return no_such("pocket", self.pocket, bearing)
 
@@ -80,7 +80,7 @@ class MissingRoller(_OneRoller):
 Defect = Patch | FieldSpall | RollerError | WornPocket | MissingRoller
 
 
-def every_patch(defects: Sequence[Defect], bearing: Bearing) -> tuple[Patch, ...]:
+def every_patch(defects: Sequence[Defect], bearing: RollerBearing) -> tuple[Patch, ...]:
     """List all patches of raceways and rollers, those that a field spall consists of among them."""
     found: list[Patch] = []
     for defect in defects:
@@ -89,7 +89,7 @@ def every_patch(defects: Sequence[Defect], bearing: Bearing) -> tuple[Patch, ...
     return tuple(found)
 
 
-def doubts_about(defects: Sequence[Defect], bearing: Bearing) -> list[str]:
+def doubts_about(defects: Sequence[Defect], bearing: RollerBearing) -> list[str]:
     """Warn of defects that are possible but unusual."""
     found = []
     for index, defect in enumerate(defects):

@@ -23,7 +23,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import ROW, SEED, At
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.patch import Patch, no_such, not_on_a_roller, raceway_diameter, width_problem
 
 PARTS = 13  # strips along the roller that stand for the outline; more change a round pit by less than 1 %
@@ -108,7 +108,7 @@ class FieldSpall:
         if self.on != "roller" and self.roller != 0:
             yield not_on_a_roller(self.roller, self.on)
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that the spall fits on the bearing."""
         effective = bearing.effective_length
         if self.on == "roller":
@@ -150,7 +150,7 @@ class FieldSpall:
         """Area that is broken out, [m^2]."""
         return float((self.outline.high - self.outline.low).sum()) * self.outline.cell
 
-    def patches(self, bearing: Bearing) -> tuple[Patch, ...]:
+    def patches(self, bearing: RollerBearing) -> tuple[Patch, ...]:
         """Make the strips, pits and dents that a roller meets."""
         diameter = bearing.roller_diameter if self.on == "roller" else raceway_diameter(self.on, bearing)
         return self.patches_at(0.5 * diameter)

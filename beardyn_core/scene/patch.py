@@ -9,7 +9,7 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.edge import INTERNAL, ROW, At
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 LEAST_DEPTH = 1e-7  # of a patch: about the roughness of a raceway [m]
 SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]
@@ -17,7 +17,7 @@ SMALLEST_SINK = 1e-8  # of a roller into a patch that it bridges [m]
 PATCH_KINDS = ("spall", "rectangular", "half_sine", "elliptic", "dent", "brinelling")
 
 
-def no_such(key: str, number: int, bearing: Bearing) -> Iterator[str]:
+def no_such(key: str, number: int, bearing: RollerBearing) -> Iterator[str]:
     """Report a number of a roller or pocket that the bearing does not have."""
     if number >= bearing.roller_count:
         yield (
@@ -96,7 +96,7 @@ class Patch:
         if self.rim_height > 0.0 and self.rim_width == 0.0:
             yield f"rim_width_mm is 0; a shoulder with rim_height_um {self.rim_height * 1e6:g} needs a width"
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that the patch fits on the bearing."""
         effective, length = bearing.effective_length * 1e3, self.length * 1e3
         slack = 1e-9 * effective
@@ -151,7 +151,7 @@ class Patch:
         return words
 
 
-def width_problem(width: float, on: str, bearing: Bearing) -> str:
+def width_problem(width: float, on: str, bearing: RollerBearing) -> str:
     """Say why a patch on cup, cone or roller cannot be of that width [m]; empty when it can.
 
     A roller of radius R that bridges a width w sinks by w^2 / 8 R: at the least width by 10 nm, a tenth of
@@ -170,7 +170,7 @@ def width_problem(width: float, on: str, bearing: Bearing) -> str:
     return ""
 
 
-def raceway_diameter(on: str, bearing: Bearing) -> float:
+def raceway_diameter(on: str, bearing: RollerBearing) -> float:
     """Compute the mean diameter of the raceway of the cup or the cone, [m]."""
     side = 1.0 if on == "cup" else -1.0
     return bearing.pitch_diameter + side * bearing.roller_diameter * math.cos(bearing.contact_angle)

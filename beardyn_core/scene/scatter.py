@@ -12,7 +12,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import SEED, At, write_noun
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.surface import (
     FACTORS,
     FIRST_ORDER,
@@ -123,12 +123,12 @@ class Scatter:
         """Take the surface: its own key, or the typical one of any grade."""
         return self.surface or ("none" if self.grade == "none" else "typical")
 
-    def surface_factor(self, on: str, bearing: Bearing) -> float:
+    def surface_factor(self, on: str, bearing: RollerBearing) -> float:
         """Work out the heights of a surface over those of a typical one, [-]."""
         own = self.roller_waviness if on == "roller" else self.raceway_waviness
         return FACTORS[self.made_surface] if own is None else own / stated_rms(on, circumference(on, bearing))
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that pockets keep room for their rollers."""
         room = bearing.cage.circumferential_clearance
         taken = self.variation("pocket_clearance") + self.variation("pocket_place")
@@ -151,7 +151,7 @@ class Scatter:
         first = np.argmax(np.abs(tries) <= CUT, axis=1)
         return 0.5 / CUT * self.variation(name) * tries[np.arange(count), first]
 
-    def deviations(self, bearing: Bearing) -> Deviations:
+    def deviations(self, bearing: RollerBearing) -> Deviations:
         """Draw what a bearing differs by from its drawing."""
         each = {
             field.name: np.stack(
@@ -163,7 +163,7 @@ class Scatter:
         rows = np.concatenate([self._draw_deviations("row_clearance", row, 1) for row in range(_ROWS)])
         return Deviations(**each, row_clearance=rows)
 
-    def waves(self, bearing: Bearing) -> tuple[Waviness, ...]:
+    def waves(self, bearing: RollerBearing) -> tuple[Waviness, ...]:
         """Make the waves of all surfaces as they move a straight roller, with phases from the seed.
 
         One law gives the waves of every length. Without the short ones a bearing would be silent above a few
@@ -188,7 +188,7 @@ class Scatter:
         words = np.random.SeedSequence([self.seed, zlib.crc32(f"{on}_waviness".encode())])
         return int(words.generate_state(1)[0])
 
-    def truth(self, bearing: Bearing) -> dict[str, Any]:
+    def truth(self, bearing: RollerBearing) -> dict[str, Any]:
         """Write grade, seed, surface and all deviations, [m]."""
         own: dict[str, Any] = {name: self.variation(name) for name in _OF_G1}
         full = replace(self, surface=self.made_surface, **own)

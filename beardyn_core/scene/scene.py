@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Annotated as A
 from typing import Any, Literal
 
 from beardyn_core.base.edge import INTERNAL, SEED, At
 from beardyn_core.base.units import UNITS
-from beardyn_core.bearing.any_bearing import require_tapered
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.any_bearing import SimulatedBearing, require_simulated
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.effects import EffectSet
@@ -67,7 +67,7 @@ class Scene:
 
     name: A[str, At(longest=80, key="scene"), "name of the scene"]
     purpose: A[str, "one line: what the scene is for"] = ""
-    bearing: A[Bearing, At(reference=True), "a shipped bearing, a path, or the keys of one"]
+    bearing: A[SimulatedBearing, At(reference=True), "a shipped bearing, a path, or the keys of one"]
     lubricant: A[Lubricant, At(reference=True), "a shipped lubricant, a path, or the keys of one"]
     temperature: A[float, At("C", ge=-60.0, le=200.0), "lubricant and bearing"] = 343.15
     end_play: A[
@@ -79,7 +79,8 @@ class Scene:
         "full"
     )
     temperatures: A[
-        Temperatures | None, "of the parts; with them end_play_mm is the one mounted at assembly_C"
+        Temperatures | None,
+        "of the parts; with them the end play, of cylinders the radial clearance, is that at assembly_C",
     ] = None
     effects: A[
         EffectSet, At(reference=True, usual="auto"), "a preset, a path, which effects are on, or auto"
@@ -131,13 +132,17 @@ class Scene:
     left_open: A[LeftOpen | None, INTERNAL] = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
-        require_tapered(self.bearing, "runs", f"scene {self.name}")
+        require_simulated(self.bearing, f"scene {self.name}")
 
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
-        """Write the end play as mounted, before temperatures change it."""
+        """Write the play as mounted, before temperatures change it."""
         if self.temperatures is not None:
             closure = self.temperatures.closure(self.bearing)
-            keys["end_play_mm"] = UNITS["mm"].to_edge(self.end_play, closure)
+            if isinstance(self.bearing, CylindricalBearing):
+                clearance = UNITS["mm"].to_edge(self.bearing.radial_clearance, closure)
+                keys["bearing"]["radial_clearance_mm"] = clearance
+            else:
+                keys["end_play_mm"] = UNITS["mm"].to_edge(self.end_play, closure)
         return keys
 
     def __repr__(self) -> str:
@@ -148,6 +153,24 @@ class Scene:
             f"Scene {self.name}: bearing {self.bearing.name}, tier {self.tier}, {where}, "
             f"{self.duration:g} s, {faults}\n  effects: {', '.join(self.effects.names()) or 'none'}"
         )
+
+    @property
+    def play(self) -> float:
+        """What temperatures change: the end play, or the radial clearance of cylinders, [m]."""
+        if isinstance(self.bearing, CylindricalBearing):
+            return self.bearing.radial_clearance
+        return self.end_play
+
+    def with_play(self, play: float) -> Scene:
+        """Give the scene another play, see `play`, [m]."""
+        if isinstance(self.bearing, CylindricalBearing):
+            return replace(self, bearing=replace(self.bearing, radial_clearance=play))
+        return replace(self, end_play=play)
+
+    @property
+    def mounted_bearing(self) -> SimulatedBearing:
+        """The bearing with the end play of the scene, where ribs leave it."""
+        return self.bearing.mounted(self.end_play)
 
     @property
     def effect_names(self) -> tuple[str, ...]:
@@ -221,6 +244,8 @@ class Scene:
         beyond_rim = ("rib.roller_end",) if rib is not None and rib.roller_end else ()
         asked = (*self.effect_names, *beyond_rim)
         found = missing_effects(self.tier, asked)
+        if isinstance(self.bearing, CylindricalBearing):  # whose ribs of both rings are the effect rib
+            found = tuple(name for name in asked if name in {"small_rib", *found})
         if (
             self.tier != "full" and self.effects.film is None
         ):  # what a fast tier has of traction is the creep of films

@@ -10,7 +10,7 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.edge import At, Vector
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 RATES = (25_600.0, 51_200.0)  # the usual one, and the one that needs a fine step [Hz]
 # of a run of which nothing higher is asked for, the force waveform included [Hz]
@@ -143,7 +143,7 @@ class Accelerometer:
             yield f"measured_paths has axis {axis!r} twice; give one path for each axis"
 
 
-def sensor_doubts(sensors: Sequence[Accelerometer], bearing: Bearing) -> list[str]:
+def sensor_doubts(sensors: Sequence[Accelerometer], bearing: RollerBearing) -> list[str]:
     """Warn of accelerometers in the bearing itself, or further away than an axlebox reaches."""
     found = []
     for index, sensor in enumerate(sensors):

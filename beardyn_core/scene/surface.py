@@ -9,7 +9,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 # Amplitudes over those of a typical surface. That the spread is 10 dB each way is assumed.
 FACTORS = {"none": 0.0, "fine": 0.3, "typical": 1.0, "coarse": 3.0}
@@ -51,7 +51,7 @@ GROUND = {
 }
 
 
-def circumference(on: str, bearing: Bearing) -> float:
+def circumference(on: str, bearing: RollerBearing) -> float:
     """Compute the mean circumference of a surface, [m]."""
     diameter = {
         "cup": bearing.pitch_diameter + bearing.roller_diameter,

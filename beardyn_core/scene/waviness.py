@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.edge import ROW, SEED, At, WorkedOut, write_noun
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.scene.patch import no_such, not_on_a_roller
 
 _SURFACES = ("cup", "cone", "roller")
@@ -72,7 +72,7 @@ class Waviness:
                 f"{len(self.orders)} orders"
             )
 
-    def contradictions(self, bearing: Bearing) -> Iterator[str]:
+    def contradictions(self, bearing: RollerBearing) -> Iterator[str]:
         """Check that the waviness is possible in the bearing."""
         return no_such("roller", self.roller or 0, bearing)
 

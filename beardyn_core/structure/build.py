@@ -10,7 +10,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.structure.box import Box
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.damping import damping_ratios
@@ -43,7 +43,7 @@ class Built:
 
 def modes_of(
     box: Box,
-    bearing: Bearing,
+    bearing: RollerBearing,
     *,
     mesh: float = MESH,
     highest: float = HIGHEST,
@@ -109,7 +109,7 @@ def modes_of(
     )
 
 
-def digest(box: Box, bearing: Bearing) -> str:
+def digest(box: Box, bearing: RollerBearing) -> str:
     """Make a short word of all that a box and its cup are meshed from; names, words and sources left out."""
     cup = bearing.material
     figures = replace(box, name="", description="", bearing="", sources=())

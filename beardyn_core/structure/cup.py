@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Annotated as A
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 _SAME = 1e-4  # [m]; tables have five digits
 
@@ -22,7 +22,7 @@ class Cup:
     row_spacing: A[float, "between the middles of the rows, [m]"]
 
     @classmethod
-    def of(cls, bearing: Bearing) -> Cup:
+    def of(cls, bearing: RollerBearing) -> Cup:
         """Take the cup of a bearing."""
         return cls(
             bearing.name,
@@ -32,7 +32,7 @@ class Cup:
             bearing.row_spacing,
         )
 
-    def differences(self, bearing: Bearing) -> Iterator[str]:
+    def differences(self, bearing: RollerBearing) -> Iterator[str]:
         """Find where the cup of a bearing is not this one, in millimetres; names may differ."""
         other = Cup.of(bearing)
         for dimension in DIMENSIONS:

@@ -16,7 +16,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.structure.box import Box, Seat
 from beardyn_core.structure.mesh import CUP, EXTRA, Mesh, row_places
 from beardyn_core.structure.modes import WAVES
@@ -116,7 +116,7 @@ class Elastic:
         raise InputError("the static answer of the box does not converge; take another mesh size")
 
 
-def elastic_body(box: Box, bearing: Bearing, mesh: Mesh) -> Elastic:
+def elastic_body(box: Box, bearing: RollerBearing, mesh: Mesh) -> Elastic:
     """Assemble the matrices of a meshed box.
 
     Raises
@@ -227,7 +227,7 @@ def _rigid_motion(places: Float, axis: Any) -> Float:
     return np.stack(columns, axis=1)
 
 
-def _raceway(skfem: Any, body: Any, element: Any, bearing: Bearing) -> Float:
+def _raceway(skfem: Any, body: Any, element: Any, bearing: RollerBearing) -> Float:
     """Make the functionals that read the series of the displacement off both roller tracks."""
     radius, half = bearing.cup_radius, 0.5 * bearing.effective_length
 

@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.edge import At, Vector, refuse
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.structure.box import Box, Seat
 
 
@@ -25,14 +25,14 @@ class FittedBox:
         refuse(self, f"box {self.name!r}")
 
 
-def fit_box(box: Box, own: Bearing, carried: Bearing) -> Box:
+def fit_box(box: Box, own: RollerBearing, carried: RollerBearing) -> Box:
     """Scale a box to another bearing: along x and z with the outer diameter, along y with the width.
 
     Parameters
     ----------
-    own : Bearing
+    own : RollerBearing
         That the box has been drawn for.
-    carried : Bearing
+    carried : RollerBearing
         That it is to carry; `Box.bearing` stays as it is.
     """
     across = carried.outer_diameter / own.outer_diameter

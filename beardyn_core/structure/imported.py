@@ -12,7 +12,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At, Vector, refuse
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.structure.box import Seat
 from beardyn_core.structure.cup import Cup
 from beardyn_core.structure.damping import DAMPING, DampingTable, damping_ratios
@@ -118,7 +118,7 @@ class ModeFile:
         return found
 
 
-def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
+def modes_of_file(box: ModeFile, bearing: RollerBearing) -> Modes:
     """Read the modes of a file as the bearing, sensors and springs see them; rigid motion is left out.
 
     Raises
@@ -169,7 +169,7 @@ def modes_of_file(box: ModeFile, bearing: Bearing) -> Modes:
 
 
 def _fit_row(
-    target: Float, nodes: Float, shape: Float, box: ModeFile, bearing: Bearing, row: int, name: str
+    target: Float, nodes: Float, shape: Float, box: ModeFile, bearing: RollerBearing, row: int, name: str
 ) -> Iterator[str]:
     """Fit the series around one row to the nodes under it; yields what is wrong with them."""
     radius = bearing.cup_radius if box.seat_diameter is None else 0.5 * box.seat_diameter

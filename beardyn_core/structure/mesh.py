@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.structure.box import Box
 
 EXTRA = "pip install beardyn[structure]"
@@ -30,7 +30,7 @@ class Mesh:
     part: A[NDArray[np.int64], "shape [element], `CUP` or `HOUSING`"]
 
 
-def mesh_of(box: Box, bearing: Bearing, size: float) -> Mesh:
+def mesh_of(box: Box, bearing: RollerBearing, size: float) -> Mesh:
     """Mesh an axlebox and the cup in it, which share the nodes of the bore.
 
     Parameters
@@ -59,7 +59,7 @@ def mesh_of(box: Box, bearing: Bearing, size: float) -> Mesh:
         gmsh.finalize()
 
 
-def _mesh_parts(model: Any, box: Box, bearing: Bearing, size: float, option: Any) -> Mesh:
+def _mesh_parts(model: Any, box: Box, bearing: RollerBearing, size: float, option: Any) -> Mesh:
     occ = model.occ
     bore, race = 0.5 * bearing.outer_diameter, bearing.cup_radius
     if box.outer_diameter <= bearing.outer_diameter:
@@ -106,14 +106,14 @@ def _mesh_parts(model: Any, box: Box, bearing: Bearing, size: float, option: Any
     return _collect_mesh(model, solids, box.name)
 
 
-def _edges(bearing: Bearing) -> tuple[float, ...]:
+def _edges(bearing: RollerBearing) -> tuple[float, ...]:
     """Compute axial places at which cup and roller tracks begin and end, [m]."""
     half = 0.5 * bearing.effective_length
     tracks = [place + side for place in row_places(bearing) for side in (-half, half)]
     return (-0.5 * bearing.width, *tracks, 0.5 * bearing.width)
 
 
-def row_places(bearing: Bearing) -> tuple[float, float]:
+def row_places(bearing: RollerBearing) -> tuple[float, float]:
     """Compute axial places of the middles of both rows, inboard first, [m]."""
     return -0.5 * bearing.row_spacing, 0.5 * bearing.row_spacing
 

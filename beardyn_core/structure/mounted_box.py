@@ -14,7 +14,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import note_read
 from beardyn_core.base.packed import unpack_file
 from beardyn_core.base.spelling import closest
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import EffectSet, ModalStructure
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.scene.sensor import Accelerometer
@@ -109,7 +109,7 @@ def _mm(place: tuple[float, float, float]) -> list[float]:
     return [round(1e3 * each, 1) for each in place]
 
 
-def require_cup(modes: Modes, bearing: Bearing) -> None:
+def require_cup(modes: Modes, bearing: RollerBearing) -> None:
     """Raise `InputError` where modes were made with another cup than that of the bearing."""
     differences = ", ".join(modes.cup.differences(bearing))
     if differences:
@@ -119,7 +119,7 @@ def require_cup(modes: Modes, bearing: Bearing) -> None:
         )
 
 
-def mounting_of(modes: Modes, mounting: Mounting, bearing: Bearing) -> Mounting:
+def mounting_of(modes: Modes, mounting: Mounting, bearing: RollerBearing) -> Mounting:
     """Put the box of a table into a mounting: mass, centre of mass and inertia without the cup.
 
     Raises

@@ -117,7 +117,7 @@ def vary_start(scene: Scene, number: int) -> Scene:
     if cage is not None and not isinstance(cage, KinematicCage):
         ratio = cage.initial_speed_ratio + _VARIED_SPEED * number
         scene = replace(scene, effects=replace(scene.effects, cage=replace(cage, initial_speed_ratio=ratio)))
-    return replace(scene, end_play=scene.end_play + _VARIED_END_PLAY * number)
+    return scene.with_play(scene.play + _VARIED_END_PLAY * number)
 
 
 def simulate(scene: Scene, comparison: Comparison) -> Run:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.monitor.rotation_segments import turning_legs
 from beardyn_core.monitor.severity import Severity, severity_near
 from beardyn_core.monitor.streaming import measured_axes
@@ -16,7 +16,7 @@ _ENOUGH, _MOST = 20.0, 200.0  # revolutions
 
 
 def severity_in(
-    run: Run, conclusion: Conclusion, bearing: Bearing | NamePlate, sensor: str = ""
+    run: Run, conclusion: Conclusion, bearing: RollerBearing | NamePlate, sensor: str = ""
 ) -> Severity | None:
     """Measure the spall that was found in a run; ``None`` where no part was called or nothing turned."""
     finding = conclusion.finding

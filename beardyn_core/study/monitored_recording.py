@@ -10,9 +10,9 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.measured.stated_speed import recorded_uncertainty
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
 from beardyn_core.monitor.chain.ambiguity import CAGE
@@ -279,7 +279,7 @@ class MonitoredRecording(McapSink):
     Parameters
     ----------
     path : Path
-    bearing : Bearing
+    bearing : RollerBearing
         What the bearing data say; the monitor gets nothing else of the scene.
     on_finding : callable, optional
         Told of every result.
@@ -290,7 +290,7 @@ class MonitoredRecording(McapSink):
     def __init__(
         self,
         path: object,
-        bearing: Bearing,
+        bearing: RollerBearing,
         on_finding: Callable[[Finding], None] | None = None,
         *,
         replace: bool = False,
@@ -328,7 +328,7 @@ class MonitoredRecording(McapSink):
 
 def results_of(
     run: Run,
-    bearing: Bearing | NamePlate,
+    bearing: RollerBearing | NamePlate,
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
     sensor: str = "",
@@ -355,7 +355,7 @@ def results_of(
 
 def findings_of(
     run: Run,
-    bearing: Bearing | NamePlate,
+    bearing: RollerBearing | NamePlate,
     algorithm: Algorithm = REFERENCE,
     settings: MonitorSettings | None = None,
     sensor: str = "",

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.bearing.any_bearing import require_tapered
 from beardyn_core.scene.load import LoadHistory
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
@@ -230,7 +231,7 @@ def _coarse_step(case: HardCase, _checkpoint: Path | None) -> Finding:
 
 def _explicit(case: HardCase, _checkpoint: Path | None) -> Finding:
     """Step explicitly by the case's length; compare the mean with that of a step ten times shorter."""
-    bearing = scene_of(case).bearing
+    bearing = require_tapered(scene_of(case).bearing, "explicit steps of one roller")
     found = step_roller(bearing, case.factor)
     right = step_roller(bearing, min(0.1 * case.factor, 1e-7))
     return Finding(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.any_bearing import require_tapered
 from beardyn_core.scene.operation import ConstantOperation, Step, SteppedOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import CONTACT_FIELDS, CONTACT_KINDS, Block
@@ -64,7 +65,7 @@ def contacts_of(run: StepRecord, kind: str, start: float = SETTLED, end: float =
     The normal is that of the ring's surface at the azimuth of the contact: rings are cones, the cup is held
     and the cone off its place by micrometres only.
     """
-    bearing = run.scene.bearing
+    bearing = require_tapered(run.scene.bearing, "normals of ribs")
     fields = np.concatenate([_within(block, start, end) for block in run.blocks])[
         :, _INBOARD, :, CONTACT_KINDS.index(kind)
     ].reshape(-1, len(CONTACT_FIELDS))

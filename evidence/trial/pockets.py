@@ -17,8 +17,8 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed_ratio, fault_frequencies
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene, with_choices
 from beardyn_core.run import blocks
@@ -60,7 +60,7 @@ def scene_of(trial: Trial, tier: str, speed: float) -> Scene:
     return replace(scene, sensors=tuple(replace(each, noise_density=1e-6) for each in scene.sensors))
 
 
-def spacing_of(bearing: Bearing, roller_angle: Float, shaft_angle: Float) -> float:
+def spacing_of(bearing: RollerBearing, roller_angle: Float, shaft_angle: Float) -> float:
     """Measure the scatter of the way of rolling between rollers that pass the top of a row, [m].
 
     Parameters

@@ -23,8 +23,8 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice import load_trial
 from beardyn_core.choice.trial import trial_scene, with_choices
 from beardyn_core.monitor.chain import FaultLines, MonitorSettings, Stretch
@@ -79,7 +79,7 @@ def scenes() -> Iterator[tuple[str, Scene, WornPocket]]:
         yield f"sound, {WORSE}", replace(sound, scatter=replace(scene.scatter, grade=WORSE)), pocket
 
 
-def way_behind(bearing: Bearing, rollers: Float, cage: Float, number: int) -> float:
+def way_behind(bearing: RollerBearing, rollers: Float, cage: Float, number: int) -> float:
     """Measure how far behind its place a roller passes the middle of the load zone on average, [m].
 
     Parameters

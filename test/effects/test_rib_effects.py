@@ -37,7 +37,7 @@ from test.kernels.momentum import momenta
 from test.kernels.rig import Rig, parameters_of
 from test.kernels.states import shaken
 from test.runs import Record, constant_load, record_under
-from test.scenes import SPEED, scene_with
+from test.scenes import SPEED, scene_with, tapered
 
 STEPS = 512
 EVERYTHING = Rib(roller_end=True, drilling=True, lubrication=RibShearedFilm())
@@ -50,7 +50,7 @@ def with_rib(rib: Rib, small_rib: SmallRib | None = None) -> Scene:
 @cache
 def signals_of(rib: Rib, small_rib: SmallRib | None = None, clearance: float = 0.4e-3) -> Any:
     scene = with_rib(rib, small_rib)
-    scene = replace(scene, bearing=replace(scene.bearing, small_rib_clearance=clearance))
+    scene = replace(scene, bearing=replace(tapered(scene), small_rib_clearance=clearance))
     rig = Rig.at_equilibrium(scene)
     signals, _, _ = rig.run(STEPS)
     return signals, rig

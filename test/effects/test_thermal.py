@@ -13,8 +13,8 @@ from beardyn_core.bearing.thermal import (
     PartTemperatures,
     Temperatures,
     ThermalNetwork,
-    end_play_change,
     end_play_per_kelvin,
+    play_change,
 )
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.cli import simulate
@@ -33,7 +33,7 @@ from test.analytic.test_symmetries_of_effects import scene_of
 from test.bearings import TAPERED
 from test.kernels.rig import Float
 from test.runs import assert_same, constant_load, started
-from test.scenes import LOAD_80_KN, scene_with, standard_scene
+from test.scenes import LOAD_80_KN, scene_with, standard_scene, tapered
 
 FILM = 7  # of the contact fields
 QUICK = Thermal(time_scale=2e3)
@@ -49,15 +49,15 @@ def test_hot_inside_closes_the_end_play_as_in_the_engineering_manual(name: str) 
     apex = 0.5 * bearing.row_spacing - bearing.apex_distance * math.cos(bearing.contact_angle)
     spacing = 2.0 * (apex + along * math.cos(bearing.cup_angle))
     expected = -12e-6 * 10.0 * (raceway / math.tan(bearing.cup_angle) - spacing)
-    found = end_play_change(bearing, PartTemperatures(0.0, 10.0, 10.0), 12e-6)
+    found = play_change(bearing, PartTemperatures(0.0, 10.0, 10.0), 12e-6)
     assert found == pytest.approx(expected, rel=1e-9)
     assert -2.5e-4 < found < -5e-5
 
 
 def test_rollers_alone_close_it_by_their_growth_across_both_rows() -> None:
     """alpha dT D over sin(alpha_o) for each row; D at the large end, 6 % above the mean diameter."""
-    bearing = standard_scene().bearing
-    found = end_play_change(bearing, PartTemperatures(0.0, 0.0, 10.0), 12e-6)
+    bearing = tapered(standard_scene())
+    found = play_change(bearing, PartTemperatures(0.0, 0.0, 10.0), 12e-6)
     mean = -2.0 * 12e-6 * 10.0 * bearing.roller_diameter / math.sin(bearing.cup_angle)
     assert found == pytest.approx(mean, rel=0.06)
     assert abs(found) > abs(mean)
@@ -65,7 +65,7 @@ def test_rollers_alone_close_it_by_their_growth_across_both_rows() -> None:
 
 def test_the_same_warming_everywhere_leaves_the_end_play() -> None:
     """Everything grows alike: gaps grow with the bearing, by a millionth per kelvin of themselves."""
-    rate = end_play_per_kelvin(standard_scene().bearing)
+    rate = end_play_per_kelvin(tapered(standard_scene()))
     assert rate.cup + rate.cone + rate.rollers == pytest.approx(0.0, abs=1e-12 * rate.cup)
     assert rate.cup > 0.0 > rate.cone
 
@@ -75,7 +75,7 @@ def test_scene_with_temperatures_runs_at_the_closed_end_play() -> None:
     scene = load_scene("static_80kN")
     text = scene_text(scene) + "temperatures: {assembly_C: 20, cup_C: 60, cone_C: 80, rollers_C: 75}\n"
     hot = scene_from_text(text)
-    rate = end_play_per_kelvin(scene.bearing)
+    rate = end_play_per_kelvin(tapered(scene))
     expected = scene.end_play + 40.0 * rate.cup + 60.0 * rate.cone + 55.0 * rate.rollers
     assert hot.end_play == pytest.approx(expected, rel=1e-12)
     assert -2.5e-4 < hot.end_play - scene.end_play < -1.5e-4
@@ -171,13 +171,13 @@ def test_axlebox_in_the_wind() -> None:
     assert moving_air(100.0, 0.3) == pytest.approx(nusselt * 0.026 / 0.3, rel=1e-3)
     assert moving_air(0.0, 0.3) == 0.0
     assert 50.0 < moving_air(22.2, 0.345) < moving_air(83.3, 0.345) < 170.0
-    bearing, thermal = standard_scene().bearing, Thermal()
+    bearing, thermal = tapered(standard_scene()), Thermal()
     fast = thermal_network(bearing, thermal, 100.0, 200.0).to_ambient[BOX_NODE]
     assert fast > thermal_network(bearing, thermal, 100.0, 0.0).to_ambient[BOX_NODE] > 0.0
 
 
 def test_time_scale_changes_no_steady_temperature() -> None:
-    bearing, heat = standard_scene().bearing, np.full(6, 100.0)
+    bearing, heat = tapered(standard_scene()), np.full(6, 100.0)
     slow, quick = (thermal_network(bearing, Thermal(time_scale=s), 100.0, 100.0) for s in (1.0, 50.0))
     np.testing.assert_allclose(slow.steady(heat, 290.0), quick.steady(heat, 290.0), rtol=1e-12)
     cold = np.full(6, 290.0)
@@ -211,12 +211,12 @@ def test_bearing_warms_itself_and_thins_its_film() -> None:
     assert parts["rollers"] > parts["cup"] > parts["axlebox"] > 293.15
     assert parts["rollers"] > 303.15 + 5.0
     assert mean_film(last) < 0.9 * mean_film(first)
-    assert twin._warmth.end_play < 1e-4
+    assert twin._warmth.play < 1e-4
     p = twin._parameters
-    assert p.cup.gap == pytest.approx(0.5 * twin._warmth.end_play * p.cup.sine, rel=1e-12)
+    assert p.cup.gap == pytest.approx(0.5 * twin._warmth.play * p.cup.sine, rel=1e-12)
     assert last.audit is not None
     # growing parts press the contacts together: that work is in no force of the audit
-    growth = 8e4 * 0.5 * abs(twin._warmth.end_play - 1e-4)
+    growth = 8e4 * 0.5 * abs(twin._warmth.play - 1e-4)
     assert last.audit.residual * last.audit.dissipated < 1e-4 * last.audit.dissipated + growth
 
 

@@ -41,7 +41,7 @@ from beardyn_core.scene.patch import PATCH_KINDS, Growth, Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.waviness import Waviness
 from test.kernels.rig import Float, Rig, parameters_of
-from test.scenes import scene_with, standard_scene
+from test.scenes import scene_with, standard_scene, tapered
 
 pytestmark = pytest.mark.slow
 
@@ -94,7 +94,7 @@ def run(
     scene: Scene, steps: int, option: str = "", clearance: float = OUT_OF_REACH, hair: int = 0
 ) -> tuple[Float, Rig]:
     """Forces and rig after some steps from one state; options that have no amplitude are zeroed here."""
-    scene = replace(scene, bearing=replace(scene.bearing, small_rib_clearance=clearance))
+    scene = replace(scene, bearing=replace(tapered(scene), small_rib_clearance=clearance))
     rig = Rig.at_equilibrium(scene, cage_ratio=SLOW_CAGE)
     p = build_parameters(scene, rig.arrangement, np.zeros(6))
     cage, rib = p.effects.cage, p.effects.rib

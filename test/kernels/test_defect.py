@@ -41,11 +41,11 @@ from test.kernels.pressed_roller import (
     pressed,
 )
 from test.kernels.rig import parameters_of
-from test.scenes import scene_with
+from test.scenes import scene_with, tapered
 
 CUP_RADIUS = surface_radius(scene_with().bearing, "cup")
 PLACES = ((np.arange(6) + 0.5) / 6 - 0.5) * scene_with().bearing.effective_length
-RADII = naive_patch.rolling_radii(scene_with().bearing, PLACES)
+RADII = naive_patch.rolling_radii(tapered(scene_with()), PLACES)
 SPALL = Patch(on="cup", row=0, azimuth=0.3, width=6e-3, depth=1e-4, length=0.025)
 FULL = replace(SPALL, length=0.05)
 
@@ -108,7 +108,7 @@ def test_contact_is_softer_near_the_edges_of_a_spall_and_as_a_sound_one_in_its_m
 
     5 % where the floor or both edges take over: there it falls to nothing within three cells of 13 um.
     """
-    bearing = scene_with().bearing
+    bearing = tapered(scene_with())
     azimuth = 0.3 + np.linspace(-0.032, 0.032, 161)
     arcs = (azimuth - 0.3) * CUP_RADIUS
     for patch in (FULL, replace(FULL, width=1e-3)):

@@ -24,7 +24,7 @@ from beardyn_core.scene.scene import Scene
 from test.kernels import naive_losses
 from test.kernels.casting import through
 from test.kernels.loss_entries import couple_matrices, drags, rolling_couples
-from test.scenes import scene_with
+from test.scenes import scene_with, tapered
 
 Float = NDArray[np.float64]
 CASES = np.random.default_rng(7)
@@ -171,7 +171,7 @@ def test_drag_and_churning_are_those_of_the_plain_formulas(lanes: Any) -> None:
 def test_rolling_rollers_lose_to_the_medium_what_the_choice_counts(lanes: Any, speed: float) -> None:
     """A roller in pure rolling turns about the line that touches the cup at rest; one formula, rounding."""
     scene = scene_with(replace(EffectSet(), drag=Drag(churning=1.5)))
-    bearing, angle = scene.bearing, scene.bearing.contact_angle
+    bearing, angle = tapered(scene), scene.bearing.contact_angle
     orbit = cage_speed(bearing, speed)
     axis = np.array([math.sin(angle), 0.0, math.cos(angle)])
     line = np.array([math.sin(bearing.cup_angle), 0.0, math.cos(bearing.cup_angle)])

@@ -23,12 +23,12 @@ from test.kernels.casting import through
 from test.kernels.entries import rib_gaps, ribs, small_ribs
 from test.kernels.rig import parameters_of
 from test.kernels.states import packed, random_motion
-from test.scenes import scene_with, standard_scene
+from test.scenes import scene_with, standard_scene, tapered
 
 Float = NDArray[np.float64]
 LANES8 = Lanes(8)
 SPHERE = Rib(roller_end=False)
-BEARING = standard_scene().bearing
+BEARING = tapered(standard_scene())
 
 
 @cache
@@ -43,7 +43,7 @@ def rib_of(rib: Rib) -> RibParams:
 def rib_beyond_the_apex() -> RibParams:
     """Take a sphere flatter than the rib around the ring: its rim touches on both sides."""
     scene = scene_with(replace(EffectSet(), rib=Rib(friction=0.0)))
-    bearing = replace(scene.bearing, forced=True, sphere_ratio=1.02)
+    bearing = replace(tapered(scene), forced=True, sphere_ratio=1.02)
     found = parameters_of(replace(scene, bearing=bearing)).effects.rib
     assert found is not None
     return found
@@ -237,7 +237,7 @@ def test_lubricated_wrench_is_the_plain_formula(lubrication: Any, drilling: bool
     scene = replace(scene, bearing=replace(scene.bearing, rib_roughness=8e-6))
     rib = parameters_of(scene).effects.rib
     assert rib is not None
-    contact = rib_contact(scene.bearing)
+    contact = rib_contact(tapered(scene))
     oil = (
         scene.lubricant.dynamic_viscosity(scene.temperature),
         scene.lubricant.pressure_viscosity_at(scene.temperature),

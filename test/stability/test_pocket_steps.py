@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice import load_scene
 from beardyn_core.config import load_bearing
 from beardyn_core.effects import Cage, PocketFilm
@@ -62,7 +62,7 @@ def test_at_one_step_a_sample_the_film_has_an_eighth_of_what_is_stable() -> None
     assert shares[1] == pytest.approx(2.0 * shares[0], rel=1e-12)
 
 
-def _yielding(bearing: Bearing, cosine: float, cage: CageParams | None) -> Float:
+def _yielding(bearing: RollerBearing, cosine: float, cage: CageParams | None) -> Float:
     """Accelerations of rollers along the pitch circle and of the cage by forces on the bars, [1/kg]."""
     assert cage is not None
     count, radius = bearing.roller_count, 0.5 * bearing.pitch_diameter

@@ -15,14 +15,14 @@ from beardyn_core.physics.tiers.status import Status, describe
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from test.runs import constant_load, started
-from test.scenes import SPEED, scene_with
+from test.scenes import SPEED, scene_with, tapered
 
 pytestmark = pytest.mark.slow
 
 
 def forced(rib: Rib, **change: Any) -> Scene:
     scene = scene_with(replace(EffectSet(), rib=rib))
-    bearing: Bearing = replace(scene.bearing, forced=True, **change)
+    bearing: Bearing = replace(tapered(scene), forced=True, **change)
     return replace(scene, bearing=bearing)
 
 

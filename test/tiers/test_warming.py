@@ -94,9 +94,9 @@ def test_warm_parts_thin_the_film_and_close_the_end_play(tier: str) -> None:
     first, last = (block.contacts[:, :, :, :2, 7] for block in (blocks[2], blocks[-1]))
     assert 0.0 < float(last[last > 0.0].mean()) < 0.9 * float(first[first > 0.0].mean())
     assert twin._warmth is not None
-    assert twin._warmth.end_play < 1e-4
+    assert twin._warmth.play < 1e-4
     cup = twin._kernel_parameters.base.cup
-    assert cup.gap == pytest.approx(0.5 * twin._warmth.end_play * cup.sine, rel=1e-12)
+    assert cup.gap == pytest.approx(0.5 * twin._warmth.play * cup.sine, rel=1e-12)
 
 
 @pytest.mark.parametrize("tier", FAST)
@@ -126,7 +126,7 @@ def test_a_warming_run_in_long_blocks_and_from_a_snapshot_has_the_same_bits(tier
     assert ends[-1].temperature is not None
     assert blocks[-1].temperature is not None
     assert one._warmth is not None
-    assert one._warmth.end_play < 1e-4
+    assert one._warmth.play < 1e-4
     np.testing.assert_array_equal(ends[-1].temperature, blocks[-1].temperature)
     torque = np.concatenate([block.shaft_torque for block in blocks[-3:]])
     np.testing.assert_array_equal(ends[-1].shaft_torque, torque)

@@ -284,6 +284,7 @@ def collect_energy(sums, energy, effects, audit):
     _collect_loss(sums, energy, layout.LOSS_DAMPING, audit)
     _collect_loss(sums, energy, layout.LOSS_ROLLING, effects.rolling)
     _collect_loss(sums, energy, layout.LOSS_RIB, effects.rib)
+    _collect_loss(sums, energy, layout.LOSS_RIB, effects.flanges)
     _collect_loss(sums, energy, layout.LOSS_SMALL_RIB, effects.small_rib)
     _collect_loss(sums, energy, layout.LOSS_POCKET, effects.cage)
     _collect_loss(sums, energy, layout.LOSS_DRAG, effects.drag)

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from beardyn_core.base.jit import inline, part_of
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects.catalogue import catalogue
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.losses import LOSS_NAMES
@@ -29,7 +29,7 @@ class CageDrag(Protocol):
         In plain Python with `math`, compiled with what it calls in its module. Positive where it brakes.
         """
 
-    def parameters(self, bearing: Bearing, temperature: float) -> NamedTuple:
+    def parameters(self, bearing: RollerBearing, temperature: float) -> NamedTuple:
         """Work out what the law needs, for the kernels: nothing but floats in named tuples; [K]."""
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import Cage, KinematicCage, RotatingCage
 from beardyn_core.physics.cage.land import LandParams, land_params
 from beardyn_core.physics.cage.pocket_film import PocketFilmParams, pocket_film_params
@@ -91,7 +91,7 @@ def cage_params(scene: Scene, step: float) -> CageParams | None:
     )
 
 
-def _kinematic(bearing: Bearing, cage: KinematicCage) -> KinematicCageParams:
+def _kinematic(bearing: RollerBearing, cage: KinematicCage) -> KinematicCageParams:
     return KinematicCageParams(
         speed_ratio=cage.speed_ratio * cage_speed(bearing, 1.0),
         stiffness=0.5 * cage.stiffness,

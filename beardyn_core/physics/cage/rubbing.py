@@ -6,8 +6,8 @@ import math
 from typing import NamedTuple
 
 from beardyn_core.base.jit import inline
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import roller_spin
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import KinematicCage
 from beardyn_core.physics.bodies.power import SMALLEST_LOAD
 from beardyn_core.physics.drag import drag_push
@@ -37,12 +37,12 @@ def pocket_params(scene: Scene) -> PocketParams | None:
     )
 
 
-def surface_speed(bearing: Bearing) -> float:
+def surface_speed(bearing: RollerBearing) -> float:
     """Work out the speed of a roller's surface against its bar over that of the shaft, [m]."""
     return 0.5 * bearing.roller_diameter * roller_spin(bearing, 1.0)
 
 
-def bar_weight(bearing: Bearing, gravity: float) -> float:
+def bar_weight(bearing: RollerBearing, gravity: float) -> float:
     """Work out what a roller that no cone drives lays on its bar, on average over the orbit, [N].
 
     Parameters

@@ -9,8 +9,8 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import cage_speed
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import KinematicCage
 from beardyn_core.physics.bodies.layout import CAGE_BODY, RATE
 from beardyn_core.scene.scene import Scene
@@ -35,7 +35,7 @@ class CageWatch:
             return None
         return None if "cage" in scene.missing_effects else cls()
 
-    def after(self, bearing: Bearing, bodies: Float, shaft_speed: float, seconds: float) -> CageWatch:
+    def after(self, bearing: RollerBearing, bodies: Float, shaft_speed: float, seconds: float) -> CageWatch:
         """Take a block into the mean.
 
         Parameters

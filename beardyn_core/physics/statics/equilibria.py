@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.statics.static import StaticSolution, solve
 
 _MOST = 512  # about 10 MB
 
 
 def equilibrium(
-    bearing: Bearing,
+    bearing: RollerBearing,
     force: tuple[float, float, float],
     moment: tuple[float, float, float] = (0.0, 0.0, 0.0),
     *,
@@ -54,7 +54,7 @@ def equilibrium(
 
 @lru_cache(maxsize=_MOST)
 def _solve_equilibrium(
-    bearing: Bearing,
+    bearing: RollerBearing,
     force: tuple[float, float, float],
     moment: tuple[float, float, float],
     bumps: tuple[tuple[tuple[int, ...], bytes] | None, ...],

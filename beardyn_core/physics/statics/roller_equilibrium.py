@@ -19,6 +19,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.rib_face import faces_of_ring
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.roller_spring import SpringParams, lever_of_cup
 from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import (
@@ -40,6 +41,7 @@ _SAMPLES = 31
 # below this share of the largest load the fit is absolute: a crown leaves light contacts none at all
 _SMALLEST_SHARE = 1.0e-3
 _SMALLEST_APPROACH, _USUAL_APPROACH, _LARGEST_APPROACH = 2.0e-7, 1.5e-5, 4.0e-4
+_SMALLEST_LEANING = 2.0e-6
 _FINE = 20  # laminae
 
 
@@ -68,26 +70,38 @@ def centrifugal_cup_load(centrifugal: float, cup_angle: float, rib_angle: float)
 
 
 @cache
-def load_of_approach(bearing: Bearing, laminae: int) -> tuple[Float, Float]:
+def load_of_approach(bearing: RollerBearing, laminae: int) -> tuple[Float, Float]:
     """Work out the cup load of a roller over the approach of cone and cup along the cup's normal.
 
-    Both cones are pressed axially against one row, so that every roller of it has the same approach.
+    Both cones of tapered rollers are pressed axially against one row, so that every roller of it has the same
+    approach; cylinders are clamped by a cup that is too narrow.
 
     Returns ``approach`` [sample], [m], and ``load`` [sample], [N].
     """
     low, high = _SMALLEST_APPROACH ** (1.0 / 9.0), _LARGEST_APPROACH ** (1.0 / 9.0)
     nodes = np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)
     approach = (0.5 * (low + high) + 0.5 * (high - low) * nodes) ** 9
-    model = contact_model(bearing, 0.0, laminae, 0.0, 0.0)
     load = np.empty(_SAMPLES)
     for index, depth in enumerate(approach):
-        pose = ConePose(np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0]), np.eye(3))
-        load[index] = solve_rollers(model, pose, None).cup.force[1].sum(axis=-1).mean()
+        load[index] = _pressed(bearing, laminae, depth).cup.force[-1].sum(axis=-1).mean()
     return approach, load
 
 
+def _pressed(bearing: RollerBearing, laminae: int, depth: float) -> RollerState:
+    """Press every roller of the last row by an approach of cone and cup along the cup's normal [m]."""
+    return solve_rollers(*_pressing(bearing, laminae, depth), None)
+
+
+def _pressing(bearing: RollerBearing, laminae: int, depth: float) -> tuple[ContactModel, ConePose]:
+    if isinstance(bearing, Bearing):
+        pose = np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0])
+        return contact_model(bearing, 0.0, laminae, 0.0, 0.0), ConePose(pose, np.eye(3))
+    model = contact_model(bearing, 0.0, laminae, 0.0, 0.0, rows=1)
+    return replace(model, clearance=-depth), ConePose(np.zeros(3), np.eye(3))
+
+
 @cache
-def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
+def spring_params(bearing: RollerBearing, laminae: int) -> SpringParams:
     """Fit the spring of one roller by least squares in the ninth root of the approach.
 
     Notes
@@ -102,7 +116,9 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
     powers = root[:, None] ** np.arange(TERMS)
     judged = np.maximum(load, _SMALLEST_SHARE * load.max())
     terms = np.linalg.lstsq(powers * (approach * root / judged)[:, None], load / judged, rcond=None)[0]
-    angles = bearing.cup_angle, bearing.cone_angle, bearing.rib_angle
+    # what leans on a cylinder from the side does not press it
+    rib_angle = bearing.rib_angle if isinstance(bearing, Bearing) else 0.5 * math.pi
+    angles = bearing.cup_angle, bearing.cone_angle, rib_angle
     cone_share, rib_share = roller_forces(1.0, *angles)
     return SpringParams(
         series=np.ascontiguousarray(terms),
@@ -110,14 +126,32 @@ def spring_params(bearing: Bearing, laminae: int) -> SpringParams:
         cone_share=cone_share,
         rib_share=rib_share,
         rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
-        idle=centrifugal_cup_load(1.0, bearing.cup_angle, bearing.rib_angle),
-        give=float((approach / load).min()),
+        idle=centrifugal_cup_load(1.0, bearing.cup_angle, rib_angle),
+        give=float((approach[load > 0.0] / load[load > 0.0]).min()),
         reach=reach(bearing),
     )
 
 
 @cache
-def reach(bearing: Bearing) -> float:
+def lean_stiffness(bearing: RollerBearing, laminae: int) -> tuple[Float, Float]:
+    """Work out how both raceways hold the lean of a roller over its approach, held at its place otherwise.
+
+    Returns ``approach`` of cone and cup along the cup's normal [sample], [m], and ``stiffness`` [sample],
+    [N m/rad]; approaches at which nothing touches are left out.
+    """
+    approach = np.geomspace(_SMALLEST_LEANING, _LARGEST_APPROACH, _SAMPLES)
+    stiffness = np.empty(_SAMPLES)
+    for index, depth in enumerate(approach):
+        model, pose = _pressing(bearing, laminae, depth)
+        solver = _Rollers(model, pose)
+        matrix = solver.at(solve_rollers(model, pose, None).position).stiffness[-1]
+        stiffness[index] = float(matrix[:, 2, 2].mean()) * solver.scale[2] ** 2
+    held = stiffness > 0.0
+    return approach[held], stiffness[held]
+
+
+@cache
+def reach(bearing: RollerBearing) -> float:
     """Work out half of the length by which a roller holds a tilt of its rings against each other, [m].
 
     Of a line of springs whose third of the square is the stiffness against tilt over that along the normal:
@@ -125,9 +159,7 @@ def reach(bearing: Bearing) -> float:
     more the lighter the load: taken at one in the middle of service, and with many laminae, for the spring
     has none.
     """
-    model = contact_model(bearing, 0.0, _FINE, 0.0, 0.0)
-    depth = np.array([0.0, -_USUAL_APPROACH / np.sin(bearing.cup_angle), 0.0])
-    stiffness = solve_rollers(model, ConePose(depth, np.eye(3)), None).cone_stiffness
+    stiffness = _pressed(bearing, _FINE, _USUAL_APPROACH).cone_stiffness
     if stiffness[2, 2] <= 0.0:  # so much crown that nothing touches
         return 0.0
     # about where a displacement across does not tilt

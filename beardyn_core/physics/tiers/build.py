@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import LoadSharingTraction
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.physics.bodies.layout import (
@@ -27,11 +27,12 @@ from beardyn_core.physics.contact_damping import damping_params
 from beardyn_core.physics.defect import fault_params, roller_oversize
 from beardyn_core.physics.drag import drag_params
 from beardyn_core.physics.film import film_params
+from beardyn_core.physics.flanges import flange_params
 from beardyn_core.physics.journal import journal_params
 from beardyn_core.physics.lamina_coupling import coupling_params
 from beardyn_core.physics.lamina_table import lamina_table
 from beardyn_core.physics.modal_body import body_of
-from beardyn_core.physics.rib import rib_params
+from beardyn_core.physics.rib import large_rib_params
 from beardyn_core.physics.ring_modes import structure_params
 from beardyn_core.physics.rolling_resistance import oil_supply, rolling_params
 from beardyn_core.physics.scatter import pocket_offsets
@@ -59,7 +60,7 @@ _PRESSURE = 4e9  # the static rating's limit of roller bearings, ISO 76 [Pa]
 _MARGIN = 1.1  # on the frequency, for ribs and moving rings
 
 
-def highest_bounce(bearing: Bearing, stiffness: float) -> float:
+def highest_bounce(bearing: RollerBearing, stiffness: float) -> float:
     """Work out the rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
 
     ``stiffness``: factor of one raceway contact, all laminae together [N/m^(10/9)].
@@ -75,7 +76,7 @@ def highest_bounce(bearing: Bearing, stiffness: float) -> float:
     return math.sqrt(2.0 * one / bearing.roller_mass)
 
 
-def spring_time(bearing: Bearing, laminae: NDArray[np.float64], step: float, damped: bool) -> float:
+def spring_time(bearing: RollerBearing, laminae: NDArray[np.float64], step: float, damped: bool) -> float:
     """Compute the share of the step over which contact springs are implicit, from the lamina table, [s].
 
     ``laminae`` [LAMINA_ROWS, lamina]; ``step``: [s]; ``damped``: whether contacts are damped. A share between
@@ -104,6 +105,15 @@ def implicit_spring_share(bounce: float, step: float) -> float:
     Hairer, E., Lubich, C. and Wanner, G. (2003), Acta Numerica 12, 399-450, for the staggered form.
     """
     return max(LEAST_SHARE, MOST_SHARE - 1.0 / (_MARGIN * bounce * step) ** 2)
+
+
+def raceway_params(angle: float, radius: float, side: float, gap: float) -> RacewayParams:
+    """Describe a raceway by its angle [rad], and its radius at the axial place from which it is measured [m].
+
+    ``side``: +1 of the cup, -1 of the cone; ``gap``: along its normal from the nominal roller [m].
+    """
+    cosine = math.cos(angle)
+    return RacewayParams(math.sin(angle), cosine, side, gap + side * cosine * radius)
 
 
 def roller_constants(
@@ -158,14 +168,14 @@ def build_parameters(
             mass=bearing.roller_mass,
             axial_inertia=bearing.roller_axial_inertia,
             transverse_inertia=bearing.roller_transverse_inertia,
-            radius=(bearing.apex_distance + offset) * taper,
+            radius=float(bearing.radius_at(np.asarray(offset))),
             taper=taper,
-            apex=bearing.apex_place,
+            apex=bearing.cup_line[1],
             half_length=0.5 * bearing.roller_length,
             mass_offset=offset,
         ),
-        cup=RacewayParams(math.sin(cup_angle), math.cos(cup_angle), 1.0, bearing.normal_gap(scene.end_play)),
-        cone=RacewayParams(math.sin(cone_angle), math.cos(cone_angle), -1.0, 0.0),
+        cup=raceway_params(cup_angle, bearing.cup_line[0], 1.0, bearing.normal_gap(scene.end_play)),
+        cone=raceway_params(cone_angle, bearing.cone_line[0], -1.0, 0.0),
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
         rollers=roller_constants(arrangement, roller_oversize(scene), pocket_offsets(scene)),
@@ -193,7 +203,8 @@ def build_parameters(
             seal=seal_params(scene),
             cage_drag=cage_drag_params(scene),
             cage=cage_params(scene, step),
-            rib=rib_params(bearing, effects.rib, scene.lubricant, scene.temperature),
+            rib=large_rib_params(bearing, effects.rib, scene.lubricant, scene.temperature),
+            flanges=flange_params(scene.mounted_bearing, effects.rib, scene.lubricant, scene.temperature),
             small_rib=small_rib_params(bearing, effects),
             load_sharing=load_sharing,
             structure=structure_params(body, scene, arrangement, step),

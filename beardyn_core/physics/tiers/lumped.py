@@ -35,6 +35,7 @@ from beardyn_core.physics.tiers.massless_roller import (
     tilt_stiffness,
     torque_and_stiffness,
 )
+from beardyn_core.physics.tiers.planar_flanges import axial_sine
 from beardyn_core.physics.tiers.sliding import add_sliding, hold_sliding
 from beardyn_core.physics.tiers.tier_parameters import LumpedParameters
 
@@ -71,7 +72,8 @@ def advance_lumped(lanes, state, work, loads, output, p):
         load_rollers(lanes, rollers, sums[0], motion, direction, turns, speeds, trend, p)
         totals, rib = sum_rollers(sums, speeds, p)
         turn_reaction(sums, direction, bending)
-        wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
+        sine = axial_sine(p.base.cup.sine, p.thrust)
+        wrench = cup_wrench(totals, direction, p.base.cup.cosine, sine)
         if due:
             torque_and_stiffness(lanes, rollers.shape[0], sums[0], motion, direction, speeds, trend, p)
             losses = held_losses(sums, speeds, rib, p)

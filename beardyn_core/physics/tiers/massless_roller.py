@@ -16,6 +16,7 @@ from beardyn_core.physics.bodies.layout import (
 )
 from beardyn_core.physics.bodies.rigid_bodies import lane_total, row_totals
 from beardyn_core.physics.cage.rubbing import pocket_torque
+from beardyn_core.physics.contact_damping import damper_time
 from beardyn_core.physics.defect import find_damage, gap_moments
 from beardyn_core.physics.lanes.lane_math import (
     at_least,
@@ -51,6 +52,13 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     show_contacts,
     show_roller,
     watch_loads,
+)
+from beardyn_core.physics.tiers.massless_flanges import (
+    add_thrust,
+    outward_waves,
+    store_thrust,
+    thrust_torque,
+    with_thrust,
 )
 from beardyn_core.physics.tiers.sliding import creep_of, rolling_level, store_creep
 
@@ -190,6 +198,9 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     later = wave_places(_later(turns, speeds, p), p.waves)
     zero = lanes.constant(0.0)
     loads = (zero, zero, zero)  # sums: plain, times cosine, times sine
+    along = (zero, zero, zero, zero)
+    outward = outward_waves(lanes.load(p.sides, 0, 0), motion, direction, p.thrust)
+    time = damper_time(p.base.effects.damping)
     clear_reaction(lanes, sums, p.bending)
     for block in range(rollers.shape[0]):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
@@ -211,6 +222,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
             lanes.store(rollers, block, PENETRATION, deepest)
         waves = load_vector(lanes, p.pockets, block, COUNTED)
         loads = add_scaled(loads, load, waves)
+        along = add_thrust(along, outward, cosine, sine, waves[0], approach, p.thrust, time)
         add_reaction(lanes, sums, block, waves[0] * load, p.bending, None)
         lanes.store(trend, block, 0, load)
         largest = rollers.shape[0] + TREND_EXTRAS + block
@@ -218,6 +230,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     lanes.store(sums, 0, LOAD_COSINE, loads[1])
     lanes.store(sums, 0, LOAD_SINE, loads[2])
     lanes.store(sums, 0, RIB_SUM, loads[0])
+    store_thrust(lanes, sums, along, p.thrust)
 
 
 @inline
@@ -253,6 +266,7 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
     stiff, lengths = (zero, zero, zero, zero, zero, zero), (zero, zero, zero)
     creep, level = stiff, rolling_level(speeds[1] * k.cup_radius, p.slide)
     tilt = _in_cages_frame(motion[3][0], motion[4][0], direction)
+    outward = outward_waves(lanes.load(p.sides, 0, 0), motion, direction, p.thrust)
     for block in range(blocks):
         cosine, sine = lanes.load(p.pockets, block, POCKET_COSINE), lanes.load(p.pockets, block, POCKET_SINE)
         load, counted = lanes.load(trend, block, 0), lanes.load(p.pockets, block, COUNTED)
@@ -260,10 +274,12 @@ def torque_and_stiffness(lanes, blocks, sums, motion, direction, speeds, trend, 
         rolling = rolling + counted * rolling_torque(loads, speeds, p.kinematic, effects.rolling)
         idling = counted * pocket_torque(loads[1], speeds, k, effects.drag, k.pocket)
         rolling, pocket = rolling + idling, pocket + idling
-        sliding = sliding + counted * sliding_torque(loads[2], speeds, p.kinematic, p.base.cone, effects.rib)
+        ribs = sliding_torque(loads[2], speeds, p.kinematic, p.base.cone, effects.rib)
         approach = wave[0] * cosine + (wave[1] * sine + wave[2])
         approach = approach + 2.0 * lanes.load(p.base.rollers, block, OVERSIZE)
         approach = less_opening(lanes, block, PLACE, approach, p.bending, None)
+        ribs = thrust_torque(ribs, outward, cosine, sine, approach, speeds[0], p.thrust, effects.flanges)
+        sliding = sliding + counted * ribs
         # a depth that goes with the load: gaps of faults are not in the approach
         approach = at_least(approach, p.spring.give * (load - 0.5 * idle))
         tangent = 10.0 / 9.0 * (load - 0.5 * idle) / at_least(approach, _SMALLEST_APPROACH)
@@ -384,7 +400,8 @@ def sum_rollers(sums, speeds, p):
         spring.lever * (inner * sine[0] + outer * sine[1]),
     )
     centrifugal = p.kinematic.rolling_count * centrifugal_force(speeds[1], p)
-    return totals, spring.rib_share * (load[0] + load[1]) + spring.rib_centrifugal * centrifugal
+    rib = spring.rib_share * (load[0] + load[1]) + spring.rib_centrifugal * centrifugal
+    return with_thrust(totals, rib, sums, p.sides, p.thrust)
 
 
 @inline

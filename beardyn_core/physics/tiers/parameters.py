@@ -14,6 +14,7 @@ from beardyn_core.physics.defect import FaultParams
 from beardyn_core.physics.drag import DragParams
 from beardyn_core.physics.dry_friction import CoulombParams
 from beardyn_core.physics.film import FilmParams
+from beardyn_core.physics.flanges import FlangeParams
 from beardyn_core.physics.lamina_coupling import CouplingParams
 from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.ring_modes import StructureParams
@@ -30,7 +31,7 @@ class RacewayParams(NamedTuple):
     sine: float
     cosine: float
     side: float
-    gap: float
+    gap: float  # less what the raceway's radius is at the apex, with the sign of the side [m]
 
 
 class RollerParams(NamedTuple):
@@ -41,7 +42,7 @@ class RollerParams(NamedTuple):
     transverse_inertia: float
     radius: float  # of the cone at the centre of mass
     taper: float  # tangent of the half angle
-    apex: float  # axial place of the raceway apex
+    apex: float  # axial place of the raceway apex, or of the middle of a cylinder
     half_length: float
     mass_offset: float
 
@@ -82,7 +83,8 @@ class EffectParams(NamedTuple):
     load_sharing: LoadSharingParams | None
     rolling: RollingParams | None
     drag: DragParams | None
-    rib: RibParams | None
+    rib: RibParams | None  # of tapered rollers
+    flanges: FlangeParams | None  # of cylindrical ones
     small_rib: SmallRibParams | None
     cage: CageParams | None
     structure: StructureParams | None

@@ -73,6 +73,16 @@ from beardyn_core.physics.tiers.kinematic_step import (
     copy_table,
     finish_step,
 )
+from beardyn_core.physics.tiers.planar_flanges import (
+    add_axial,
+    all_flanges,
+    axial_sine,
+    axial_sum,
+    flanges_torque,
+    moment_on_cup,
+    radial_on_cup,
+    show_flanges,
+)
 from beardyn_core.physics.tiers.planar_roller import (
     balance,
     cone_view,
@@ -134,9 +144,10 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
     # sums over the rollers: plain, times cosine, times sine
     loads, moments = (zero, zero, zero), (zero, zero, zero)
     kept, bent = (zero, zero, zero), (zero, zero)
-    rib_sum, rolling, pocket, sliding = zero, zero, zero, zero
+    axial, rib_sum, rolling, pocket, sliding = zero, zero, zero, zero, zero
     stiff = (zero, zero, zero, zero, zero, zero)
     creep, level = stiff, rolling_level(speeds[1] * k.cup_radius, p.slide)
+    grip = rolling_level(speeds[1] * k.cup_radius, p.grip)
     clear_reaction(lanes, sums, p.bending)
     clear_cages(lanes, sums, p.loose)
     for block in range(rollers.shape[0]):
@@ -169,8 +180,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         flight, beside = free_flight(moved, shaken, inertia, p)
         place = (place[0] + p.step * flight[0], place[1] + p.step * flight[1])
         axis = turned_axis(axis, p.step * flight[2])
-        move, cup, cone, rib, lever, deepest = balance(
-            lanes, block, place, axis, flight, beside, view, azimuths, opening, p
+        move, cup, cone, rib, lever, deepest, ends = balance(
+            lanes, block, place, axis, flight, beside, view, azimuths, opening, grip, p
         )
         moved = (
             damp_reversal(before[0], flight[0] + move[0] * rate),
@@ -190,7 +201,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         lanes.store(rollers, block, layout.PENETRATION, deepest)
         waves = counted_waves(lanes, block, p.pockets, (pocket_cosine, pocket_sine), p.loose)
         counted = waves[0]
-        loads = add_scaled(loads, cup[0], waves)
+        loads = add_scaled(loads, radial_on_cup(ends, cup[0]), waves)
+        axial = add_axial(axial, counted, ends)
         drive, onward = push_loose(
             lanes, rollers, sums, block, (cosine, sine), cages, motion, shake, speeds, cone[0], counted, p,
             p.loose,
@@ -206,8 +218,9 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         )
         bent = (bent[0] + about * pocket_cosine, bent[1] + about * pocket_sine)
         loads = pass_traction(loads, (pocket_cosine, pocket_sine), drive, p.base.cup.cosine, p.loose)
-        moments = add_scaled(moments, lever[0] * cup[0] + lever[1] * cup[1], waves)
-        rib_sum = rib_sum + counted * rib
+        moment = moment_on_cup(ends, lever[0] * cup[0] + lever[1] * cup[1])
+        moments = add_scaled(moments, moment, waves)
+        rib_sum = rib_sum + counted * all_flanges(rib, ends)
         add_reaction(lanes, sums, block, counted * cup[0], p.bending, ahead)
         forces = (cup[0], cone[0], rib)
         watch_loads(lanes, rollers, block, forces)
@@ -215,9 +228,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             rolling = rolling + counted * rolling_torque(forces, speeds, k, p.base.effects.rolling)
             idling = counted * steady_pocket(cone[0], speeds, k, p.base.effects.drag, p.loose)
             rolling, pocket = rolling + idling, pocket + idling
-            sliding = sliding + counted * sliding_torque(
-                rib, speeds, p.kinematic, p.base.cone, p.base.effects.rib
-            )
+            one_rib = sliding_torque(rib, speeds, p.kinematic, p.base.cone, p.base.effects.rib)
+            sliding = sliding + counted * flanges_torque(one_rib, ends, speeds[0], p.base.effects.flanges)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
             slowed = counted * creep_of(cup[0], level, p.slide)
@@ -230,7 +242,14 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             show_roller(lanes, rollers, block, place, axis, moved, (turns[0], speeds[1]), angle, p)
             keep_loose(lanes, rollers, block, where, p.loose)
             show_contacts(lanes, rollers, block, axis, forces, centres, speeds, p)
-    store_vector(lanes, sums, 0, LOAD_COSINE, (loads[1], loads[2], side * loads[0]))
+            show_flanges(lanes, rollers, block, axis, ends, speeds[0], p.base.effects.flanges)
+    store_vector(
+        lanes,
+        sums,
+        0,
+        LOAD_COSINE,
+        (loads[1], loads[2], side * axial_sum(loads[0], axial, p.base.effects.flanges)),
+    )
     store_vector(lanes, sums, 0, MOMENT_COSINE, (side * moments[1], side * moments[2], rib_sum))
     store_vector(lanes, sums, 0, KEPT_COSINE, (kept[0], kept[1], side * kept[2]))
     lanes.store(sums, 0, KEPT_ABOUT_COSINE, side * bent[0])
@@ -310,7 +329,8 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             lane_total(sums, MOMENT_COSINE),
             lane_total(sums, MOMENT_SINE),
         )
-        wrench = cup_wrench(totals, direction, p.base.cup.cosine, p.base.cup.sine)
+        sine = axial_sine(p.base.cup.sine, p.base.effects.flanges)
+        wrench = cup_wrench(totals, direction, p.base.cup.cosine, sine)
         kept = with_cages(kept_wrench(sums, direction), sums, bodies, loose)
         rib = lane_total(sums, RIB_SUM)
         if due:

@@ -20,6 +20,7 @@ from beardyn_core.physics.bodies.stage_timer import mark
 from beardyn_core.physics.bodies.step_stages import CAGE, CONTACT, LOSS, MOTION, RIB, SETTLE, SOLVE
 from beardyn_core.physics.cage.pocket import prepare_pocket, push_pocket, settle_pocket
 from beardyn_core.physics.drag import prepare_drag, push_drag, settle_drag, stiffen_drag
+from beardyn_core.physics.flanges import prepare_flanges, push_flanges, settle_flanges, stiffen_flanges
 from beardyn_core.physics.lanes.solve import inertia_matrix, solve
 from beardyn_core.physics.lanes.vectors import Twist, Wrench, add, add_scaled, dot, scale, turn_in
 from beardyn_core.physics.rib import prepare_rib, push_rib, settle_rib, stiffen_rib
@@ -87,6 +88,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
     mark(timers, LOSS)
     rib = prepare_rib(body, cone_view, zero, effects.rib, effects.damping)
     small_rib = prepare_small_rib(body, cone_view, zero, effects.small_rib)
+    flanges = prepare_flanges(body, cup_view, cone_view, zero, effects.flanges, effects.damping)
     mark(timers, RIB)
     pocket = prepare_pocket(lanes, rings, block, body, orbit, effects.faults.pockets, p, effects.cage)
 
@@ -97,6 +99,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
     matrix = stiffen_drag(matrix, drag, step, effects.drag)
     matrix = stiffen_rib(matrix, rib, effects.rib, p)
     matrix = stiffen_small_rib(matrix, small_rib, effects.small_rib, p)
+    matrix = stiffen_flanges(matrix, flanges, effects.flanges, p)
 
     on_cup, on_cone = raceway.push_raceway(cup, effects.damping), raceway.push_raceway(cone, effects.damping)
     gravity = rotate_weight(cosine, sine, roller.mass, effects.gravity)
@@ -106,6 +109,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
     total = push_drag(total, drag, effects.drag)
     total = push_rib(total, rib, effects.rib)
     total = push_small_rib(total, small_rib, effects.small_rib)
+    total = push_flanges(total, flanges, effects.flanges)
     total = push_pocket(total, pocket, effects.cage)
     force, moment = total.force, total.moment
     turning_force = (
@@ -130,6 +134,7 @@ def step_rollers(lanes, block, rollers, rings, sums, bends, fresh, p):
     mark(timers, LOSS)
     total = settle_rib(rib, change, total, here, effects.rib, p)
     total = settle_small_rib(small_rib, change, total, here, effects.small_rib, p)
+    total = settle_flanges(flanges, change, total, here, effects.flanges, p)
     mark(timers, RIB)
     settle_pocket(pocket, change, here, effects.cage, p)
     total = push_pocket(total, pocket, effects.cage)

@@ -101,6 +101,11 @@ def slide_params(scene: Scene) -> SlideParams | None:
     return SlideParams(level, by_load, by_speed, load_squared, both, speed_squared, lever)
 
 
+def along_both(slide: SlideParams | None) -> SlideParams | None:
+    """Halve the creep: a cylinder that floats slides along both raceways, half of what the rings do each."""
+    return None if slide is None else slide._replace(level=slide.level - 1.0)
+
+
 @inline
 def rolling_level(speed, slide):
     """Take the binary logarithm of a rolling speed [m/s] within the bounds of the fit; 0 without sliding."""

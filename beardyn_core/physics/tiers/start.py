@@ -8,11 +8,12 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.physics.bodies.losses import ENERGY_TERMS
 from beardyn_core.physics.statics.static import StaticSolution
+from beardyn_core.physics.tiers.massless_flanges import thrust_at
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.tier_bending import openings_at_pockets
@@ -25,13 +26,14 @@ _TOLERANCE = 1e-9
 _ACCEPTABLE, _ACCEPTABLE_FORCE = 1e-8, 1e-2  # of the load; [N]
 
 
-def kinematic_spin(bearing: Bearing, cage_speed: float) -> float:
+def kinematic_spin(bearing: RollerBearing, cage_speed: float) -> float:
     """Work out the spin of a roller, rolling on the cup, about its axis in the orbit frame, [rad/s]."""
-    return -cage_speed * math.sin(bearing.cup_angle) / math.sin(bearing.half_angle)
+    cup, roller = bearing.rolling_radii
+    return -cage_speed * cup / roller
 
 
 def initial_state(
-    bearing: Bearing,
+    bearing: RollerBearing,
     arrangement: Arrangement,
     parameters: Parameters,
     static: StaticSolution,
@@ -78,7 +80,7 @@ def initial_state(
 
 
 def _shift_of_cages(
-    bearing: Bearing, arrangement: Arrangement, parameters: Parameters, static: StaticSolution
+    bearing: RollerBearing, arrangement: Arrangement, parameters: Parameters, static: StaticSolution
 ) -> Float:
     """Find how far outward the rollers take each cage, shape [row], [m].
 
@@ -139,7 +141,7 @@ def settle_lumped(
         springs = np.concatenate([springs, p.bending.stiffness / p.bending.inverse])
         load = np.concatenate([load, modal_load])
     idle = spring.idle * p.kinematic.centrifugal * cage_rate**2
-    rows, gaps = [], []
+    rows, gaps, places, row_of = [], [], [], []
     for side in np.unique(sides):
         there = counted & (sides == side)
         azimuth, thicker = (
@@ -149,6 +151,8 @@ def settle_lumped(
         order = np.argsort(azimuth)
         azimuth = azimuth[order]
         bends = opening[there][order]
+        places.append(azimuth)
+        row_of.append(np.full(azimuth.size, side))
         gaps.append(cup.gap - 2.0 * thicker[order])  # a thicker roller is pressed on both sides
         outward = np.stack([np.sin(azimuth), np.cos(azimuth)])
         lean = np.full(azimuth.size, -side * cup.sine)
@@ -181,6 +185,15 @@ def settle_lumped(
         stiffness[3:held, 3:held] += lengths
         left = load - force @ normal - springs * place
         left[3:held] -= lengths @ place[3:held]
+        if p.thrust is not None:
+            whole = np.zeros(5)
+            whole[: min(held, 5)] = place[: min(held, 5)]
+            push, along, tangent = thrust_at(
+                whole, np.concatenate(places), np.concatenate(row_of), approach, p.thrust
+            )
+            along = along[:, :held]
+            left[:held] -= push @ along
+            stiffness[:held, :held] += (along * tangent[:, None]).T @ along
         return left, stiffness
 
     missing, stiffness = missing_at(found)

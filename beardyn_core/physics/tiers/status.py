@@ -29,6 +29,7 @@ from beardyn_core.physics.bodies.layout import (
     ROLLER_STATES,
 )
 from beardyn_core.physics.cage.watch import CageWatch
+from beardyn_core.physics.flanges import FlangeParams
 from beardyn_core.physics.lanes.vectors import cross, dot
 from beardyn_core.physics.rib import RibParams
 from beardyn_core.physics.tiers.friction_steps import LARGEST_CHATTER_INDEX
@@ -41,6 +42,9 @@ SMALLEST_JUDGED_LOAD = 100.0
 LARGEST_FILM = 1.0e-5
 # A rib contact this far beyond the face bears on its edge [m]; the cone's own place is not looked at.
 EDGE_MARGIN = 2.0e-4
+
+
+_OF_RING = {"cup": 1.0, "cone": -1.0}  # where a contact is from the roller's axis
 
 
 class Status(IntFlag):
@@ -114,7 +118,13 @@ def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
     return np.array(index)
 
 
-def assess(state: State, step_count: int, large_end_radius: float, rib: RibParams | None = None) -> Status:
+def assess(
+    state: State,
+    step_count: int,
+    large_end_radius: float,
+    rib: RibParams | None = None,
+    flanges: FlangeParams | None = None,
+) -> Status:
     """Judge the status after a block.
 
     Parameters
@@ -123,18 +133,29 @@ def assess(state: State, step_count: int, large_end_radius: float, rib: RibParam
         Steps of the block.
     large_end_radius : float
         Of a roller, [m].
-    rib : RibParams or None
-        Rib contact of the run.
+    rib, flanges :
+        Rib contacts of the run.
     """
-    face = (0.0, 0.0, 0.0, -math.inf, math.inf)  # without a window no place is beyond it
-    if rib is not None and rib.window is not None:
+    faces = [] if rib is None else [_face(0.0, 0.0, rib)]
+    if flanges is not None:
+        for name, flange in flanges._asdict().items():
+            if flange is not None:
+                ring, side = name.split("_")
+                faces.append(_face(_OF_RING[ring], 1.0 if side == "outer" else -1.0, flange.rib))
+    known = np.array(faces).reshape(-1, 7)
+    return Status(int(_judge(state.rollers, state.bodies, float(step_count), large_end_radius, known)))
+
+
+def _face(ring: float, side: float, rib: RibParams) -> list[float]:
+    """Describe a face: ring and side of its rib, 0 where there is but one; without a window no edges."""
+    low, high = -math.inf, math.inf
+    if rib.window is not None:
         low, high = rib.window.low - rib.window.rounding, rib.window.high + rib.window.rounding
-        face = (rib.sphere_place, rib.normal_radial, rib.normal_axial, low, high)
-    return Status(int(_judge(state.rollers, state.bodies, float(step_count), large_end_radius, face)))
+    return [ring, side, rib.sphere_place, rib.normal_radial, rib.normal_axial, low, high]
 
 
 @entry
-def _judge(rollers, bodies, step_count, large_end_radius, face):
+def _judge(rollers, bodies, step_count, large_end_radius, faces):
     """Set the bits of the status; rollers [block, ROLLER_FIELDS, lane]."""
     flags = 0
     for block in range(rollers.shape[0]):
@@ -155,7 +176,7 @@ def _judge(rollers, bodies, step_count, large_end_radius, face):
             if _contact_load(rollers, block, RIB, lane) > SMALLEST_JUDGED_LOAD:
                 if _from_axis(rollers, block, lane) > large_end_radius:
                     flags |= _OFF_RIB
-                if _beyond_face(rollers, block, lane, face) > EDGE_MARGIN:
+                if _beyond_face(rollers, block, lane, faces) > EDGE_MARGIN:
                     flags |= _RIB_EDGE
             for kind in (CUP, CONE):
                 film = rollers[block, CONTACT_OUTPUT + kind * OUTPUT_FIELDS + OUTPUT_FILM, lane]
@@ -194,12 +215,22 @@ def _from_axis(rollers, block, lane):
 
 
 @inline
-def _beyond_face(rollers, block, lane, face):
+def _beyond_face(rollers, block, lane, faces):
     """Tell how far the rib contact is beyond the edges of its face, the cone's place neglected, [m]."""
-    sphere_place, normal_radial, normal_axial, low, high = face
-    along = sphere_place * rollers[block, AXIS, lane]
-    around = sphere_place * rollers[block, AXIS + 1, lane]
-    radial = math.hypot(rollers[block, RADIUS, lane] + along, around)
-    axial = rollers[block, AXIAL, lane] + sphere_place * rollers[block, AXIS + 2, lane]
-    height = radial * normal_axial - axial * normal_radial
-    return max(low - height, height - high)
+    first = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_ARM
+    out, along = rollers[block, first, lane], rollers[block, first + 2, lane]
+    beyond = -math.inf
+    for face in range(faces.shape[0]):
+        ring, side, place = faces[face, 0], faces[face, 1], faces[face, 2]
+        if ring * out < 0.0 or side * along < 0.0:
+            continue
+        turn = 1.0 if side == 0.0 else side  # seen from its own side
+        sphere = turn * place
+        radial = math.hypot(
+            rollers[block, RADIUS, lane] + sphere * rollers[block, AXIS, lane],
+            sphere * rollers[block, AXIS + 1, lane],
+        )
+        axial = turn * (rollers[block, AXIAL, lane] + sphere * rollers[block, AXIS + 2, lane])
+        height = radial * faces[face, 4] - axial * faces[face, 3]
+        beyond = max(beyond, max(faces[face, 5] - height, height - faces[face, 6]))
+    return beyond

@@ -31,7 +31,7 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.contact_law import line_contact_factor
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import Cage, EffectSet, LoadSharingTraction, RingStructure, RotatingCage
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.statics.equilibria import equilibrium
@@ -68,7 +68,7 @@ def rigid(_step: float) -> Float:
 
 
 def choose_steps(
-    bearing: Bearing,
+    bearing: RollerBearing,
     loads: tuple[float, float],
     speeds: tuple[float, float],
     effects: EffectSet,
@@ -111,7 +111,7 @@ def choose_steps(
     static = equilibrium(
         bearing,
         (0.0, axial, max(abs(load) for load in loads)),
-        end_play=bearing.end_play if end_play is None else end_play,
+        end_play=end_play,
         laminae=laminae,
         speed=max(abs(speed) for speed in speeds),
         coupling=effects.lamina_coupling,
@@ -138,7 +138,7 @@ def _vibration(band: float, effects: EffectSet, noise: float) -> StepChoice:
     )
 
 
-def bounce_frequency(bearing: Bearing, static: StaticSolution, laminae: int) -> float:
+def bounce_frequency(bearing: RollerBearing, static: StaticSolution, laminae: int) -> float:
     """Work out the highest frequency at which a roller bounces between its raceways, [Hz]."""
     factor = line_contact_factor(bearing.material, bearing.effective_length) / laminae
     stiffness = np.zeros(static.cup_load.shape)
@@ -149,7 +149,7 @@ def bounce_frequency(bearing: Bearing, static: StaticSolution, laminae: int) -> 
     return math.sqrt(float(stiffness.max()) / bearing.roller_mass) / (2.0 * math.pi)
 
 
-def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool) -> StepChoice:
+def _bounce(bearing: RollerBearing, static: StaticSolution, laminae: int, damped: bool) -> StepChoice:
     frequency = bounce_frequency(bearing, static, laminae)
     most = _BOUNCES_PER_STEP if damped else _UNDAMPED_BOUNCES_PER_STEP
     steps = math.ceil(frequency / (most * WAVEFORM_RATE))
@@ -161,7 +161,7 @@ def _bounce(bearing: Bearing, static: StaticSolution, laminae: int, damped: bool
     )
 
 
-def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
+def dry_slope(bearing: RollerBearing, effects: EffectSet, speed: float) -> float:
     """Work out the steepest rise of the coefficient of friction with the slip speed, [s/m]."""
     traction = effects.traction
     if isinstance(traction, LoadSharingTraction) and effects.film is None:
@@ -169,7 +169,9 @@ def dry_slope(bearing: Bearing, effects: EffectSet, speed: float) -> float:
     return fixed_slope(effects)
 
 
-def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int) -> Iterator[StepChoice]:
+def _friction(
+    bearing: RollerBearing, effects: EffectSet, slowest: float, laminae: int
+) -> Iterator[StepChoice]:
     slope = dry_slope(bearing, effects, slowest)
     if slope > 0.0:
         steps = friction_steps(slope, laminae)
@@ -181,7 +183,7 @@ def _friction(bearing: Bearing, effects: EffectSet, slowest: float, laminae: int
 
 
 def _explicit(
-    bearing: Bearing,
+    bearing: RollerBearing,
     static: StaticSolution,
     effects: EffectSet,
     mounting: Mounting,

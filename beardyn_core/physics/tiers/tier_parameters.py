@@ -14,6 +14,7 @@ from beardyn_core.physics.pure_rolling import KinematicParams
 from beardyn_core.physics.roller_spring import SpringParams
 from beardyn_core.physics.rolling_waves import RollingWaveParams
 from beardyn_core.physics.scatter import mean_crown
+from beardyn_core.physics.tiers.massless_flanges import ThrustParams
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.sliding import SlideParams
 from beardyn_core.physics.tiers.tier_bending import BendingParams
@@ -55,6 +56,7 @@ class LumpedParameters(NamedTuple):
     highest: float  # bound of what waves and rims bring cup and cone nearer by [m]
     bending: BendingParams | None
     slide: SlideParams | None  # ``None``: without a film
+    thrust: ThrustParams | None  # of cylinders
 
 
 class QuasistaticParameters(NamedTuple):
@@ -71,7 +73,8 @@ class QuasistaticParameters(NamedTuple):
     highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
     bending: BendingParams | None
     loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
-    slide: SlideParams | None  # ``None``: without a film
+    slide: SlideParams | None  # ``None``: without a film, and of cylinders
+    grip: SlideParams | None  # of cylinders, which slide along both raceways by themselves
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:

@@ -22,9 +22,10 @@ from beardyn_core.physics.suspension import tilt_restraint
 from beardyn_core.physics.tiers import tier_parameters
 from beardyn_core.physics.tiers.imex import advance
 from beardyn_core.physics.tiers.lumped import SpringTrend, advance_lumped, trend_shape
+from beardyn_core.physics.tiers.massless_flanges import thrust_params
 from beardyn_core.physics.tiers.parameters import Parameters
 from beardyn_core.physics.tiers.quasistatic import advance_quasistatic
-from beardyn_core.physics.tiers.sliding import slide_params
+from beardyn_core.physics.tiers.sliding import along_both, slide_params
 from beardyn_core.physics.tiers.start import initial_state, settle_lumped
 from beardyn_core.physics.tiers.state import State
 from beardyn_core.physics.tiers.tier_bending import bending_params, step_body
@@ -53,12 +54,19 @@ class Tier:
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
 
+def spring_laminae(scene: Scene) -> int:
+    """Choose the laminae that the springs of the lumped tier stand for: enough for the usual profile."""
+    return max(scene.numerics.laminae, scene.bearing.usual_laminae)
+
+
 def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedParameters:
     """Build the kernel parameters of the lumped tier."""
     base = tier_parameters.flatten_profiles(base, scene)
+    # springs are measured from their own raceway
+    base = base._replace(cup=base.cup._replace(gap=scene.bearing.normal_gap(scene.end_play)))
     motion, spring = (
         tier_parameters.ring_motion_params(base),
-        spring_params(scene.bearing, scene.numerics.laminae),
+        spring_params(scene.bearing, spring_laminae(scene)),
     )
     response = tier_parameters.ring_response_params(base, motion, spring.lever)
     sides = tier_parameters.row_sides(base, scene.rows)
@@ -75,7 +83,8 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
         highest=highest_points(base.effects.faults, every_patch(scene.defects, scene.bearing)),
         bending=bending_params(scene, base, response.give, response.lever, sides),
-        slide=slide_params(scene),
+        slide=along_both(slide_params(scene)) if base.effects.flanges else slide_params(scene),
+        thrust=thrust_params(scene.mounted_bearing, spring_laminae(scene)) if base.effects.flanges else None,
     )
 
 
@@ -99,7 +108,8 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         loose=loose_params(scene, base.step),
-        slide=slide_params(scene),
+        slide=None if base.effects.flanges else slide_params(scene),
+        grip=slide_params(scene) if base.effects.flanges else None,
     )
 
 
