@@ -32,6 +32,7 @@ from beardyn_core.study.ladder_report import count_words, error_text, machine
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import UNITS
 from evidence.automatic.page import MEANS, heard
+from evidence.ladder.turns import in_turns
 from evidence.pages import REPORTS, write_page
 from evidence.runner import kept_json
 
@@ -71,6 +72,7 @@ def judged(name: str) -> list[dict[str, Any]]:
     ladder = climb(comparison, every, LIMIT, reference_runs=RUNS, least_runs=RUNS)
     if ladder.interrupted:
         raise KeyboardInterrupt
+    ladder = in_turns(ladder, scene)
     own = next(row.cost.median for row in ladder.rows if row.level.name == FULL)
     return [found(ladder, row, own) for row in ladder.rows]
 
