@@ -17,7 +17,7 @@ message_guard         the intake of every node: refuses what is not promised, or
 services              services that answer when the work is done, those of simulation_interfaces too
 frames                names of frames, place and orientation in each other, transforms as tf2 messages
 robot_description     the bearing in its box as URDF with meshes: robot_description, /tf_static, /tf
-scenario              what the load node replays, for one box or several: load, events, what is told of it
+scenario              what the load node replays, for one box or several: load, events, what is stated of it
 replay                a scenario as an endless stream: loop, seek, cross-fade, its clock, its credit
 source_time           the clock of live load, and stamps that follow it
 live_load             load of the live mode: its messages, low-pass filter, checks, the last value held

@@ -59,7 +59,7 @@ class TwinWatch:
         self._others: dict[str, Diagnostic] = {}  # last statuses of other runs by run id
 
     def begin_run(self, run_id: str) -> None:
-        """Follow the run that a ``truth`` has told; what was said about others is forgotten.
+        """Follow the run that a ``truth`` has announced; what was said about others is forgotten.
 
         Topics are not ordered among each other: what the twin said about this run may have come before.
         """

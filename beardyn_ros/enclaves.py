@@ -224,7 +224,7 @@ class Authority:
             )  # fmt: skip
 
     def sign(self, document: Path) -> None:
-        """Sign a document as S/MIME beside it, with the ending ``.p7s``."""
+        """Sign a document as S/MIME next to it, with the ending ``.p7s``."""
         _openssl(
             "smime", "-sign", "-text", "-in", str(document), "-out", str(document.with_suffix(".p7s")),
             "-signer", str(self.certificate), "-inkey", str(self._key),

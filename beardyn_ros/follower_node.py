@@ -61,7 +61,7 @@ TICK_S = 0.05
 REPORT_PERIOD_S = 0.5
 LAST_VALUES_S = 1.0
 LAST_COMPARISON_S = 15.0  # longest wait at the end; the recorder waits 20 s for the last word
-KEPT_ROWS = 4  # stretches that are compared with the twin beside
+KEPT_ROWS = 4  # stretches that are compared with the parallel twin
 
 
 class FollowerNode(Node):
@@ -153,8 +153,8 @@ class FollowerNode(Node):
         self._compared_at = -math.inf
         self._comparing: Future[Residual] | None = None
         self._residual: Residual | None = None
-        self._unheard = ""  # why the vibration is not heard
-        self._trouble = ""  # of the twin beside
+        self._unheard = ""  # why the vibration is not read
+        self._trouble = ""  # of the parallel twin
         self._summed_up = False
         self._ended_at: float | None = None
 
@@ -167,7 +167,7 @@ class FollowerNode(Node):
         self.get_logger().info(f"{self._plate.name}: follows {known} by an estimator of the axes {axes}")
 
     def _scene_of_twin(self) -> Scene | None:
-        """Make the scene of the twin beside, which must be of this bearing and on a track."""
+        """Make the scene of the parallel twin, which must be of this bearing and on a track."""
         if not self._values.twin:
             return None
         where = f"node follower, parameter 'twin': scene '{self._values.twin}'"
@@ -261,7 +261,7 @@ class FollowerNode(Node):
         self._out.publish("follower/estimate", encode_told({"final": final, **told}))
 
     def _compare(self, base: Scene, known: Estimates, rows: Float) -> Residual:
-        """Run the twin beside, in the thread of the worker."""
+        """Run the parallel twin, in the thread of the worker."""
         return residual_beside(self._follower.estimator, rows, known, base, self._values.twin_tier)
 
     def _look_at_mounting(self) -> None:
@@ -273,7 +273,7 @@ class FollowerNode(Node):
             self._searching = self._worker.submit(search_mountings, powers, self._follower.estimator)
 
     def _hear_twin(self) -> None:
-        """Publish what the twin beside has come to, when it is done."""
+        """Publish what the parallel twin has come to, when it is done."""
         if self._comparing is None or not self._comparing.done():
             return
         done, self._comparing = self._comparing, None
@@ -327,7 +327,7 @@ class FollowerNode(Node):
         self._out.publish("/diagnostics", encode_diagnostics(stamp, frame_of(namespace), [status]))
 
     def close(self) -> bool:
-        """Wait for the twin beside, which is short."""
+        """Wait for the parallel twin, which is short."""
         self._worker.shutdown(wait=True, cancel_futures=True)
         return False
 

@@ -108,7 +108,7 @@ class LoadFeed:
     wait : callable
         ``wait(ready, timeout)`` blocks the twin's thread; False after `timeout` seconds, 0: for ever.
     say : callable
-        ``say(state, sentence)`` tells the world.
+        ``say(state, sentence)`` reports it.
     on_stamp : callable, optional
         See `LiveLoad`.
 

@@ -178,7 +178,7 @@ class LoadNode(Node):
             self._follow_run()
 
     def _follow_run(self) -> None:
-        """Serve the run that was told last, from the start when it is another one."""
+        """Serve the run that was announced last, from the start when it is another one."""
         known, self._run_id = self._run_id, self._next_run_id
         if known and self._run_id != known:
             self.get_logger().info("a new run has begun, the replay starts again")

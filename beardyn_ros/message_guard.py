@@ -1,7 +1,7 @@
 """The one intake of every node: refused is what its topic does not promise, or another publisher sends.
 
 Anybody may publish on any topic. Of each topic one publisher is followed, and rather the node that the topic
-is named for. A second publisher beside it is refused and counted; it is followed when the first has gone.
+is named for. A second publisher next to it is refused and counted; it is followed when the first has gone.
 Every message carries the identity of its publisher, and the graph states which node that is.
 """
 

@@ -101,7 +101,7 @@ class ParameterValues:
     Notes
     -----
     A name that the table does not have is an error when it is given to this node itself, by ``-p`` or under
-    its own name in a file. Under ``/**:`` it is meant for others, and only told.
+    its own name in a file. Under ``/**:`` it is meant for others, and only reported.
 
     Raises
     ------

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from beardyn_core.config.load import OpenScene
     from beardyn_core.scene.scene import Scene
 
-MARGIN = 1.3  # of the speed alone over the pace with messages, recorder and monitor beside it
+MARGIN = 1.3  # of the speed alone over the pace with messages, recorder and monitor next to it
 _SETTLING_S, _MEASURED_S, _LOOK_S = 0.1, 1.0, 0.5  # simulated; simulated at most; wall time at most
 _SURELY = 4.0  # times faster than asked where costs were measured: then the best tier is tried first
 _DECIBELS = "vibration"  # of the quantities the one that is not a fraction

@@ -281,14 +281,14 @@ class ReplayClock:
 
 
 class Credit:
-    """Time up to which a twin has used its load, as it tells.
+    """Time up to which a twin has used its load, as it reports.
 
     Attributes
     ----------
     time_ns : int
         In the time of the load, [ns].
     changed_at, heard_at : float
-        When it has moved, and when the twin has told it, on the monotonic clock, [s].
+        When it has moved, and when the twin has reported it, on the monotonic clock, [s].
     """
 
     def __init__(self) -> None:
@@ -302,7 +302,7 @@ class Credit:
         self._rate = 0.0
 
     def hear(self, time_ns: int) -> None:
-        """Take what the twin has told."""
+        """Take what the twin has reported."""
         self.heard_at = time.monotonic()
         if time_ns != self.time_ns:
             self.time_ns, self.changed_at = time_ns, self.heard_at

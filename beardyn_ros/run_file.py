@@ -119,7 +119,7 @@ class BoxWriter:
         """Write nothing, see the class."""
 
     def add(self, name: str, stamp_ns: int, cdr: bytes) -> None:
-        """Append a message; of the topics that all boxes hear, what is of this one."""
+        """Append a message; of the topics that all boxes receive, what is of this one."""
         self._counts[name] += 1
         if not name.startswith("/"):
             self._file.mcap.add(f"{self._namespace}/{name}", stamp_ns, cdr)

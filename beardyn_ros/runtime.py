@@ -62,7 +62,7 @@ class RunnableNode(Protocol):
 
 
 def run_node(make_node: Callable[[], RunnableNode], argv: Sequence[str]) -> int:
-    """Run one node until it is finished or the process is told to stop.
+    """Run one node until it is finished or the process is asked to stop.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ class _Notice(ctypes.Structure):
 def ended_after(timeout_s: float, code: int) -> Iterator[None]:
     """End the process with a code when what is inside takes longer (Linux; elsewhere nothing is done).
 
-    For a node that has saved and told everything: what is left is courtesy to the others, and when many leave
+    For a node that has reported everything: what is left is courtesy to the others, and when many leave
     at once it may stop for good, see `leave_quietly`. No thread of Python can help then, because rclpy
     destroys with the interpreter held.
 
@@ -256,7 +256,7 @@ def leave_quietly(node: Any) -> None:
     -----
     A process that answers a writer while it learns that this writer is gone, and has to announce itself next,
     stops for good: it holds the list of participants and waits for the thread that wants the list (issue 6502
-    of Fast DDS, open). So nothing is said any more when publishers go. Every step tells the graph what is
+    of Fast DDS, open). So nothing is said any more when publishers go. Every step informs the graph what is
     left, through a writer that goes with the last node: so that is one with nothing else to say.
     ``python -m evidence.ros.leaving`` shows both.
     """
@@ -278,7 +278,7 @@ def leave_quietly(node: Any) -> None:
 
 
 def _nobody(node: Any) -> Any:
-    """Make a hidden node beside one, which has nothing to say."""
+    """Make a hidden node next to one, which has nothing to say."""
     from rclpy.node import Node
     from rclpy.parameter import Parameter
 

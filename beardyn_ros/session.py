@@ -121,7 +121,7 @@ class TwinSession:
 
     @property
     def paused(self) -> bool:
-        """Whether the run is told to hold."""
+        """Whether the run is asked to hold."""
         return self._paused
 
     def step(self) -> str | None:

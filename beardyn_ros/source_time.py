@@ -1,6 +1,6 @@
 """Time of the train: what the clock of the source of live load shows at an instant of simulated time.
 
-Messages arrive late, never early, so that the least late of the last seconds tells the clock. It may run a
+Messages arrive late, never early, so that the least late of the last seconds shows the clock. It may run a
 little faster or slower than that of this machine, and it may be set: stamps follow it, and never go back.
 """
 

@@ -1,6 +1,6 @@
 """What a train has of one axlebox: vibration, shaft and temperature, for the nodes that listen to it.
 
-Nothing else is heard: no ``truth``, no ``contacts``, ``bodies`` or ``joint_states``. Of the twin it is known
+Nothing else is read: no ``truth``, no ``contacts``, ``bodies`` or ``joint_states``. Of the twin it is known
 whether it has ended; a real axlebox has none.
 """
 
@@ -23,12 +23,12 @@ from beardyn_ros.diagnostics import TWIN, TwinWatch, diagnostic_name
 from beardyn_ros.message_guard import MessageGuard
 from beardyn_ros.wire import RawIntake
 
-_MEASURED = ("vibration", "shaft")  # without these nothing is heard
+_MEASURED = ("vibration", "shaft")  # without these nothing is read
 _BOX = "axlebox"  # of the temperatures, that of the box is measured
 
 
 class Hearer(NamedTuple):
-    """Who is told what comes in."""
+    """Who receives what comes in."""
 
     restart: Callable[[], None]  # the vibration starts again
     vibration: Callable[[Int, Float], None]  # times [ns], acceleration of shape [sample, 3], [m/s^2]
@@ -84,12 +84,12 @@ class TrainSignals:
 
     @property
     def ended(self) -> bool:
-        """Whether the twin has ended and all that it has sent is heard: a busy node is behind."""
+        """Whether the twin has ended and all that it has sent is read: a busy node is behind."""
         return self.watch.ended and self._nothing_waits
 
     @property
     def vanished(self) -> bool:
-        """Whether the twin is gone without a word, and all that it has sent is heard."""
+        """Whether the twin is gone without a word, and all that it has sent is read."""
         return self.watch.vanished() and self._nothing_waits
 
     @property

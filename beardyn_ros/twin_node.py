@@ -201,7 +201,7 @@ class TwinNode(LifecycleNode):
         return alive
 
     def _on_diagnostics(self, cdr: bytes, source: bytes) -> None:
-        """Hear other twins of this name; what cannot be read, or only claims the name, is refused."""
+        """Listen for other twins of this name; what cannot be read, or only claims the name, is refused."""
         problem = self._checker.problem(topic("/diagnostics"), cdr)
         reason = "wrong fields"
         if not problem and self._namesakes.is_named_in(cdr):

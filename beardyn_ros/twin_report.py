@@ -34,7 +34,7 @@ LARGEST_LAG_S = 0.1
 
 @dataclass(frozen=True)
 class NodeStanding:
-    """What a twin's node knows of itself beside the run.
+    """What a twin's node knows of itself besides the run.
 
     Parameters
     ----------

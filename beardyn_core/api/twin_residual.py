@@ -23,7 +23,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.labels import HEALTHY
 
 _TWIN_STRETCHES = 4  # that are compared with the twin, the last ones
-_USUAL_LENGTH_MM, _DEPTH_UM = 20.0, 100.0  # of a spall whose length is not told; of all
+_USUAL_LENGTH_MM, _DEPTH_UM = 20.0, 100.0  # of a spall whose length is not given; of all
 
 
 def residual_beside(
@@ -45,7 +45,7 @@ def residual_beside(
 
 
 def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> Scene:
-    """Give the scene of a twin at the state that is known; what is not told stays that of `base`.
+    """Give the scene of a twin at the state that is known; what is not given stays that of `base`.
 
     Raises
     ------

@@ -172,7 +172,7 @@ def is_kind(noun: type) -> bool:
 
 
 def needs_no_kind(noun: type) -> bool:
-    """Tell whether a mapping without a kind is one of a noun that has kinds beside it."""
+    """Tell whether a mapping without a kind is one of a noun that has kinds next to it."""
     return not is_kind(noun) and all(place.key != "kind" for place in places(noun))
 
 

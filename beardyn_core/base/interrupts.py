@@ -123,7 +123,7 @@ def last_words(say: Callable[[], str]) -> Iterator[None]:
     Parameters
     ----------
     say : callable
-        Gives a sentence that tells what has been kept, without "interrupted".
+        Gives a sentence about what has been kept, without "interrupted".
     """
     _last_words.append(say)
     try:

@@ -29,7 +29,7 @@ OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": se
 # Rollers that a kernel takes at once: as many as fill one vector register, with AVX-512 or with AVX2. Twice
 # as many cost 1.6 times the time of a step, half as many 1.7 times.
 def lane_width() -> int:
-    """Choose the lanes for the processor that numba compiles for: this one, unless it is told another."""
+    """Choose the lanes for the processor that numba compiles for: this one, unless another is set."""
     told = numba.config.CPU_FEATURES  # type: ignore[attr-defined]
     features = get_host_cpu_features() if told is None else told
     return 8 if "+avx512f" in features.split(",") else 4
@@ -74,7 +74,7 @@ class _PartCompiler(Compiler):
 
 
 class _SetFlags(Flags):
-    """Flags that are told apart by what has been set.
+    """Flags that are distinguished by what has been set.
 
     numba finds its own work again by them a hundred thousand times while it compiles a step; with its own
     comparison, of all forty with their usual values, that took an eighth of the time.

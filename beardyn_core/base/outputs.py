@@ -280,7 +280,7 @@ def as_a_whole(path: Path, *, replace: bool = True) -> Iterator[Path]:
     Yields
     ------
     Path
-        Where to write: a file beside it that takes its place at the end; a device or a pipe itself.
+        Where to write: a file next to it that takes its place at the end; a device or a pipe itself.
 
     Raises
     ------

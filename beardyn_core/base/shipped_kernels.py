@@ -34,7 +34,7 @@ def shipped_processor() -> tuple[str, str] | None:
     Returns
     -------
     (str, str) or None
-        As numba has them. Where numba is told a processor, `None`: it compiles for that one.
+        As numba has them. Where a processor is set for numba, `None`: it compiles for that one.
     """
     if numba.config.CPU_NAME or numba.config.CPU_FEATURES is not None:  # type: ignore[attr-defined]
         return None

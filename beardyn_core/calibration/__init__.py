@@ -1,4 +1,4 @@
-"""The scene of one measured axlebox: what no drawing tells, fitted to its healthy recordings.
+"""The scene of one measured axlebox: what no drawing states, fitted to its healthy recordings.
 
 ================== ===============================================================
 module             responsibility, in the order of the data

@@ -25,7 +25,7 @@ _FARTHEST = 0.2  # that one of them goes, of the unit box
 _NOISE_STEP = 0.01  # of the unit box
 _HEARD = 2.0  # halves of an interval, by which noise is above none
 AS_WIDE = 0.8  # of the range: an interval says nothing more than it
-TOGETHER = 0.95  # correlation from which two numbers are not told apart
+TOGETHER = 0.95  # correlation from which two numbers are not distinguished
 _FAILED = 1.0e6  # misfit of a twin that ended early
 
 Tell = Callable[[str, int], None]
@@ -75,7 +75,7 @@ def rms(difference: Float) -> float:
 
 @dataclass
 class Fitter:
-    """Fits unknowns of a scene to what was heard."""
+    """Fits unknowns of a scene to what was measured."""
 
     beside: Beside
     unknowns: tuple[Unknown, ...]
@@ -186,7 +186,7 @@ class Fitter:
         return float(minimize_scalar(misfit_at, bounds=ends, method="bounded").x)
 
     def _difference(self, point: Float) -> Float:
-        """Heard less twin with the seed of the search, at a point that was tried, [dB]."""
+        """Measured minus twin with the seed of the search, at a point that was tried, [dB]."""
         return self._heard - self._levels(self._nearest(point).power, point)
 
     def _nearest(self, point: Float) -> Tried:
@@ -249,7 +249,7 @@ class Fitter:
         return reasons
 
     def _silent(self, known: Identified, point: Float) -> bool:
-        """Tell whether an accelerometer without noise would be heard alike: its logarithm has no such end."""
+        """Check whether an accelerometer without noise would measure the same: its logarithm has no end."""
         power = self._nearest(point).power
         change = self._levels(power, point) - self.beside.levels(power, 0.0)
         shift = float(known.gain[self._noise] @ change.ravel())

@@ -22,11 +22,11 @@ from beardyn_core.study.monitored_recording import HOT_BOX, conclude, findings_o
 _SHORTEST, _LONGEST = 1.0, 4.0  # stretch, [s]
 _TURNS = 1.2 * FEWEST_TURNS  # of the shaft in a stretch
 _SAME_RATE = 1e-3
-_FARTHEST_SPEED = 2.0  # of the recordings from that of the scene, as a ratio: what is heard grows with it
+_FARTHEST_SPEED = 2.0  # of the recordings from that of the scene, as a ratio: the level grows with it
 
 
 def sensor_number(scene: Scene, name: str, asked: bool) -> int:
-    """Find the accelerometer of the scene that stands for the one that is heard."""
+    """Find the accelerometer of the scene that stands for the one that is used."""
     names = [each.name for each in scene.sensors]
     if scene.faults:
         raise InputError(
@@ -60,7 +60,7 @@ def unknowns_of(
 def rides_heard(
     scene: Scene, sensor: int, heard: list[tuple[Run, RollerBearing | NamePlate, str]]
 ) -> tuple[Hearing, tuple[Ride, ...]]:
-    """Hear the recordings, and refuse those that are not of such an axlebox."""
+    """Measure the recordings, and refuse those that are not of such an axlebox."""
     rate, problems, axes, speeds = scene.sensors[sensor].rate, list[str](), set(AXES), list[float]()
     for run, plate, name in heard:
         if not alike(scene.bearing, plate):

@@ -1,4 +1,4 @@
-"""The twin beside the recordings: levels at values of the unknowns; each seed has its track and bearing."""
+"""The twin next to the recordings: levels at values of the unknowns; each seed has its track and bearing."""
 
 from __future__ import annotations
 

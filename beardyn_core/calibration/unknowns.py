@@ -1,4 +1,4 @@
-"""What no drawing tells of an axlebox: its value in a scene, its range, and the key that it is written to."""
+"""What no drawing states of an axlebox: its value in a scene, its range, and its key in the file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from beardyn_core.population.key_paths import Place, with_value
 from beardyn_core.scene.scene import Scene
 
 _DIGITS = 4  # that a value is written with
-SENSOR = "sensor"  # in a place: number of the accelerometer that is heard
+SENSOR = "sensor"  # in a place: number of the accelerometer that is used
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Unknown:
     absent: A[str, "why a scene may not have it"] = ""
 
     def base_of(self, scene: Scene, sensor: int) -> float | None:
-        """Find the value in a scene, whose sensor of a number is heard; none where the scene has none."""
+        """Find the value in a scene, whose sensor of a number is used; none where the scene has none."""
         structure = scene.effects.structure
         if self.name in ("frequency", "damping"):
             if not isinstance(structure, ModalStructure):

@@ -27,9 +27,9 @@ def scene_keys(
     fits : tuple of Fit
         Those with a reason are left out.
     sensor : int
-        Number of the accelerometer that was heard.
+        Number of the accelerometer that was used.
     folder : Path
-        Of the file to write: files beside that of the base are named by their whole path in another one.
+        Of the file to write: files next to that of the base are named by their whole path in another one.
     """
     data = write_noun(base) if isinstance(base, Scene) else read_file(base)
     home = Path() if isinstance(base, Scene) else base.parent
@@ -44,7 +44,7 @@ def scene_keys(
 
 
 def _locate_files(value: Any, home: Path) -> Any:
-    """Write names of files beside the scene as whole paths; shipped names stay."""
+    """Write names of files next to the scene as whole paths; shipped names stay."""
     if isinstance(value, dict):
         return {key: _locate_files(each, home) for key, each in value.items()}
     if isinstance(value, list):

@@ -22,7 +22,7 @@ HIGHEST = (100.0, 1000.0, 2000.0, 4000.0, 6300.0, 8000.0, 10_000.0, 12_500.0, 16
 
 
 def structure(evidence: Evidence) -> Rule:
-    """Decide on a box that bends: what of it changes load, deflection, or what the sensors hear."""
+    """Decide on a box that bends: what of it changes load, deflection, or what the sensors measure."""
     scene, effect, body = evidence.scene, evidence.scene.effects.structure, evidence.statics.body
     if effect is None or body is None:
         return absent("structure")

@@ -1,4 +1,4 @@
-"""Choices that were worked out before, kept beside the compiled kernels.
+"""Choices that were worked out before, kept next to the compiled kernels.
 
 A choice takes seconds, and a scene is read more often than it is changed. What is kept is found by a hash of
 all that the choice depends on, so that it never has to be thrown away by hand: the scene with the files it

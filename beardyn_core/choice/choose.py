@@ -27,7 +27,7 @@ from beardyn_core.scene.tier import TIERS
 
 USUAL_ACCURACY = 0.05
 _DECIDING = 2  # so many first rules decide the step: friction, and what damps the bounce of rollers
-_BESIDES = 1.0  # of a limit, beside an error beyond it that a tier has whatever is chosen in it
+_BESIDES = 1.0  # of a limit, compared with an error beyond it that a tier has whatever is chosen in it
 _OF_STEP = ("traction", "film", "contact_damping", "structure")
 
 RULES: tuple[Callable[[Evidence], Rule], ...] = (

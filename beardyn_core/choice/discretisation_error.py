@@ -39,7 +39,7 @@ _BAND = 0.2316
 # One Newton step of the rollers in a time step, and the neglected turn of the normals: see test/tiers.
 _QUASISTATIC_SHARE = 0.005
 _LONGEST_STEP = 1.0 / 25_600.0  # of rollers that move in their pockets [s]
-# Torque that a tier may miss over that of the pockets as the losses estimate it, beside runs of `full` with
+# Torque that a tier may miss over that of the pockets as the losses estimate it, against runs of `full` with
 # every effect: see evidence/automatic/torque.py.
 POCKETS = {"quasistatic": 0.8, "lumped": 2.0}
 # What third octaves of a tier are off by at most against `full`, [dB]: to 400 Hz and to 1 kHz of a healthy
@@ -85,7 +85,7 @@ def laminae(evidence: Evidence, count: int, tier: str) -> Verdict:
 
 
 def _uncovered_laminae(patch: Patch | None, length: float, count: int) -> tuple[list[float], list[float]]:
-    """Find the middle of each lamina, and its length beside a patch, [m]."""
+    """Find the middle of each lamina, and its length next to a patch, [m]."""
     step = length / count
     middles = [-0.5 * length + (index + 0.5) * step for index in range(count)]
     if patch is None:
@@ -96,7 +96,7 @@ def _uncovered_laminae(patch: Patch | None, length: float, count: int) -> tuple[
 
 
 def tilt_error(patch: Patch | None, length: float, count: int) -> float:
-    """Compute the error of the tilt stiffness of the line beside a patch, against the reference, [-].
+    """Compute the error of the tilt stiffness of the line next to a patch, against the reference, [-].
 
     What is left of a lamina acts at the lamina's middle.
     """

@@ -58,7 +58,7 @@ def rib(evidence: Evidence) -> Rule:
         influence = {"torque": evidence.torque_share(full - dry), "vibration": FRICTION_DB}
         drive = losses.drive(evidence.scene.effects.traction, evidence.scene.effects.film)
         if drive.skids:
-            # what the ribs brake more, seen at the raceways beside what these have to drive
+            # what the ribs brake more, seen at the raceways compared with what these have to drive
             brake = abs(full - dry) / (0.5 * evidence.scene.bearing.pitch_diameter)
             part = drive.share(brake)
             influence["torque"] += evidence.torque_share(part * drive.torque)

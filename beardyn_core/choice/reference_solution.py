@@ -113,7 +113,7 @@ class Evidence:
 
     @property
     def band(self) -> float:
-        """Highest third octave asked of the vibration: what the fastest sensor hears, or less, [Hz]."""
+        """Highest third octave asked of the vibration: what the fastest sensor measures, or less, [Hz]."""
         heard = AUDIBLE_BAND * max(sensor.rate for sensor in self.scene.sensors) / RATES[0]
         return min(heard, self.scene.vibration_to or heard)
 

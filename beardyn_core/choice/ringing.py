@@ -1,4 +1,4 @@
-"""What a sensor hears of a box that bends beside a rigid one: rollers as springs between journal and modes.
+"""Sensor readings in a box that bends against a rigid one: rollers as springs between journal and modes.
 
 Small motion about the equilibrium of the typical load, nothing is run. Each loaded roller is a massless
 spring with the damping of its contacts, and a gap that changes by the same amount at each of them, one

@@ -13,7 +13,7 @@ from beardyn_core.scene.scene import QUANTITIES, Scene
 
 # Third-octave bands within 1.5 dB, whatever the accuracy of the rest.
 VIBRATION_TOLERANCE_DB = 1.5
-# What another law of friction at raceways or ribs does to the bands beside the resonance of the axlebox, at
+# What another law of friction at raceways or ribs does to the bands next to the resonance of the axlebox, at
 # most: from runs with one law after the other, everything else alike, at 68 kN.
 FRICTION_DB = 2.1
 _SMALLEST_PERCENT = 0.01

@@ -22,7 +22,7 @@ def rate_for(scene: Scene, free: Free) -> RateChoice | None:
     """Find the slowest rate that holds the third octaves which a scene asks for; `None` to leave the sensors.
 
     They keep their rates where one is written down, where ``vibration_to_Hz`` is not, and where no vibration
-    is asked for: a monitor, and whoever looks at the waveforms, takes what they hear.
+    is asked for: a monitor, and whoever looks at the waveforms, takes what they measure.
     """
     asked = scene.vibration_to
     if not (free.rates and free.anything) or asked is None or "vibration" not in scene.quantities:

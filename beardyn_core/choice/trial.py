@@ -184,7 +184,7 @@ def read_trial_scene(trial: Trial, cell: Cell) -> OpenScene:
     elif trial.effects is not None:
         data["effects"] = _in_the_same_box(trial.effects, data.get("effects"))
     found = read_scene_mapping(data, f"scene {trial.scene} as {cell.key}", path.parent)
-    return replace(found, free=replace(found.free, rates=False))  # the monitor hears all that sensors do
+    return replace(found, free=replace(found.free, rates=False))  # the monitor reads all that sensors measure
 
 
 def _in_the_same_box(effects: str | dict[str, Any], given: Any) -> str | dict[str, Any]:

@@ -29,7 +29,7 @@ monitor_settings options that settle what the monitor assumes
 monitored_files  the files of a command through a monitor
 estimate         load, end play and spall of a recording, what remains
 fleet            recordings of many axleboxes in a store: add, status, report, acknowledge, exchanged
-follow           the same over successive stretches and recordings, health, residual beside a twin
+follow           the same over successive stretches and recordings, health, measured minus twin
 calibrate        the scene of one measured axlebox, fitted to its healthy recordings
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing

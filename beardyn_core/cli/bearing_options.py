@@ -82,7 +82,7 @@ def _play_problems(noun: type, field: str, play: float) -> list[str]:
 
     at = next(place.at for place in places(noun) if place.field == field)
     written, least, most = at.scale.to_edge(play), at.limits["ge"], at.limits["le"]
-    if math.isnan(written) or least <= written <= most:  # what is no number has been told
+    if math.isnan(written) or least <= written <= most:  # what is no number has been reported
         return []
     option = f"--{field.replace('_', '-')}"
     return [f"{option} is {written:g} mm; it must be from {least:g} to {most:g}, as in a bearing file"]

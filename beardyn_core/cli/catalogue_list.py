@@ -15,7 +15,7 @@ from beardyn_core.cli.which_bearing import add_sizes, chosen_entries, size_optio
 if TYPE_CHECKING:
     from beardyn_core.bearing.catalogue_entry import CatalogueEntry
 
-CATALOGUE, FORMER = "catalogue", "plates"  # a name of before
+CATALOGUE, FORMER = "catalogue", "plates"  # an older name
 
 
 def add_catalogue_options(parser: argparse.ArgumentParser) -> None:

@@ -37,7 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 
 def add_hearing(parser: argparse.ArgumentParser) -> None:
-    """Declare what is heard, and by which estimator."""
+    """Declare what is read, and by which estimator."""
     add_parameter(parser, estimating.estimate, "estimator", metavar="FILE.npz")
     add_parameter(parser, estimating.estimate, "bearing", metavar="NAME")
     add_parameter(parser, estimating.estimate, "sensor", metavar="NAME")
@@ -108,7 +108,7 @@ def assumptions_of(
 
 
 def add_service(parser: argparse.ArgumentParser, about: str, mileage: str) -> None:
-    """Declare what a forecast must be told; `about` it and its `mileage` in words."""
+    """Declare what a forecast needs to know; `about` it and its `mileage` in words."""
     group = parser.add_argument_group("forecast", about)
     group.add_argument("--mileage-km", metavar="KM", type=float, help=mileage)
     for place in places(Service)[1:]:

@@ -89,7 +89,7 @@ def _lacking(recording: Run, signals: list[str], output: str) -> str:
 
     ending = Path(output).suffix.lower()
     if ending not in (*(f".{kind}" for kind in KINDS), ".hdf5"):
-        return ""  # it is told with every name that is not known
+        return ""  # it is reported with every name that is not known
     known = tables.signal_names(recording)
 
     def is_there(name: str) -> bool:

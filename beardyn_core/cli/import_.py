@@ -31,7 +31,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add_json(parser)
     add_plates(parser, "default none; they are kept in the recording")
     add_reading(parser)
-    # of the monitor: who asks for it here is told where it is
+    # of the monitor: who asks for it here is directed there
     parser.add_argument("--which-bearing", action="store_true", help=argparse.SUPPRESS)
     parser.set_defaults(run=run)
 
@@ -87,7 +87,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def sensor_problems(sensors: tuple[str, ...], bearings: Any) -> list[str]:
-    """Find bearings that are heard by a sensor that is not there."""
+    """Find bearings that are assigned to a sensor that is not there."""
     return [
         f"--bearing {each.label}: there is no sensor {each.sensor!r}; there is {', '.join(sensors)}"
         for each in bearings

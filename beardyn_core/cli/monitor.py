@@ -187,7 +187,7 @@ def _smallest_spalls(
 
 
 def _known_load(text: str) -> None:
-    """Read the load that is known, so that a mistake in it is told before anything is analysed."""
+    """Read the load that is known, so that a mistake in it is reported before anything is analysed."""
     from beardyn_core.follow.known_load import read_load
 
     if text:
@@ -195,7 +195,7 @@ def _known_load(text: str) -> None:
 
 
 def _known_twin(name: str) -> None:
-    """Read the scene of the twin, so that a mistake in it is told before anything is analysed."""
+    """Read the scene of the twin, so that a mistake in it is reported before anything is analysed."""
     from beardyn_core.api.making import scene
 
     if name:

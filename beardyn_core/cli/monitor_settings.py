@@ -11,7 +11,7 @@ from beardyn_core.base.units import ZERO_CELSIUS
 if TYPE_CHECKING:
     from beardyn_core.monitor.chain import MonitorSettings
 
-# of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be told apart
+# of a stated speed, [-]: what is less was not meant in per cent, beyond parts cannot be distinguished
 _LEAST_UNCERTAINTY, _MOST_UNCERTAINTY = 0.001, 0.1
 _LIMITS = {"warm": 90.0, "hot": 120.0}  # those of `MonitorSettings`, [degrees Celsius]
 _COLDEST_LIMIT, _HOTTEST_LIMIT = 0.0, 300.0  # [degrees Celsius]

@@ -186,7 +186,7 @@ def copied_text(kind: str, source: Path, target: Path) -> str:
 
 
 def referred_files(source: Path) -> list[Path]:
-    """List the files beside a scene that it refers to by their relative path."""
+    """List the files next to a scene that it refers to by their relative path."""
     from beardyn_core.config.yaml_text import read_file
 
     def texts(value: Any) -> list[str]:

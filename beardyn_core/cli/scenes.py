@@ -95,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
 def entries(kind: str) -> list[dict[str, Any]]:
     """Describe the shipped things of one of `KINDS`, in SI units.
 
-    Each has ``name``, ``purpose`` and ``file``, and what tells one of the kind from another; a file with
+    Each has ``name``, ``purpose`` and ``file``, and what distinguishes them; a file with
     mistakes has the first of them as its purpose, and no more.
     """
     from beardyn_core.config import shipped_names
@@ -302,7 +302,7 @@ def _text(kind: str, found: list[dict[str, Any]]) -> str:
 
 
 def _rows(kind: str, found: list[dict[str, Any]]) -> list[str]:
-    """Align names and figures in columns, and wrap the purpose beside them."""
+    """Align names and figures in columns, and wrap the purpose next to them."""
     cells = [[entry["name"], *(_FIGURES[kind](entry) if len(entry) > 3 else [])] for entry in found]
     count = max(map(len, cells), default=0)
     cells = [[*row, *[""] * (count - len(row))] for row in cells]

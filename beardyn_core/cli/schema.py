@@ -23,7 +23,7 @@ KINDS = (
     "bearing_data",
 )
 MANIFEST = "fleet_manifest"  # of recordings, no configuration
-_FORMER = {"plate": "bearing_data"}  # a name of before
+_FORMER = {"plate": "bearing_data"}  # an older name
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
 
     cluster = cluster_of(args.workers, args.scheduler, tls_of(args), args.memory)
     changes = {"runs": args.runs, "seed": args.seed, "hours": args.hours}
-    if problems := option_problems(args, cluster):  # told before effects are chosen, which takes long
+    if problems := option_problems(args, cluster):  # reported before effects are chosen, which takes long
         raise InputError([*_mistakes_of(args.sweep, changes), *problems])
     plan = make_plan(args.sweep, _say, **changes)
     bar = _Bar(plan.sweep.run_count) if sys.stderr.isatty() else Lines()

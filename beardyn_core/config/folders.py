@@ -24,7 +24,7 @@ KINDS = (
 _SUFFIXES = (".yaml", ".yml")
 _CALLED = {"effects": "effects preset", "plates": "bearing data"}  # one of a kind, in messages
 _AUTO = "auto"  # in place of a set of effects
-_FORMER = {("effects", "full"): "all"}  # names of before, in scenes and recordings that are kept
+_FORMER = {("effects", "full"): "all"}  # older names, in scenes and recordings that are kept
 
 
 def shipped_names(kind: str) -> tuple[str, ...]:

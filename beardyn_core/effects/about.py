@@ -11,7 +11,7 @@ from beardyn_core.base.edge import At
 # where friction is regularised by u / sqrt(u^2 + u_r^2)
 SlipSpeed = A[float, At("m_per_s", gt=0.0), "slip speed at which 71 % of the friction is reached"]
 
-# Half of what a contact loses warms each of its partners; the raceways are not told apart.
+# Half of what a contact loses warms each of its partners; the raceways are not distinguished.
 RACEWAY_HEAT = {"rollers": 0.5, "cup": 0.25, "cone": 0.25}
 RIB_HEAT = {"rollers": 0.5, "cone": 0.5}
 POCKET_HEAT = {"rollers": 0.5, "cages": 0.5}

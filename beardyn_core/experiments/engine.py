@@ -239,7 +239,7 @@ class Engine:
             )
 
     def _quiet(self) -> None:
-        """Keep what Dask logs about comers and goers from the user, who is told in a sentence."""
+        """Keep what Dask logs about comers and goers from the user, who gets a sentence."""
         library("distributed", "many runs at once", "sweep")  # it sets its levels when it is imported
         names = ("distributed", "distributed.client", "distributed.core", "distributed.comm")
         for name in (*names, "tornado", "tornado.application"):

@@ -58,9 +58,9 @@ def add_recordings(
         Processes of this machine that analyse, one: this process; or a Dask cluster, whose workers read the
         files by the same paths. This process alone writes the store.
     progress : callable, optional
-        Told of how many are done, and of how many there are.
+        Called with how many are done, and how many there are.
     say : callable, optional
-        Told of workers and schedulers that come and go.
+        Called when workers and schedulers come and go.
 
     Raises
     ------

@@ -19,7 +19,7 @@ from beardyn_core.follow.growth import ASSUMED_LAW, GrowthLaw, PowerLaw, other_l
 _FEWEST = 3  # widths
 _MOST = 120  # widths that are taken, spread over all
 _NORMAL_95 = 1.96
-_SCATTER = 0.08  # of a width beside its interval, relative: the spall is not a rectangle; assumed
+_SCATTER = 0.08  # of a width in addition to its interval, relative: the spall is not a rectangle; assumed
 _LEAST_LIKELY = 0.05  # of the law that explains the widths best: one that is less likely does not agree
 _DAYS = 86_400.0  # [s]
 _CENTURY = 100.0 * 365.0 * _DAYS  # a date beyond it says nothing, [s]

@@ -2,7 +2,7 @@
 
 SQLite is in Python itself, keeps one file, and in its WAL mode a process that is killed loses nothing that
 was committed. Levels and evidence are blobs of a few kilobytes, which belong to one recording each and are
-read by it: a second file format beside it would have to be kept in step with it.
+read by it: a second file format next to it would have to be kept in step with it.
 """
 
 from __future__ import annotations

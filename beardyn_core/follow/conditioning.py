@@ -54,7 +54,7 @@ def condition_estimates(
     """Give the estimates of a run whose vertical load is known.
 
     The vertical load is the known one, combined with the estimate of the vibration where there is one. Other
-    numbers stay as they are: their estimates are learnt each for itself, so that the load tells nothing of
+    numbers stay as they are: their estimates are learnt each for itself, so that the load reveals nothing of
     them.
 
     Raises

@@ -1,4 +1,4 @@
-"""Descriptors: what an estimator hears of a stretch of vibration; all can be had of a measured axlebox."""
+"""Descriptors: what an estimator reads of a stretch of vibration; all can be had of a measured axlebox."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ AXES = ("x", "y", "z")
 RACEWAYS = ("cup", "cone")
 THIRDS = tuple(1000.0 * 2.0 ** (k / 3.0) for k in range(-16, 11))  # middles of third octaves, 25 Hz to 10 kHz
 FINE = tuple(300.0 * 2.0 ** (k / 12.0) for k in range(40))  # where the box rings on its bearing
-LEVEL_FLOOR = 1e-6  # below which no level is told apart from silence, [m/s^2]
+LEVEL_FLOOR = 1e-6  # below which no level is distinguished from silence, [m/s^2]
 _PASSINGS = (1, 2, 3)  # multiples of the rollers' passing
 _TURNS = (1, 2)  # multiples of the shaft
 _BESIDE = 0.35  # of an order: how far the lines lie that a line is compared with
@@ -151,7 +151,7 @@ def bands_of(middles: tuple[float, ...], share: int, rate: float, samples: int) 
 
 
 def _lines(stretch: Stretch, orders: FaultFrequencies, axes: tuple[str, ...]) -> dict[str, float]:
-    """Measure lines of the rollers' passing and of the shaft: level, and lead over what lies beside, [dB]."""
+    """Measure lines of the rollers' passing and of the shaft: level and lead over their neighbours, [dB]."""
     wanted = {f"passing_{k}": k * orders.bpfo for k in _PASSINGS} | {f"turn_{k}": float(k) for k in _TURNS}
     centred = stretch.acceleration - stretch.acceleration.mean(axis=0)
     weighted = centred * np.hanning(len(centred))[:, None] * 2.0

@@ -1,4 +1,4 @@
-"""What is told of estimates in JSON: the same keys in commands and on topics, explained in docs/json.md."""
+"""What is stated of estimates in JSON: the same keys in commands and on topics, explained in docs/json.md."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def step_object(step: Followed) -> dict[str, Any]:
 
 
 def residual_object(residual: Residual) -> dict[str, Any]:
-    """Give what JSON has of heard and twin."""
+    """Give what JSON has of measured levels and twin."""
     return {
         **keyed_fields(residual, middles="frequency_Hz"),
         "explained": residual.explained,

@@ -29,7 +29,7 @@ _FEWEST = 8  # passages
 def order_of_events(
     stretch: Stretch, part: str, order: float, plate: NamePlate, axes: tuple[str, ...]
 ) -> dict[str, float]:
-    """Work out what tells the entry of a spall from its exit, of the two loudest events of a passage.
+    """Work out what distinguishes the entry of a spall from its exit, of the two loudest events of a passage.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.optional import library
 
 HELD = 0.95  # share of runs of the kind learnt from that count as familiar
-_DIRECTIONS = 20  # along which runs differ most, where not all can be told
+_DIRECTIONS = 20  # along which runs differ most, where not all can be reported
 _ALL_OF = 150  # columns of which all directions are kept
 _LEAST_SIZE = 1e-6  # of a direction
 

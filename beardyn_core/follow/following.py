@@ -42,7 +42,7 @@ _LEAST_SHARED = 0.5  # of the error: stretches of one run have load, speed and t
 _LEAST_OWN = 0.5  # of the error's variance, that is every stretch's own
 _JUMP, _JUMP_STRETCHES = 3.0, 2  # standard deviations, and stretches in a row on one side: a step
 _KEPT = 0.8  # of the surprise so far, at each stretch
-_SURPRISING = 4.0  # mean square miss from which what is heard does not fit what was known
+_SURPRISING = 4.0  # mean square miss from which what is measured does not fit what was known
 _FEWEST = 2  # stretches before anything is said
 _FAR = 2.0  # strangeness of one stretch that counts at once
 _LATE = 5  # stretches whose middle strangeness says whether the box is another one: one in twenty is strange
@@ -87,7 +87,7 @@ class Follower:
 
     Notes
     -----
-    Each stretch is an observation of every number that the estimator tells, as wide as its interval. Part of
+    Each stretch is an observation of every number that the estimator has, as wide as its interval. Part of
     its error stays with bearing and box, and part with the run: they are numbers of their own in the filter,
     which no repetition takes away, so that the intervals do not shrink to nothing. Another recording has
     another part of the run (`begin`), and the same one of bearing and box. Loads, end play
@@ -385,7 +385,7 @@ class Follower:
         return tuple(found)
 
     def _health(self, known: Estimates, remains: Forecast | None, doubts: tuple[str, ...]) -> str:
-        """Say the most urgent thing that holds: a doubt, told beside it, takes no warning back."""
+        """Say the most urgent thing that holds: a doubt, reported next to it, takes no warning back."""
         if self.stretches < _FEWEST:
             return WAITING
         if remains is not None and isfinite(remains.remaining[0]):

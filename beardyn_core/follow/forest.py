@@ -19,7 +19,7 @@ class Forest:
     """The mean of trees, each a chain of questions whether a descriptor is below a threshold.
 
     Trees find what a few descriptors say together, such as which harmonics of the envelope a width leaves
-    out, among hundreds that say nothing. How far they differ tells where the number errs more and where less.
+    out, among hundreds that say nothing. How far they differ shows where the number errs more and where less.
 
     References
     ----------

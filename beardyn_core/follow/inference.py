@@ -29,7 +29,7 @@ _LEAST_LENGTH = 0.95  # of a stretch
 
 
 class Ear(Protocol):
-    """What is heard at once: an estimator is one."""
+    """What is read at once: an estimator is one."""
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -64,7 +64,7 @@ def alike(one: RollerBearing | NamePlate, other: RollerBearing | NamePlate) -> b
 
 
 def sizes_text(bearing: RollerBearing | NamePlate) -> str:
-    """Write the sizes by which bearings are told apart."""
+    """Write the sizes by which bearings are distinguished."""
     if isinstance(bearing, NamePlate) and not bearing.has_dimensions:
         return "maker's factors without diameters"
     pitch, roller = 1e3 * bearing.pitch_diameter, 1e3 * bearing.roller_diameter
@@ -95,7 +95,7 @@ def estimates_of(
 
 
 def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch]:
-    """Cut a run into stretches of the length and sampling rate that an estimator hears.
+    """Cut a run into stretches of the length and sampling rate that an estimator reads.
 
     Where samples are lost, or are NaN, a new stretch begins.
     """

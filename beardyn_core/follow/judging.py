@@ -37,7 +37,7 @@ def is_held(score: Score) -> bool:
 
 
 class Guessed(NamedTuple):
-    """A number of runs that were not learnt from beside its truth, on the scale on which it is learnt."""
+    """A number of runs that were not learnt from next to its truth, on the scale on which it is learnt."""
 
     guess: Guess
     truth: Float  # shape [run]
@@ -150,7 +150,7 @@ def score_of(quantity: Quantity, found: Guessed) -> Score:
 
 
 class PartJudged(NamedTuple):
-    """Conditions of runs that were not learnt from, beside what an estimator says of them."""
+    """Conditions of runs that were not learnt from, next to what an estimator says of them."""
 
     right: NDArray[np.bool_]  # shape [run], whether the truth is the one that is named
     held: NDArray[np.bool_]  # shape [run, level], whether it is in the set

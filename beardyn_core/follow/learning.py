@@ -119,7 +119,7 @@ def calibrate_intervals(estimator: Estimator, runs: Described, *, straightened: 
 
     With `straightened` those runs are of a truer tier, and they have more to say. Each number is put on the
     line that fits them, which takes out what a tier that learns has too much or too little of, or learnt from
-    them alone, or is the mean of both, as errs least on bearings left out; one that none explains is not told
+    them alone, or is the mean of both, as errs least on bearings left out; one that none explains is left out
     any more.
     """
     standard = estimator.standardise(runs.descriptors)
@@ -135,7 +135,7 @@ def calibrate_intervals(estimator: Estimator, runs: Described, *, straightened: 
             continue
         learnt = estimator.regressions.get(quantity.name)
         values, inside = _judging(quantity, runs, estimator, standard)
-        if not inside.any():  # nothing judges it, so nothing is told
+        if not inside.any():  # nothing judges it, so nothing is reported
             continue
         best = None
         # a way of events is the same in every tier

@@ -17,7 +17,7 @@ _AGAIN = 8  # stretches after which a strange signal is searched anew
 
 
 class MountingWatch:
-    """Tells when a search of the mounting is due, and keeps what it has found.
+    """Decides when a search of the mounting is due, and keeps what it has found.
 
     Parameters
     ----------

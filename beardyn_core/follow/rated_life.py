@@ -114,7 +114,7 @@ class LifeCounter:
 
     def begin(self, mileage: float) -> None:
         """Begin a recording at a mileage, [m]."""
-        if len(self._lives) < len(self._begun):  # the one before has told nothing
+        if len(self._lives) < len(self._begun):  # the one before has reported nothing
             self._begun.pop()
             self._reached.pop()
         self._begun.append(mileage)

@@ -10,7 +10,7 @@ from scipy.spatial.distance import cdist
 
 from beardyn_core.base.arrays import Float
 
-LEAST_DOUBT = 0.2  # of the usual one: no run is told more surely
+LEAST_DOUBT = 0.2  # of the usual one: no run is reported more surely
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What a twin at the state that is known does not have of what is heard, band by band."""
+"""What a twin at the state that is known does not have of what is measured, band by band."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TOGETHER = 3  # bands side by side before it is said
 
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """Levels of what is heard beside those of a twin, in third octaves."""
+    """Levels of what is measured next to those of a twin, in third octaves."""
 
     axes: A[tuple[str, ...], "of the accelerometer"]
     middles: A[Float, "shape [band], [Hz]"]
@@ -28,7 +28,7 @@ class Residual:
 
     @property
     def difference(self) -> Float:
-        """Heard less twin, shape [axis, band], [dB]."""
+        """Measured minus twin, shape [axis, band], [dB]."""
         return self.measured - self.twin
 
     @property
@@ -59,7 +59,7 @@ class Residual:
 
 
 def residual_of(estimator: Estimator, heard: Float, twin: Float) -> Residual:
-    """Compare the middle of stretches heard, shape [stretch, descriptor], with those of a twin."""
+    """Compare the middle of measured stretches, shape [stretch, descriptor], with those of a twin."""
     names = names_of(estimator.axes)
     places = [[names.index(f"band_{axis}_{middle:.0f}") for middle in THIRDS] for axis in estimator.axes]
     return Residual(

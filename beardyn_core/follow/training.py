@@ -39,7 +39,7 @@ def train(
     ----------
     runs : LabelledSet
     calibration : sequence of LabelledSet
-        Sets by which the widths of the intervals are set, such as one in a truer tier, beside the validation
+        Sets by which the widths of the intervals are set, such as one in a truer tier, next to the validation
         part of `runs` and its test part where that does not judge: the wider ones count.
     test : LabelledSet, optional
         All of it judges the estimator; by default `calibration` crosswise, or the test part of `runs`.

@@ -15,7 +15,7 @@ from beardyn_core.monitor.severity import spacing_of
 RACEWAYS = ("cup", "cone")
 LEAST_SHARE = 0.82  # of the half distance: the least width of a spall that counts as wide
 FEWEST = 10  # runs of either kind to learn the rule from
-LEAST_FOLDED = 1.2e-3  # that two events can be heard of, [m]
+LEAST_FOLDED = 1.2e-3  # at which two events can be resolved, [m]
 LEAST_OF_TWO = 2.8e-3  # width from which a spall makes two events, [m]
 _FAR_SHARE = 1.15  # of the half distance: wider spalls may not be taken for narrow ones
 NARROW, WIDE = 0.05, 0.9  # chances that decide at the most and at the least
@@ -47,7 +47,7 @@ class WideRule:
     wide: A[float, "chance above which a spall is wide"] = WIDE
 
     def half(self, standardised: Float) -> Float:
-        """Give the half distance of two rollers on the raceway that is heard louder, shape [run], [m]."""
+        """Give the half distance of two rollers on the raceway that is measured louder, shape [run], [m]."""
         return 0.5 * self._spacing(self._read(standardised)[2])
 
     def chance(self, standardised: Float, folded: Float, low: Float, high: Float) -> Float:

@@ -36,7 +36,7 @@ class StretchIntake:
 
     @property
     def doubt(self) -> str:
-        """Say why nothing has been heard though whole stretches have come; empty when something has."""
+        """Say why nothing has been read though whole stretches have come; empty when something has."""
         if self.heard or not self.unfit:
             return ""
         return (
@@ -54,7 +54,7 @@ class StretchIntake:
         Raises
         ------
         InputError
-            It is not sampled as the estimator hears, or an axis is not measured.
+            It is not sampled as the estimator needs, or an axis is not measured.
         """
         if len(time_ns) < 2:
             return
@@ -90,7 +90,7 @@ class StretchIntake:
             return None
         times, heard = np.concatenate(self._times), np.concatenate(self._heard)
         turn_times, turns = np.concatenate(self._turn_times), np.concatenate(self._turns)
-        unknown = int(np.searchsorted(times, turn_times[0]))  # before the shaft was heard
+        unknown = int(np.searchsorted(times, turn_times[0]))  # before the shaft was received
         times, heard = times[unknown:], heard[unknown:]
         self._keep(times, heard)
         if len(times) < length or turn_times[-1] < times[length - 1]:

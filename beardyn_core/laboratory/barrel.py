@@ -207,7 +207,7 @@ class _Row:
 
 
 def solve_barrel(bearing: BarrelBearing, force: float) -> BarrelLoads:
-    """Balance the inner ring under a radial load [N], and give the closed form beside it.
+    """Balance the inner ring under a radial load [N], and give the closed form next to it.
 
     References
     ----------

@@ -82,7 +82,7 @@ class Findings:
 
 
 def locate(bearing: Bearing, pose: RollerPose) -> tuple[LocatedContact, ...]:
-    """Search all contacts of a roller, with the closed forms beside them."""
+    """Search all contacts of a roller, with the closed forms next to them."""
     compiled = ClosedForms(bearing).gaps([pose])[0]
     found = []
     for contact, by_kernel in zip(contacts_of(bearing, pose), compiled, strict=True):
@@ -105,7 +105,7 @@ def find(bearing: Bearing, *, quick: bool = False, say: Callable[[str], None] = 
     quick : bool
         Fewer placements, shorter runs.
     say : function of a str
-        Told what comes next.
+        Called with what comes next.
     """
     begun = time.perf_counter()
     blocks, sweeps = (5, 5) if quick else (15, 20)

@@ -9,24 +9,24 @@ options       what a person says about the files: one declaration of every optio
 units         units of acceleration, speed and time as people write them
 claimed_rate  every sampling rate that files claim, and the one function that decides
 moments       dates with times of other countries and zones
-claimed_start when tables begin, as files say it beside their samples
+claimed_start when tables begin, as files say it next to their samples
 time_column   columns of time: by their name, and ramps
 source        what a file has: channels, their samples block by block, its own words
 formats       which format a file is of: the registry
 text_table    separator, decimal sign, header and units of a table in text
 csv_text      CSV and other tables in text
-arrays_inside channels of arrays with one or two axes, and numbers beside them
+arrays_inside channels of arrays with one or two axes, and numbers next to them
 matlab        MATLAB up to version 7
 hdf5          HDF5, and with it MATLAB 7.3
 npz           NumPy archives and arrays
-wav           WAV, and what else is sound
+wav           WAV and other audio files
 tdms          TDMS of LabVIEW
 universal     Universal files, data set 58
 mdf           MDF 3 and 4
 parquet       Parquet
 other_mcap    MCAP of other tools
 clock         sampling rate and gaps from time stamps
-choice        which channels are axes, speed and time; unit and rate: told, or refused
+choice        which channels are axes, speed and time; unit and rate: given, or refused
 choosing      a file while that is found out: a channel by its name, and what is to be said
 load_channel  a channel with the vertical load on the journal
 speed_choice  where the speed of the shaft comes from

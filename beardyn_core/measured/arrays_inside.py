@@ -1,4 +1,4 @@
-"""Channels of arrays with one or two axes, and the single numbers and words beside them."""
+"""Channels of arrays with one or two axes, and the single numbers and words next to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which channels of a file are axes, speed and time, in which unit and at which rate: told, or refused."""
+"""Which channels of a file are axes, speed and time, in which unit and at which rate: given, or refused."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def _ramps(
 def _take_ramps_as_time(
     work: Choosing, ramps: Mapping[str, bool], sensors: Sequence[Sensor], times: dict[str, Channel]
 ) -> None:
-    """Take the only ramp beside an accelerometer as its time, where none is named."""
+    """Take the only ramp next to an accelerometer as its time, where none is named."""
     chosen = {axis.channel.name for sensor in sensors for axis in sensor.axes.values()}
     for table in dict.fromkeys(sensor.table for sensor in sensors):
         beside = [
@@ -177,7 +177,7 @@ def _seconds(work: Choosing, channel: Channel) -> float:
 
 
 def time_unit_in(channel: Channel) -> str:
-    """Find the unit of time stamps in their name or beside it; '' where the file says none that is known."""
+    """Find the unit of time stamps in their name or next to it; '' where the file says none that is known."""
     if usual(channel.unit) in TIME:
         return usual(channel.unit)
     whole = usual(channel.name) if len(channel.name) > 2 else ""  # ``seconds``

@@ -113,7 +113,7 @@ def claims_on(
 ) -> tuple[Claim, ...]:
     """Give the claims on one channel, the nearest first.
 
-    What stands beside other channels, in a struct or group that this one is not in, belongs to them.
+    What stands next to other channels, in a struct or group that this one is not in, belongs to them.
 
     Parameters
     ----------
@@ -365,7 +365,7 @@ def _same_unit(one: str, other: str) -> bool:
 
 
 def _in_hertz(kind: str, unit: str, values: Iterable[float]) -> list[float]:
-    """Write rates or steps in hertz; a unit of the other kind tells what it is."""
+    """Write rates or steps in hertz; a unit of the other kind shows what it is."""
     rate = sampling_factor(unit) if unit else 1.0
     step = TIME.get(usual(unit), nan) if unit else 1.0
     values = [value for value in values if value > 0.0 and isfinite(value)]

@@ -1,4 +1,4 @@
-"""When tables begin, as files say it beside their samples: ``t0``, ``wf_start_time``, ``Start``."""
+"""When tables begin, as files say it next to their samples: ``t0``, ``wf_start_time``, ``Start``."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from beardyn_core.measured.options import Reading
 from beardyn_core.measured.source import Channel, Held
 from beardyn_core.record.other_messages import TIME, Topics, is_recording
 
-_LATENCY_NS = 500_000_000  # from a sample to its message in the log, beside the length of one
+_LATENCY_NS = 500_000_000  # from a sample to its message in the log, compared with the length of one
 
 
 class _Topics(Held):

@@ -1,4 +1,4 @@
-"""Which channels of a file are the axes of accelerometers, and in which unit: told, or guessed."""
+"""Which channels of a file are the axes of accelerometers, and in which unit: given, or guessed."""
 
 from __future__ import annotations
 

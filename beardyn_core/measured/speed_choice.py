@@ -68,7 +68,7 @@ def choose_speed(work: Choosing) -> Speed:
 
 
 def _constant(work: Choosing, speed: float) -> Speed:
-    """Take what was said, and warn of what the file has beside it."""
+    """Take what was said, and warn of what the file has next to it."""
     for name, value in speeds_in(work.source).items():
         if value is not None and abs(value * ROTATION["rpm"] - speed) <= _SAME_SPEED * speed:
             continue

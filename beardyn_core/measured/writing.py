@@ -48,7 +48,7 @@ def write_measured(
     force : bool
         Whether an existing file is replaced; one of those that are read never is.
     progress : callable, optional
-        Told up to which time [s] the recording goes.
+        Called with the time [s] up to which the recording goes.
 
     Raises
     ------

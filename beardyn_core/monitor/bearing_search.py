@@ -121,8 +121,8 @@ class BearingSearch:
     A comb is what the monitor calls one: lines beyond chance that strike. The surest pattern of all bearings
     names it. A bearing fits where one of its parts has the order of the comb within 1 % of slip and the
     uncertainty of the speed, and at least 0.9 of the evidence of the surest; sidebands count, so that a cone
-    with sidebands is told from a cup. Without the lines of that comb, other parts of the bearings that fit
-    are sought. Bearings with like orders explain a comb equally well, and nothing in the vibration tells
+    with sidebands differs from a cup. Without the lines of that comb, other parts of the bearings that fit
+    are sought. Bearings with like orders explain a comb equally well, and nothing in the vibration shows
     them apart.
     """
 

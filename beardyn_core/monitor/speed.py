@@ -117,7 +117,7 @@ def speed_from_vibration(
 
     The first pass takes windows, each warped by a constant acceleration of the shaft, and chains them by a
     random walk of the speed, forwards and backwards. The second weighs more orders, over the angle that the
-    first one gives. Its deviation is that of the probability, and 1.2 % beside: an order of the bearing
+    first one gives. Its deviation is that of the probability, and 1.2 % in addition: an order of the bearing
     that is nearly a whole one, 3.05 or 4.95, is taken for it and pulls the speed along.
 
     Last, every other speed of the range is weighed over that angle, without counting the lines that would be

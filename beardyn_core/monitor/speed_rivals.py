@@ -1,7 +1,7 @@
 """Whether the lines that gave a speed fit another speed of the range as well.
 
 A row of lines at c, 2 c, 3 c has no name: c can be an order of the shaft, or strikes on a ring at another
-speed. Only the lines beside that row can tell which.
+speed. Only the lines next to that row can tell which.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Rival(NamedTuple):
 
 
 class Alternatives(NamedTuple):
-    """What else the lines say beside the speed that was found."""
+    """What else the lines show next to the speed that was found."""
 
     rival: Rival | None  # the one that the speed found leads least
     reach: float  # of its neighbours that explain about as much, relative

@@ -81,7 +81,7 @@ class Trend:
     The baseline is the median of the first records, and of any later as many whose median is lower: a
     bearing that runs in becomes quieter, and one that wears does not. A level is too high when the median of
     the last few records lies over it by so many decibels and standard deviations, as the absolute deviation
-    of the baseline tells. Several levels must be too high together; the alarm then stays until none has been
+    of the baseline shows. Several levels must be too high together; the alarm then stays until none has been
     for long.
 
     References

@@ -124,7 +124,7 @@ _NO_PART = ("", "healthy", "waiting", "not_diagnosable", "unexplained")
 
 
 def _separations(conditions: Any, values: Float) -> dict[str, dict[str, Any]]:
-    """Find the feature that tells each condition from healthy runs best."""
+    """Find the feature that separates each condition from healthy runs best."""
     healthy = values[conditions == HEALTHY]
     found: dict[str, dict[str, Any]] = {}
     if not len(healthy):
@@ -137,7 +137,7 @@ def _separations(conditions: Any, values: Float) -> dict[str, dict[str, Any]]:
 
 
 def _area(one: Float, other: Float) -> float:
-    """Compute the area under the ROC curve of a number that tells one class from another, 0.5 to 1."""
+    """Compute the area under the ROC curve of a number that separates one class from another, 0.5 to 1."""
     from scipy.stats import rankdata
 
     ranks = rankdata(np.concatenate([one, other]))[: len(one)].sum()

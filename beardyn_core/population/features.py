@@ -96,7 +96,7 @@ def features_from(
     Parameters
     ----------
     inputs : iterable of MonitorInput
-        What a monitor hears of the run.
+        What a monitor reads of the run.
     values : array, shape [sample, axis]
         The acceleration, NaN on axes that were not measured, [m/s^2].
     rate : float

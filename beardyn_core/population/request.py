@@ -30,7 +30,7 @@ def make_plan(
     Parameters
     ----------
     say : callable, optional
-        Told what takes time, and what a learner would be misled by.
+        Called with what takes time, and what would mislead a learner.
     **changes
         Keys in place of those of the file.
 
@@ -57,7 +57,7 @@ def _of_the_rest(name: dict[str, Any] | str | Path) -> list[str]:
         try:
             path = find("sweeps", str(name))
             data, label, folder = read_file(path), str(path), path.parent
-        except InputError:  # there is no such file, and that has been told
+        except InputError:  # there is no such file, and that has been reported
             return []
     kept = dict(_EMPTY)
     for key in ("scene", "set", "seed", "signals"):

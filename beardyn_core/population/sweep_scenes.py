@@ -100,7 +100,7 @@ class SweepScenes:
 
     @property
     def identity(self) -> dict[str, Any]:
-        """Describe all that the runs depend on beside the code, as the folder of the set keeps it."""
+        """Describe all that the runs depend on besides the code, as the folder of the set keeps it."""
         sweep = write_noun(replace(self.sweep, folder=Path()))
         for key in ("purpose", "hours", "licence", "split"):
             sweep.pop(key, None)
@@ -126,7 +126,7 @@ def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: N
     label : str
         What its file is called in messages.
     say : callable, optional
-        Told what takes time.
+        Called with what takes time.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def scenes_of(sweep: Sweep, label: str, say: Callable[[str], None] = lambda _: N
 def mistakes_of(sweep: Sweep, label: str) -> list[str]:
     """List the mistakes of a sweep, also those in runs of a scene that itself has some.
 
-    Keys that are wrong by themselves are told, and left out of the scenes that the others are looked at in.
+    Keys that are wrong by themselves are reported, left out of the scenes that the others are looked at in.
     """
     try:
         scenes, opened = open_base(sweep, label)

@@ -64,9 +64,9 @@ def conduct(
     force : bool
         Start over in a folder that holds a set.
     report : callable
-        Told after every task.
+        Called after every task.
     say : callable
-        Told of workers and schedulers that come and go.
+        Called when workers and schedulers come and go.
 
     Raises
     ------

@@ -65,7 +65,7 @@ def events_of(scene: Scene) -> dict[str, Any]:
         ``load``: where load and speed come from, a sentence; ``irregularity``: kind, band and seed, of a
         run on a track; ``events``: one entry for each excitation with its ``kind``, its sizes in SI and
         its times [s] and distances [m], of at most `MOST_TIMES` passes, ``count`` says how many there are;
-        ``background``: the name of what sensors hear besides, where there is one.
+        ``background``: the name of what else sensors measure, where there is one.
     """
     found = _operation(scene)
     return found if scene.background is None else {**found, "background": scene.background.name}

@@ -34,7 +34,7 @@ block_source      the blocks of a simulation as a run
 tables            the signals of a run as columns, as xarray and as pandas
 exporting         signals of a run to Parquet, CSV, NPZ, HDF5 and WAV
 stamp_offset      offset of stamps over simulated time, where they are those of a train's clock
-published         what a twin says it has published, beside what is recorded
+published         what a twin says it has published, compared with what is recorded
 run_summary       the summary of a recorded run
 reporting         what a recording holds, in words and as JSON
 envelope_spectrum envelope order spectrum of a whole recording
@@ -43,8 +43,8 @@ view_title        title of a view, with faults in the other axleboxes
 meshes            triangle meshes of the bearing's parts from its recorded shape
 rerun_bearing     the bearing in 3-D: motion, loads, contact forces
 rerun_scale       scale of the colours, key of the arrows, round axes
-rerun_plots       curves beside it, and the envelope spectrum
-rerun_follower    what a follower says over time, heard beside twin
+rerun_plots       curves next to it, and the envelope spectrum
+rerun_follower    what a follower says over time, measured next to twin
 rerun_values      numbers of the monitor over time
 rerun_view        a whole recording with its blueprint; where it goes: a window, a page, a file
 rerun_live        a running twin, fed with messages

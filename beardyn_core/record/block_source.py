@@ -125,7 +125,7 @@ class BlockSource:
         )
 
     def results(self) -> arrays.Diagnostics:
-        """Give `Run.results`: none, for no monitor ran beside."""
+        """Give `Run.results`: none, for no monitor ran next to it."""
         return ()
 
     def plot_values(self) -> dict[str, arrays.Signal]:
@@ -133,7 +133,7 @@ class BlockSource:
         return {}
 
     def followed(self) -> arrays.Told:
-        """Give `Run.followed`: nothing, for no follower ran beside."""
+        """Give `Run.followed`: nothing, for no follower ran next to it."""
         return ()
 
     residuals = followed

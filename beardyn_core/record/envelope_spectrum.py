@@ -1,4 +1,4 @@
-"""Envelope order spectrum of a whole recording, for the picture beside the bearing."""
+"""Envelope order spectrum of a whole recording, for the picture next to the bearing."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _TABLES = ("parquet", "csv", "wav")
 KINDS = ("parquet", "csv", "npz", "h5", "wav")
 _LONGEST_RUN_S = 1e7  # times beyond count from an epoch: 12 digits would leave 10 ms of them
-_BESIDE = ("csv", "wav")  # they cannot carry the truth: it goes to a JSON file beside them
+_BESIDE = ("csv", "wav")  # they cannot carry the truth: it goes to a JSON file next to them
 
 
 def export(
@@ -48,7 +48,7 @@ def export(
     Returns
     -------
     list of Path
-        The files written. CSV and WAV have the truth in ``<path>.json`` beside them; the others carry it.
+        The files written. CSV and WAV have the truth in ``<path>.json`` next to them; the others carry it.
 
     Raises
     ------

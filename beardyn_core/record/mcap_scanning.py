@@ -167,7 +167,7 @@ class EmptyRecordingError(InputError):
 
 
 def recovered_name(path: Path | str) -> Path:
-    """Name the file that a cut-off one is recovered into, ``<name>.recovered.mcap`` beside it."""
+    """Name the file that a cut-off one is recovered into, ``<name>.recovered.mcap`` next to it."""
     return Path(path).with_suffix(".recovered.mcap")
 
 

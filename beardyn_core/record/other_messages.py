@@ -23,7 +23,7 @@ from beardyn_core.record.mcap_scanning import MAGIC, McapScan
 from beardyn_core.record.topics import namespace_of, relative_name, topic
 
 TIME = "time"
-_STAMP, _NOTES, _LISTS = "header.stamp", "__notes__", "__lists__"  # beside the members of a message
+_STAMP, _NOTES, _LISTS = "header.stamp", "__notes__", "__lists__"  # next to the members of a message
 _CHANNEL_WORDS = ("chan", "axis", "axes", "component", "column", "col", "sensor")
 _SAMPLE_WORDS = ("sample", "time", "row", "point", "frame", "length")
 _BLOCK = 65_536
@@ -275,7 +275,7 @@ class _Layout:
 
 
 def _layout(members: dict[str, Any]) -> _Layout | None:
-    """Find the layout that a message has beside its data: of a ``MultiArray``, or a ``shape``."""
+    """Find the layout that a message has next to its data: of a ``MultiArray``, or a ``shape``."""
     layout = members.get("layout")
     inside = vars(layout) if is_dataclass(layout) else layout
     if isinstance(inside, dict) and inside.get("dim"):

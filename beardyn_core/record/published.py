@@ -1,4 +1,4 @@
-"""What a twin says it has published, beside what has been recorded of it."""
+"""What a twin says it has published, compared with what has been recorded of it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from beardyn_core.record.topics import NAMESPACE, relative_name
 
 PREFIX = "messages "
 LONGEST_COUNT = 15  # digits
-# Others speak there too: which run a message belongs to is not to be told.
+# Others speak there too: which run a message belongs to is not known.
 _NOT_COUNTED = ("/diagnostics", "/clock", "source_time")
 BLOCKS = ("force_waveform", "vibration", "bodies", "contacts")
 _BLOCK_NS, _TEMPERATURE_NS = 20_000_000, 200_000_000

@@ -170,7 +170,7 @@ def run_of_messages(
     """Gather a run of messages by the name of their topic, from a file or from a live graph.
 
     The messages are decoded when their array is first used. What else is known goes to `Run`. A name of one
-    axlebox of several tells which diagnostics are its own.
+    axlebox of several selects the diagnostics that are its own.
     """
     sensors = tuple((facts.get("measured") or {}).get("sensors", ()))
     return Run(MessageSource(cdrs, description, sensors, box), description, box=box, **facts)

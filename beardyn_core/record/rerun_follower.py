@@ -1,4 +1,4 @@
-"""What a follower says of a bearing, beside it: estimates with intervals over time, heard beside twin."""
+"""Reports of a follower next to the bearing: estimates over time with intervals, measured next to twin."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def log_estimates(stream: rr.RecordingStream, steps: Told) -> None:
 
 
 def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
-    """Draw third octaves heard beside those of the twin and its tolerance, an axis below the other."""
+    """Draw measured third octaves next to those of the twin and its tolerance, an axis below the other."""
     middles = np.array(told["frequency_Hz"], float)
     heard, twin, tolerance = (
         np.array(told[f"{name}_dB"], float) for name in ("measured", "twin", "tolerance")
@@ -136,7 +136,7 @@ def _shown_quantity(key: str) -> tuple[str, float, float]:
 
 
 def _row(told: Mapping[str, Any]) -> list[float]:
-    """Give value and ends of the intervals, NaN where nothing is told."""
+    """Give value and ends of the intervals, NaN where nothing is reported."""
     ends = [told[f"interval_{level}"] or (None, None) for level in ("50", "90")]
     return [math.nan if each is None else float(each) for each in (told["value"], *ends[0], *ends[1])]
 

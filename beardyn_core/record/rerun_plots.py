@@ -1,4 +1,4 @@
-"""Curves beside the bearing: force, vibration, speeds, roller loads and the envelope spectrum."""
+"""Curves next to the bearing: force, vibration, speeds, roller loads and the envelope spectrum."""
 
 from __future__ import annotations
 

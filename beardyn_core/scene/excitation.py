@@ -220,7 +220,7 @@ class DippedJoint:
 
     @property
     def depth(self) -> float:
-        """Depth of the kink below the sound rail, [m]."""
+        """Depth of the kink below the intact rail, [m]."""
         return 0.125 * self.angle * self.length
 
     def rules(self) -> Iterator[str]:

@@ -67,7 +67,7 @@ class Guidance:
 class Mounting:
     """Axlebox on its suspension, and the journal in it.
 
-    A load that acts beside the bearing centre also turns the journal with the moment offset x force; a
+    A load that acts off the bearing centre also turns the journal with the moment offset x force; a
     journal that is locked holds all but its first value. A single row thrusts the journal out along y.
     """
 

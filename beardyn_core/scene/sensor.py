@@ -17,7 +17,7 @@ RATES = (25_600.0, 51_200.0)  # the usual one, and the one that needs a fine ste
 SLOW_RATES = (3_200.0, 6_400.0, 12_800.0)
 ALL_RATES = (*SLOW_RATES, *RATES)
 FINE_STEPS = 8  # fewest time steps per sample of 25.6 kHz that resolve the band of the faster rate
-PASSBAND = 0.4  # of its rate a sensor hears all alike: what the anti-alias filter leaves as it is
+PASSBAND = 0.4  # of its rate a sensor measures all alike: what the anti-alias filter leaves as it is
 AXES = ("x", "y", "z")
 FARTHEST = 1.0  # that an axlebox reaches from the bearing [m]
 

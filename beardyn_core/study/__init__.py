@@ -5,7 +5,7 @@ module              responsibility
 =================== =============================================================================
 desk_run            a scene from start to end, with its means
 train_run           several axleboxes at once, in a few threads
-monitored_recording a monitor beside a recording, or over one; its results in words and messages
+monitored_recording a monitor next to a recording, or over one; its results in words and messages
 inspection          a bearing as a monitor has judged it, with the signals behind
 report_page         a page about each inspected bearing, as HTML and PDF
 monitor_picture     the envelope spectrum behind the verdicts of a monitor
@@ -18,7 +18,7 @@ measured_severity   how wide the spall is that a monitor found in a run
 smallest_spall      the smallest spall that a monitor would have found in a healthy record
 fitting_bearing     bearings of the catalogue that fit a run or measured files
 compiling           kernels compiled once on a machine, whatever processes want them
-trial               its runs with a monitor beside each, kept and taken up again
+trial               its runs with a monitor next to each, kept and taken up again
 trial_result        rates with intervals, smallest sizes
 trial_report        a trial as table and JSON
 trial_picture       a trial in one picture

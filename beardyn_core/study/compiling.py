@@ -37,7 +37,7 @@ def warm_once(scene: Scene, kind: Hashable = None) -> None:
 
     Notes
     -----
-    A file beside the kernels says which kinds are there: a process that only reads them waits for nobody who
+    A file next to the kernels says which kinds are there: a process that only reads them waits for nobody who
     compiles others.
     """
     if kind is None:

@@ -148,7 +148,7 @@ def compile_levels(
 ) -> None:
     """Compile the kernels of all levels, or load them from the cache, before anything is timed.
 
-    Before every level ``progress`` is told which one is next, and that one more (0 at first) is ready.
+    Before every level ``progress`` gets the one that is next, and that one more (0 at first) is ready.
     """
     ready = set()
     for number, level in enumerate((levels.reference, *levels.levels)):
@@ -208,7 +208,7 @@ def climb(
     asked : tuple of str
         Quantities it is asked of.
     progress : callable, optional
-        Told which level is next, and the wall time that was expected of the run before, 0 at first, [s].
+        Called with the next level, and the wall time that was expected of the run before, 0 at first, [s].
     runner : callable, optional
         Runs one scene in this process; when left out, `simulate` does in a process of the engine.
     reference_runs : int

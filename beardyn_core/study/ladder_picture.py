@@ -39,7 +39,7 @@ class _Point:
 def ladder_picture(ladder: Ladder, path: Path) -> None:
     """Draw the worst of the asked errors, in units of its limit, against wall time, to a PNG.
 
-    Beside it each quantity alone, in its own unit.
+    Next to it each quantity alone, in its own unit.
     """
     ladder_figure(ladder).savefig(path, dpi=DPI, format="png")
 
@@ -158,7 +158,7 @@ def _dress(axes: Axes, ladder: Ladder, points: list[_Point], colours: dict[str, 
 
 
 def _name(axes: Axes, efficient: list[_Point], ladder: Ladder) -> None:
-    """Write the names of the efficient levels beside them, the higher ones first, none over another."""
+    """Write the names of the efficient levels next to them, the higher ones first, none over another."""
     to_axes = axes.transData + axes.transAxes.inverted()
     free = 1.0
     for point in sorted(efficient, key=lambda point: -point.value):

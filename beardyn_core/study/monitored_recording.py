@@ -1,4 +1,4 @@
-"""Results of a monitor, and the monitor beside a recording that is being made or over a finished one."""
+"""Results of a monitor, and the monitor next to a recording that is being made or over a finished one."""
 
 from __future__ import annotations
 
@@ -282,7 +282,7 @@ class MonitoredRecording(McapSink):
     bearing : RollerBearing
         What the bearing data say; the monitor gets nothing else of the scene.
     on_finding : callable, optional
-        Told of every result.
+        Called with every result.
     replace : bool
         Whether an existing file is replaced.
     """
@@ -333,7 +333,7 @@ def results_of(
     settings: MonitorSettings | None = None,
     sensor: str = "",
 ) -> Iterator[MonitorResult]:
-    """Let a monitor, ours or another, analyse a finished run, as it would have done beside it.
+    """Let a monitor, ours or another, analyse a finished run, as it would have done next to it.
 
     The bearing is what the bearing data say; the sensor is the first one by default. By default the speed is
     as uncertain as a measured run says.

@@ -60,12 +60,12 @@ def summary_picture(data: SummaryData, path: Path) -> None:
 
 def _draw_forces(axes: Axes, data: SummaryData) -> None:
     for column, (name, colour) in enumerate(zip("xyz", _AXIS_COLOURS, strict=True)):
-        axes.plot(data.time, data.force[:, column] / 1e3, color=colour, lw=0.9, label=f"cup force {name}")
+        axes.plot(data.time, data.force[:, column] / 1e3, color=colour, lw=0.9, label=f"cup {name}")
     for column, (name, colour) in enumerate(zip("xyz", _AXIS_COLOURS, strict=True)):
-        label = f"journal load {name}"
+        label = f"journal {name}"
         axes.plot(data.time, data.load[:, column] / 1e3, color=colour, lw=0.9, ls=":", alpha=0.8, label=label)
     axes.set_ylabel("force [kN]")
-    axes.set_title("Bearing force: rollers on the cup", fontsize=11, loc="left")
+    axes.set_title("Force on the cup, load on the journal", fontsize=11, loc="left")
     axes.tick_params(labelbottom=False)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, ncols=6, frameon=False)
     axes.grid(alpha=0.3)

@@ -69,7 +69,7 @@ def run_digest(scene: Scene, trial: Trial, code: str) -> str:
 
 
 def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialRun:
-    """Simulate a run beside a monitor, ``module:function`` or '' for ours; the digest goes to its result."""
+    """Simulate a run next to a monitor, ``module:function`` or '' for ours; the digest goes to its result."""
     began = time.perf_counter()
     scene = trial_scene(trial, cell)
     settings, chosen = MonitorSettings(interval=trial.interval), algorithm_named(algorithm)
@@ -100,7 +100,7 @@ def conduct_run(trial: Trial, cell: Cell, algorithm: str, digest: str) -> TrialR
 
 
 def results_over(scene: Scene, monitor: Monitor) -> tuple[list[MonitorResult], str]:
-    """Simulate a scene with a monitor beside it: its results, and how the run ended."""
+    """Simulate a scene with a monitor next to it: its results, and how the run ended."""
     results: list[MonitorResult] = []
     try:
         results.extend(run_monitor(monitor, map(MonitorInput.of_block, blocks(scene))))
@@ -243,7 +243,7 @@ def conduct(plan: Plan[Cell, TrialRun], folder: Path | None, jobs: int, progress
     jobs : int
         Processes.
     progress : callable
-        Told of every run that ends.
+        Called with every run that ends.
     """
     if not plan.missing and not plan.fresh:
         return [plan.kept[key] for key in plan.items]

@@ -88,7 +88,7 @@ def draw(found: Following, path: Path) -> None:
             )
         axis.plot(time_s, [scale * each.estimates[name].value for each in found.steps], "o-", ms=3)
         axis.plot(time_s, [scale * each.heard[name].value for each in found.steps], "x", color="gray", ms=4)
-        axis.axhline(scale * TRUTH[name], color="black", ls="--", lw=1)
+        axis.plot(time_s, [scale * TRUTH[name]] * len(time_s), color="black", ls="--", lw=1)
         axis.set_ylabel(f"{LABELS[name]}\n[{quantity.shown}]")
     axes[0].set_title(
         "estimates with 50 and 90 % intervals; crosses: one stretch alone; dashed: the truth, which the "

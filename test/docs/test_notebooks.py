@@ -29,6 +29,19 @@ def test_a_notebook_is_that_of_its_script(name: str) -> None:
     assert path.stat().st_size < LARGEST
 
 
+@pytest.mark.parametrize("name", write_notebook.NAMES)
+def test_a_notebook_shows_what_its_cells_answered(name: str) -> None:
+    """It was run: there are texts and pictures, and no error among them."""
+    whole = json.loads((write_notebook.EXAMPLES / f"{name}.ipynb").read_text(encoding="utf-8"))
+    outputs = [each for cell in whole["cells"] for each in cell.get("outputs", ())]
+    kinds = {each["output_type"] for each in outputs}
+    assert kinds <= {"stream", "display_data", "execute_result"}
+    assert "stream" in kinds
+    pictures = [each for each in outputs if "image/png" in each.get("data", {})]
+    drawn = sum("plt." in "".join(cell["source"]) for cell in whole["cells"] if cell["cell_type"] == "code")
+    assert len(pictures) >= max(drawn - 1, 1)  # the first cell imports it
+
+
 def test_an_output_goes_when_the_text_of_its_cell_is_another() -> None:
     """What a notebook shows is of the cells that it has: kept by their text, else dropped."""
     answer = [{"output_type": "stream", "name": "stdout", "text": ["1\n"]}]

@@ -93,10 +93,10 @@ def test_an_angle_is_followed_through_several_turns_between_snapshots(
     speed: float, growth: float, begin: float, error: float
 ) -> None:
     """Half a turn is 628 rad/s over 5 ms: speeds of the snapshots say how many turns there were."""
-    time = 5e-3 * np.arange(12)
+    time = np.asarray(5e-3 * np.arange(12), np.float64)
     angle = begin + speed * time + 0.5 * growth * time**2
     rate = speed + growth * time + error
-    wrapped = np.mod(angle + np.pi, 2.0 * np.pi) - np.pi
+    wrapped = np.asarray(np.mod(angle + np.pi, 2.0 * np.pi) - np.pi, np.float64)
     found = _continuous(wrapped[:, None], rate[:, None], time)[:, 0]
     np.testing.assert_allclose(found - found[0], angle - angle[0], atol=1e-6)
 

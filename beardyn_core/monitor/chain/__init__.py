@@ -4,7 +4,7 @@
 module            responsibility
 ================= ========================================================================================
 inputs            what an algorithm gets: vibration, shaft angle, load, temperature, and what can be tuned
-diagnosable       tells what no fault can be heard in
+diagnosable       finds signals in which no fault can show
 kurtogram         another select_band: where the spectral kurtosis is largest
 whitening         select_band and whiten: all that is usable, every frequency with the same weight
 wheel             takes out what turns with the wheel (flats, polygons)

@@ -28,7 +28,7 @@ def parts_on_the_shaft(orders: FaultFrequencies, revolutions: float) -> tuple[st
     Parameters
     ----------
     revolutions : float
-        Of the stretch: the longer it is, the nearer to a multiple of the shaft lines are told from it.
+        Of the stretch: the longer it is, the nearer to a multiple of the shaft lines are seen apart.
     """
     reach = SHAFT_REACH / revolutions
     return tuple(

@@ -33,7 +33,7 @@ from beardyn_core.monitor.chain.fault_lines import (
 from beardyn_core.monitor.chain.inputs import MonitorSettings
 from beardyn_core.monitor.features import OrderSpectrum
 
-WELL_KNOWN = 0.01  # uncertainty of a speed at which cages of two bearings are told apart, [-]
+WELL_KNOWN = 0.01  # uncertainty of a speed at which cages of two bearings are distinguished, [-]
 _SHARE = 0.5  # of the false alarms of a part, for its second pattern
 _PARTS = (2, 3, 4, 5, 7)  # what comes back at such a part of the order, as rail joints may, is no cage
 _MULTIPLES = (2, 3)  # nor is a comb of a multiple: lines between its own must be there

@@ -119,7 +119,7 @@ class Chain:
         verdict, lined = self.decide(found, stretch, settings), tracked
         if verdict.name not in (*FAULTS, UNEXPLAINED) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
-            # it is heard as measured
+            # it is read as measured
             measured = by_angle(stretch.squared_envelope((band.low, band.high)), stretch, settings)
             clockwork = self.score(measured, orders, roller_count, speed, settings)
             clockwork = with_strikes(clockwork, stretch, band, settings)

@@ -56,7 +56,7 @@ def mark_explained(
 def strongest_rival(spectrum: OrderSpectrum, power: Float, known: Bool, harmonics: int) -> Rival:
     """Slide a comb of harmonics over all fundamentals and keep the most surprising one.
 
-    A bearing beside the one that is judged, a gear or a fan strikes as evenly as a spall does, and some lines
+    A bearing next to the judged one, a gear or a fan strikes as evenly as a spall does, and some lines
     of its comb lie near those of any pattern. Where it explains more, the pattern is no evidence. It is
     sought in what the pattern leaves over, for a fault has combs at parts of its order as well.
 

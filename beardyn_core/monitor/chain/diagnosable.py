@@ -1,4 +1,4 @@
-"""What no fault can be heard in: a signal that is too slow, dead, too coarse or clipped is not healthy."""
+"""No fault can show in a signal that is too slow, dead, too coarse or clipped: it is not healthy."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def live_axes(stretch: Stretch) -> tuple[Stretch, str]:
 
 
 def unheard(stretch: Stretch, settings: MonitorSettings) -> str:
-    """Say why nothing can be heard in a stretch, empty when something can."""
+    """Say why nothing can be found in a stretch, empty when something can."""
     least = 2.0 * (settings.lowest_band + settings.narrowest_band)
     if stretch.rate < least * (1.0 - _RATE_TOLERANCE):
         return (
@@ -42,7 +42,7 @@ def doubt(stretch: Stretch) -> str:
     """Say why a stretch that shows no fault may hide one, empty when there is no such reason.
 
     A signal of a few steps holds nothing of what is smaller than a step, and one that is clipped has lost its
-    strikes; faults that are heard all the same are called.
+    strikes; faults that show all the same are called.
     """
     for axis in stretch.acceleration.T:
         steps = np.unique(axis)

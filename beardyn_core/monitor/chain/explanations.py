@@ -23,7 +23,7 @@ class Explanation(NamedTuple):
     bearing: A[str, "a shipped one; '' for the bearing that is monitored"] = ""
 
     def sentence(self, stated: float) -> str:
-        """Write it beside the stated speed, [Hz]."""
+        """Write it next to the stated speed, [Hz]."""
         part = f"the {PART_NAMES[self.part]}"
         if self.bearing:
             return f"{part} of {self.bearing} at this speed"

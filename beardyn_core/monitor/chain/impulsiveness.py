@@ -22,7 +22,7 @@ def with_strikes(found: FaultLines, stretch: Stretch, band: Band, settings: Moni
 
     Notes
     -----
-    A strike is short beside the time to the next, so that its power has many harmonics of like amplitude.
+    A strike is short against the time to the next, so that its power has many harmonics of like amplitude.
     What comes and goes slowly, as the load of rollers that enter the load zone, and the noise of rough
     surfaces with it, has one harmonic, and next to nothing is left without it.
 

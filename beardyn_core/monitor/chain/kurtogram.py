@@ -1,4 +1,4 @@
-"""Band selection: where the envelope is most impulsive, as the spectral kurtosis tells."""
+"""Band selection: where the envelope is most impulsive, by the spectral kurtosis."""
 
 from __future__ import annotations
 

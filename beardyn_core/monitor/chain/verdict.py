@@ -158,7 +158,7 @@ def _verdict_on(
     """Report a comb that fits no part at the stated speed, or a part that something contradicts.
 
     What is weak and has the order of another bearing at this very speed, or of nothing known, may come from
-    a bearing or a gear next to this one: then it cannot be told whether this bearing is healthy.
+    a bearing or a gear next to this one: then it is not known whether this bearing is healthy.
     """
     (order, expected), speed = stranger.stated(-log(settings.false_alarm_rate)), stretch.shaft_frequency
     patterns = [each.pattern for each in found.candidates]
@@ -194,7 +194,7 @@ def _verdict_on(
 
 
 def strikes(candidate: Candidate, settings: MonitorSettings) -> bool:
-    """Tell whether a candidate strikes, in all that is heard or in one octave, or was not measured."""
+    """Tell whether a candidate strikes, in all that is measured or in one octave, or was not measured."""
     hums = candidate.strikes < settings.least_strikes
     least = settings.least_sharpest[FAULTS.index(candidate.pattern.fault)]
     return not hums or candidate.sharpest >= least

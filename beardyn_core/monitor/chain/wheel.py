@@ -9,12 +9,12 @@ from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.features import hann
 
 SECTORS = 64
-# power of a sector over that of the usual one: a strike, and its ringing beside
+# power of a sector over that of the usual one: a strike, and its ringing next to it
 _STRIKE, _RINGING = 10.0, 1.3
 _ONSET, _RISE = 6.0, 3  # power of a strike over that of the sector so many before or after
 # least share of a quartile in the mean over the revolutions where the wheel strikes
 _STEADY = 0.1
-_LEAST_REVOLUTIONS = 8.0  # of which a quartile tells strikes from noise
+_LEAST_REVOLUTIONS = 8.0  # of which a quartile distinguishes strikes from noise
 
 
 def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
@@ -25,10 +25,10 @@ def struck_sectors(stretch: Stretch, settings: MonitorSettings) -> Bool:
     Notes
     -----
     A sector is struck where the lower quartile of its power over the revolutions is ten times that of the
-    usual sector in one of the bands, and no small part of the mean there; sectors beside that still ring, as
+    usual sector in one of the bands, and no small part of the mean there; sectors nearby that still ring, as
     steadily, belong to it. A flat comes back at the same angle each time. A spall on the cone is loud in one
     half of the revolution too, but its strikes lie elsewhere in each: between them the quartile stays low, or
-    where they ring long, low beside the mean. Of a wide spall, in which rollers are half of the time, it does
+    where they ring long, far below the mean. Of a wide spall, in which rollers are half of the time, it does
     not; but the load zone, in which the cone is loud, comes slowly, and a strike at once: from one sector to
     the third after it flats rise by 11 and more, spalls of 12 mm by 4 at most.
 
@@ -60,7 +60,7 @@ def _find_struck(stretch: Stretch, bands: tuple[tuple[float, float], ...]) -> Bo
 
 
 def _struck_in(power: Float, known: Bool | bool = False) -> Bool:
-    """Find the struck sectors in the power of one band, shape [revolution, sector], beside known ones."""
+    """Find the struck sectors in the power of one band, shape [revolution, sector], next to known ones."""
     quartile = np.quantile(power, 0.25, axis=0)
     usual = np.median(quartile)
     steady = quartile > _STEADY * np.mean(power, axis=0)

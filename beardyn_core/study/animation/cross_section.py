@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.collections import Collection, EllipseCollection, LineCollection
 from matplotlib.patches import Annulus
 
 from beardyn_core.base.arrays import Float
@@ -76,14 +77,15 @@ class CrossSection:
         size = float(np.hypot(*load))
         if size == 0.0:
             return
-        tip = 0.6 * self._bore * load / size
+        forward, up = (float(each) for each in 0.6 * self._bore * load / size)
         style = {"arrowstyle": "-|>", "color": "0.35", "lw": 2.0}
-        axes.annotate("", tip, (0.0, 0.0), arrowprops=style, zorder=1)
+        axes.annotate("", (forward, up), (0.0, 0.0), arrowprops=style, zorder=1)
         text = f"load on the journal\n{1e-3 * size:.0f} kN"
-        axes.text(*(-0.3 * tip), text, ha="center", va="center", fontsize=7, color="0.35", zorder=1)
+        look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "color": "0.35", "zorder": 1}
+        axes.text(-0.3 * forward, -0.3 * up, text, **look)
 
     @property
-    def moving(self) -> list[Artist]:
+    def moving(self) -> list[Collection]:
         """List what changes from moment to moment, the lowest first."""
         return [self._shaft, self._bars, self._rollers, self._marks, self._turning_spalls]
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.lines import Line2D
 
-from beardyn_core.base.arrays import Float
+from beardyn_core.base.arrays import Float, Int
 from beardyn_core.base.errors import InputError
 from beardyn_core.record.load_colours import SPALL_COLOUR, load_colours
 from beardyn_core.record.run import Run
@@ -113,10 +113,10 @@ def _draw_zone(axes: Axes, motion: RowMotion, begin: float) -> None:
     axes.grid(alpha=0.3)
 
 
-def _range_by_bin(index: Float, load: Float) -> tuple[Float, Float]:
+def _range_by_bin(index: Int, load: Float) -> tuple[Float, Float]:
     """Find the smallest and largest load of each bin; NaN where no roller has been."""
     low, high = np.full(_BINS, np.inf), np.full(_BINS, -np.inf)
-    inside = np.clip(index, 0, _BINS - 1).astype(int)
+    inside = np.clip(index, 0, _BINS - 1)
     np.minimum.at(low, inside, load)
     np.maximum.at(high, inside, load)
     empty = ~np.isfinite(low)

@@ -45,10 +45,10 @@ class MovingFigure:
         for part in self.parts:
             part.set_animated(True)
         canvas.draw()
-        still = canvas.copy_from_bbox(self.figure.bbox)  # type: ignore[attr-defined]
+        still = canvas.copy_from_bbox(self.figure.bbox)
         for time in self.times(count):
             self.show(float(time))
-            canvas.restore_region(still)  # type: ignore[attr-defined]
+            canvas.restore_region(still)
             for part in self.parts:
                 self.figure.draw_artist(part)
             yield np.asarray(canvas.buffer_rgba())[..., :3].copy()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.collections import Collection, EllipseCollection, LineCollection
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.record.description import BearingShape
@@ -57,7 +56,7 @@ class SpallCloseUp:
         axes.set_title(f"spall on the {on}, depth not to scale", fontsize=9)
 
     @property
-    def moving(self) -> list[Artist]:
+    def moving(self) -> list[Collection]:
         """List what changes from moment to moment, the lowest first."""
         return [self._rollers, self._marks]
 

@@ -99,7 +99,7 @@ class _Sheets:
             self._write(line, _LEFT, below + 2.0, _FOOT, colour="0.3")
 
     def _need(self, height: float) -> bool:
-        """Go on to the next sheet where a height [mm] is not free; tells whether it did."""
+        """Go on to the next sheet where a height [mm] is not free; returns whether it did."""
         if self._y + height <= _PAGE_HEIGHT - _BOTTOM or self._y <= _TOP:
             return False
         self._done.append(self._figure)

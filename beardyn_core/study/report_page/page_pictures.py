@@ -1,4 +1,4 @@
-"""Pictures of a page: spectrum with labelled lines, waveform, levels over files; to be told apart in grey."""
+"""Pictures of a page: spectrum with labelled lines, waveform, levels over files; they differ in grey too."""
 
 from __future__ import annotations
 
