@@ -176,7 +176,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         bending=partial(bending_give, scene),
         noise=min((sensor.noise_density for sensor in scene.sensors), default=USUAL_NOISE),
     )
-    return refine_for_outputs(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
+    return refine_for_outputs(with_modes(found, replace(scene, effects=effects), band), scene)
 
 
 def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:
