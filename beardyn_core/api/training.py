@@ -175,7 +175,7 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
     if entry := _catalogue_entry(str(bearing)):
         raise InputError(
             f"bearing: {bearing} is a {entry.kind} bearing of the catalogue, bearing data for the monitor; "
-            "estimators are trained for double-row tapered units only, whose runs can be simulated: "
+            "estimators are trained for double-row tapered units only: "
             f"{', '.join(_tapered_names())}, or a file of your own (`derive: true` needs five numbers)"
         )
     if Path(bearing).suffix != ".mcap":
@@ -202,7 +202,7 @@ def _catalogue_entry(name: str) -> CatalogueEntry | None:
 
 
 def _tapered_names() -> list[str]:
-    """Name the shipped bearings whose runs can be simulated."""
+    """Name the shipped bearings that estimators are trained for."""
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.config import load_any_bearing, shipped_names
 

@@ -327,8 +327,8 @@ def _choose_all(scene: Scene, free: Free, given: EffectSet, accuracy: float, why
     name = "full" if free.tier else scene.tier
     usual = scene.numerics.steps_per_sample
     if free.steps:
-        usual = discretisation_error.refine_for_sensors(
-            StepChoice(TIERS[name].steps_per_sample, ""), scene.sensors
+        usual = discretisation_error.refine_for_outputs(
+            StepChoice(TIERS[name].steps_per_sample, ""), scene
         ).steps_per_sample
     total = measured_costs().ratios["full"]
     effects = replace(given, **{member: getattr(scene.effects, member) for member in free.effects})

@@ -15,7 +15,7 @@ from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.choice.fast_step import SLOW_BAND, fast_steps
 from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
 from beardyn_core.choice.rule import Choice, Influence, Verdict, percent
-from beardyn_core.choice.usual_step import refine_for_sensors, with_modes
+from beardyn_core.choice.usual_step import refine_for_outputs, with_modes
 from beardyn_core.effects import Cage, EffectSet, LaminaCoupling
 from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.cage.pocket_film import pocket_film_params
@@ -161,7 +161,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         there = replace(scene, tier=tier, effects=effects)
         slow = vibration and scene.vibration_to is not None and band <= SLOW_BAND
         found = fast_steps(there, long=slow, band=band)
-        return refine_for_sensors(with_modes(found, there, band), scene.sensors)
+        return refine_for_outputs(with_modes(found, there, band), scene)
     radial = [math.hypot(case.force[0], case.force[2]) for case in loads.cases]
     found = choose_steps(
         scene.bearing,
@@ -176,7 +176,7 @@ def steps(evidence: Evidence, effects: EffectSet, tier: str, laminae: int, vibra
         bending=partial(bending_give, scene),
         noise=min((sensor.noise_density for sensor in scene.sensors), default=USUAL_NOISE),
     )
-    return refine_for_sensors(with_modes(found, replace(scene, effects=effects), band), scene.sensors)
+    return refine_for_outputs(with_modes(found, replace(scene, effects=effects), band), scene)
 
 
 def tier(evidence: Evidence, name: str, laminae: int) -> Verdict | None:

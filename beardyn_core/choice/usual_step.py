@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from beardyn_core.physics.tiers.friction_steps import StepChoice, usual_steps
-from beardyn_core.scene.scene import Scene
-from beardyn_core.scene.sensor import FINE_STEPS, Accelerometer, steps_do_not_fit
+from beardyn_core.scene.scene import SNAPSHOT_RATES, Scene
+from beardyn_core.scene.sensor import FINE_STEPS, steps_do_not_fit
 from beardyn_core.scene.tier import TIERS
 from beardyn_core.structure.mounted_box import modes_of_effects
 
@@ -30,7 +30,7 @@ def usual_step(scene: Scene, outside_load: bool = False) -> StepChoice:
         from beardyn_core.choice.fast_step import fast_steps  # brings the model along
 
         found = fast_steps(scene, long=not outside_load)
-    return refine_for_sensors(with_modes(found, scene), scene.sensors)
+    return refine_for_outputs(with_modes(found, scene), scene)
 
 
 def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> StepChoice:
@@ -51,8 +51,12 @@ def with_modes(choice: StepChoice, scene: Scene, band: float | None = None) -> S
     return StepChoice(steps, turn if steps > choice.steps_per_sample else f"{choice.reason}; {turn}")
 
 
-def refine_for_sensors(choice: StepChoice, sensors: tuple[Accelerometer, ...]) -> StepChoice:
-    """Refine a choice of the step where the sensors need it."""
+def refine_for_outputs(choice: StepChoice, scene: Scene) -> StepChoice:
+    """Refine a choice of the step where the sensors need it, or the rate of bodies and contacts."""
     steps = choice.steps_per_sample
-    problem = steps_do_not_fit(sensors, steps)
+    least = scene.snapshot_rate / SNAPSHOT_RATES[-1]
+    if steps < least:
+        choice = StepChoice(least, f"bodies and contacts are kept at {scene.snapshot_rate:g} Hz")
+        steps = least
+    problem = steps_do_not_fit(scene.sensors, steps)
     return choice if problem is None else StepChoice(max(FINE_STEPS, steps + steps % 2), problem)

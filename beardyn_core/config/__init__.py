@@ -8,6 +8,7 @@ yaml_text    YAML text to a mapping, and a scene back to YAML
 file_model   base of the models: unknown keys explained, all mistakes kept
 content      files that a scene is computed from, put into the scene
 keys         from an annotated noun to the model of its file
+derivation   what a bearing file of five numbers leaves to be derived
 part_files   what the files of parts say otherwise than their nouns
 scene_file   what a scene file says otherwise than its nouns; presets of effects
 problems     refusals to sentences with file, key, value, what is allowed

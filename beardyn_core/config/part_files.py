@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag, WithJsonSchema
 
-import beardyn_core.config.derived_bearing  # noqa: F401  what the file of a bearing may have besides
+import beardyn_core.config.derivation  # noqa: F401  what the file of a bearing may have besides
 from beardyn_core.base.edge import WorkedOut
 from beardyn_core.bearing.lubricant import Lubricant, gold_pressure_viscosity, walther_viscosity
 from beardyn_core.config.file_model import FileModel, SourcedModel

@@ -41,7 +41,9 @@ def pressure_law(bearing: RollerBearing, kind: str) -> PressureLaw:
     bearing : RollerBearing
         Of any kind.
     kind : str
-        ``cup``, ``cone`` or ``rib``, that of the cone; others, and a rib that the bearing lacks, give NaN.
+        ``cup``, ``cone`` or ``rib``; others, and a rib that the bearing lacks, give NaN. The rib is that of
+        the cone. Runs of cylindrical bearings keep the rib of either ring that is pressed most: for one of
+        the cup the pressure is up to 8 % high.
 
     Notes
     -----
@@ -57,9 +59,9 @@ def pressure_law(bearing: RollerBearing, kind: str) -> PressureLaw:
     if kind == "rib":
         if isinstance(bearing, Bearing):
             return _point_law(exact_rib_contact(bearing))
-        if isinstance(bearing, CylindricalBearing) and bearing.cone_rib_sides:
-            return _point_law(flat_rib_contact(bearing, "cone"))
-        return NO_PRESSURE
+        if not isinstance(bearing, CylindricalBearing):
+            return NO_PRESSURE
+        return _point_law(flat_rib_contact(bearing, "cone" if bearing.cone_rib_sides else "cup"))
     if kind not in ("cup", "cone"):
         return NO_PRESSURE
     modulus = bearing.material.contact_modulus

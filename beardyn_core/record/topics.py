@@ -60,9 +60,9 @@ TOPICS: tuple[Topic, ...] = (
     Topic("joint_states", JOINTS, *_SENSOR, 50, "200 Hz",
           "orbit angle and speed of cage_<row> and roller_<row>_<k>; joint shaft with the torque of the "
           "bearing on it as effort, N m"),
-    Topic("bodies", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second",
+    Topic("bodies", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second, or snapshot_rate_Hz",
           "pose and twist of every body: sample, t, body, x, y, z, qx, qy, qz, qw, vx, vy, vz, wx, wy, wz"),
-    Topic("contacts", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second",
+    Topic("contacts", CLOUD, *_SENSOR, 20, "every 20 ms, 200 snapshots a second, or snapshot_rate_Hz",
           "loaded contacts: sample, t, row, roller, kind (0 cup, 1 cone, 2 rib, 3 pocket), point, force on "
           "the roller, slip, film, largest load since the snapshot before (without one now: force 0)"),
     Topic("temperature", TEMPERATURE, *_RELIABLE, 50, "every 0.2 s, with the thermal effect",

@@ -13,6 +13,7 @@ from matplotlib.projections.polar import PolarAxes
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.study.report_page.page_pictures import Marked, draw_marked_spectrum
+from beardyn_core.study.summary_picture import orient_load_zone
 
 LINES = {"BPFO": "#1f4e9c", "BPFI": "#c2571a", "2 BSF": "#2c7a3f", "FTF": "#777777"}
 """Colour of each fault frequency."""
@@ -48,8 +49,7 @@ def draw_load_zone(axes: PolarAxes, azimuth: Float, value: Float, name: str, uni
     azimuth, value : float64 array, shape [moment, row, roller]
         [rad], and in the unit that is written at the axes.
     """
-    axes.set_theta_zero_location("N")
-    axes.set_theta_direction(-1)
+    orient_load_zone(axes, float(np.nanmax(value, initial=0.0)))
     one = len(azimuth) == 1
     for row, (label, colour, marker, style) in enumerate(_ROWS[: azimuth.shape[1]]):
         angle, number = np.mod(azimuth[:, row], 2.0 * np.pi).ravel(), value[:, row].ravel()
@@ -61,10 +61,6 @@ def draw_load_zone(axes: PolarAxes, azimuth: Float, value: Float, name: str, uni
             angle, number, s=30 if one else 3, marker=marker, color=colour, alpha=0.8 if one else 0.15,
             label=f"{label}, largest {np.nanmax(number, initial=0.0):.3g} {unit}",
         )  # fmt: skip
-    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
-    axes.set_xticklabels(["0° (+z, up)", "45°", "90° (+x)", "135°", "180°", "225°", "270°", "315°"])
-    axes.set_ylim(0.0, 1.1 * float(np.nanmax(value, initial=0.0)) or 1.0)
-    axes.set_rlabel_position(112.0)
     axes.set_title(f"{name} [{unit}]")
     legend = axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.07), fontsize="small", frameon=False)
     for handle in legend.legend_handles:

@@ -112,22 +112,26 @@ def _draw_spectrum(axes: Axes, data: SummaryData) -> None:
         scale.tick_params(labelsize=8)
 
 
+def orient_load_zone(axes: PolarAxes, largest: float) -> None:
+    """Turn polar axes so that azimuth 0 (+z) is up and +x to the right, with room for a largest number."""
+    axes.set_theta_zero_location("N")
+    axes.set_theta_direction(-1)
+    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
+    axes.set_xticklabels(["0° (+z, up)", "45°", "90°\n(+x)", "135°", "180°", "225°", "270°", "315°"])
+    axes.set_ylim(0.0, 1.1 * largest or 1.0)
+    axes.set_rlabel_position(112.0)
+
+
 def _draw_load_zone(axes: PolarAxes, data: SummaryData, row: int) -> None:
     """Draw the load of each roller of a row at each moment, a panel a row: none hides the other."""
     azimuth, load = (
         values[None] if values.ndim == 2 else values for values in (data.roller_azimuth, data.roller_load)
     )
-    # azimuth 0 is up (+z), and forward (+x) is drawn to the right
-    axes.set_theta_zero_location("N")
-    axes.set_theta_direction(-1)
+    orient_load_zone(axes, float(load.max(initial=0.0)) / 1e3)
     angle, force, colour = azimuth[:, row].ravel(), load[:, row].ravel() / 1e3, _ROW_COLOURS[row]
     if len(azimuth) == 1:
         axes.vlines(angle, 0.0, force, color=colour, alpha=0.5, lw=2)
     axes.scatter(angle, force, color=colour, s=30 if len(azimuth) == 1 else 4, alpha=0.7)
-    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
-    axes.set_xticklabels(["0° (+z, up)", "45°", "90°\n(+x)", "135°", "180°", "225°", "270°", "315°"])
-    axes.set_ylim(0.0, 1.1 * float(load.max(initial=0.0)) / 1e3 or 1.0)
-    axes.set_rlabel_position(112.0)
     side = "inboard" if row == 0 else "outboard"
     title = f"Load zone of row {row} ({side}): cup–roller load [kN], largest {force.max(initial=0.0):.2f}"
     axes.set_title(title, fontsize=11, pad=14)

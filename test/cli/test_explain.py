@@ -14,6 +14,11 @@ def test_explain_says_what_a_fixed_scene_has_and_what_auto_would_choose(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["explain", "static_80kN", "--accuracy", "3"]) == DONE
+    short = capsys.readouterr().out
+    assert "tier full" in short
+    assert "`effects: auto` would choose:\n  tier quasistatic" in short
+    assert "answer: within 3 % of the full model" in short
+    assert main(["explain", "static_80kN", "--accuracy", "3", "--verbose"]) == DONE
     said = capsys.readouterr().out
     assert "as the scene has it: tier full, 6 laminae" in said
     assert "what `effects: auto` would choose: tier quasistatic" in said

@@ -21,7 +21,7 @@ from beardyn_core.cli import main as command
 from beardyn_core.experiments.loop import Progress
 from beardyn_core.population.batch import Array, Made
 from beardyn_core.population.draw import rows_of
-from beardyn_core.population.features import NAMES
+from beardyn_core.population.features import NAMES, VERDICT
 from beardyn_core.population.finalizing import verify
 from beardyn_core.population.signal_store import SignalStore
 from beardyn_core.population.table import write_table
@@ -46,7 +46,7 @@ def test_a_set_is_what_the_runs_are(made: tuple[Path, list[Progress]]) -> None:
     assert own["status"] == "complete"
     assert runs.units["load_fz_N_mean"] == "N"
     assert runs.units["defects[0].width_mm"] == "mm"
-    assert list(runs.features.columns) == ["run", *NAMES]
+    assert list(runs.features.columns) == ["run", *NAMES, VERDICT]
     assert runs.table["bearing_id"].nunique() == 6
 
 

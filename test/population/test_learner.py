@@ -13,7 +13,8 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.cli import main as command
-from beardyn_core.population.features import NAMES, TRANSFERABLE, UNITS, features_of
+from beardyn_core.population.difficulty import difficulty_of
+from beardyn_core.population.features import NAMES, TRANSFERABLE, UNITS, VERDICT, features_of
 from beardyn_core.population.folder import ABOUT
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.learner import Learner
@@ -38,11 +39,13 @@ def made_set(folder: Path, noise: float, seed: int = 0) -> LabelledSet:
         if width is not None:
             found[f"score_{condition}"] += 10.0
             found["kurtosis"] = 1e3 * width + 0.2 * random.normal()
-        features.append({"run": run} | {k: v + noise * random.normal() for k, v in found.items()})
+        noisy = {name: value + noise * random.normal() for name, value in found.items()}
+        features.append({"run": run, **noisy, VERDICT: condition if noise < 1.0 else "healthy"})
     folder.mkdir()
     write_table(folder / RUNS, rows, {}, {})
     write_table(folder / FEATURES, features, UNITS, {})
-    about = {"format": 1, "sweep": "made", "parts": {}, "failed": 0}
+    hard = difficulty_of(rows, features)
+    about = {"format": 1, "sweep": "made", "parts": {}, "failed": 0, "difficulty": hard}
     (folder / ABOUT).write_text(json.dumps(about))
     return LabelledSet(folder)
 
@@ -76,6 +79,8 @@ def test_the_command_prints_a_table_and_json(tmp_path: Path, capsys: pytest.Capt
     assert "68 runs" in told
     assert "200 runs" in told
     assert "width of the spall" in told
+    assert "an easy set: the shipped monitor names the part in 100 % of faulty runs" in told
+    assert "the shipped monitor names the part in 0 % of faulty runs" in told
     assert command.main([*words, "--json"]) == command.DONE
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
     check("baseline", found)

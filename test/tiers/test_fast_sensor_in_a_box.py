@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from beardyn_core.choice.usual_step import STEPS_PER_TURN, refine_for_sensors
+from beardyn_core.choice.usual_step import STEPS_PER_TURN, refine_for_outputs
 from beardyn_core.effects import ModalStructure
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.tiers.friction_steps import StepChoice
@@ -36,10 +36,11 @@ def ringing(tier: str, highest: float | None = None) -> Scene:
     box = ModalStructure("high_speed", highest=highest, stiffness_factor=HIGHER**2)
     scene = replace(scene, effects=replace(scene.effects, structure=box))
     sensor = replace(Accelerometer(), position=(0.0, 0.0, 0.17), rate=RATES[1], noise_density=0.0)
-    steps = refine_for_sensors(StepChoice(1, "coarsest"), (sensor,)).steps_per_sample
+    scene = replace(scene, sensors=(sensor,))
+    steps = refine_for_outputs(StepChoice(1, "coarsest"), scene).steps_per_sample
     mounting = mounting_of(modes_of(scene), replace(scene.mounting, cup="suspended"), scene.bearing)
     numerics = replace(scene.numerics, steps_per_sample=steps)
-    return replace(scene, sensors=(sensor,), mounting=mounting, numerics=numerics)
+    return replace(scene, mounting=mounting, numerics=numerics)
 
 
 @pytest.mark.parametrize("tier", TIERS)

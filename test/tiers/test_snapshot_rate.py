@@ -83,3 +83,10 @@ def test_a_scene_names_the_rate_and_its_mistakes() -> None:
     with pytest.raises(bd.InputError, match="snapshot_rate_Hz"):
         bd.scene("static_80kN", snapshot_rate_Hz=25600, **named)
     assert all(snapshots_do_not_fit(rate, 1.0) is None for rate in SNAPSHOT_RATES)
+
+
+def test_a_step_that_nobody_gave_is_short_enough() -> None:
+    usual = load_scene("static_80kN", tier="lumped", effects="standard").numerics.steps_per_sample
+    assert usual < 1
+    fast = bd.scene("static_80kN", tier="lumped", effects="standard", snapshot_rate_Hz=12800)
+    assert fast.numerics.steps_per_sample == 1

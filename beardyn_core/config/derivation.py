@@ -31,7 +31,7 @@ class BearingFile(SourcedModel):
     derive: StrictBool = Field(
         False,
         description="derive every number that is not given from roller_count, pitch_diameter_mm, "
-        "roller_diameter_mm, roller_length_mm and contact_angle_deg; `sources` tells which are",
+        "roller_diameter_mm, roller_length_mm and contact_angle_deg; `sources` has the origin of each",
     )
 
     @classmethod
