@@ -8,6 +8,7 @@ json_output      strict JSON with a version, for every ``--json``
 files            inputs and outputs of a command: complaints at once, doubts, a folder to write
 generated_parser parsers of commands from the functions of `api` that they call
 options          options that several commands have
+growth_option    the rate of growth of spalls, an option of several commands
 quantities       numbers with units in options
 demo             the main job in one go
 scenes           what scenes, bearings, lubricants, vehicles, effects, trials and boxes there are

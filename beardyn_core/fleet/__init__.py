@@ -16,7 +16,8 @@ analysis        one recording through the monitor: verdict, levels, evidence
 intake          recordings into the store, several at a time
 sisters         axleboxes of one train on the same ride, compared
 health          the state of an axlebox from its history, with hysteresis
-mileage_left    mileage and date until a spall is too wide, from its widths so far
+growth_fit      a law of growth fitted to the widths of one spall
+mileage_left    mileage and date until a spall is too wide, from its widths so far and several laws
 ranking         all axleboxes, the one that needs attention most first
 pictures        pictures of the page of a fleet
 page            the page of a fleet: the ranked list, and a page for each axlebox over `watch`
