@@ -188,7 +188,10 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
         usual = kinds_of(options[0])[0] if first else next(filter(None, map(_usual_kind, options)), None)
         for option in options:
             model = keys_of(option, usual if usual in kinds_of(option) and is_kind(option) else None, sourced)
-            tagged += [Annotated[model, Tag(f"<{kind}>")] for kind in kinds_of(option)]
+            plain = at.reference and option is options[0]  # a mapping or a name, without a kind
+            tagged += [
+                Annotated[model, Tag("<inline>" if plain else f"<{kind}>")] for kind in kinds_of(option)
+            ]
     if at.switch:
         tagged.insert(0, Annotated[bool | None, Tag("<switch>")])
     if at.reference:
@@ -203,6 +206,8 @@ def _union(options: tuple[Any, ...], at: At, sourced: bool) -> Any:
         if len(options) == 1:
             return "<inline>" if at.reference else "<options>"
         kind = value.get("kind", usual) if isinstance(value, dict) else getattr(value, "kind", None)
+        if at.reference and kind in (None, usual):
+            return "<inline>"
         return f"<{kind}>" if kind is not None or isinstance(value, dict) else None
 
     return Annotated[reduce(or_, tagged), Discriminator(tag)]

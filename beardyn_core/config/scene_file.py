@@ -17,6 +17,7 @@ from beardyn_core.bearing.any_bearing import SimulatedBearing
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY
 from beardyn_core.bearing.radial_bearing import MOST_CLEARANCE, MOST_PRELOAD
+from beardyn_core.bearing.roller_bearing import ROW_COUNT
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import choose_form
@@ -145,6 +146,9 @@ class SceneFile(FileModel):
         RoughnessKeys(),
         description="composite, in place of the bearing's; it counts in the film parameter only",
     )
+    radial_clearance_mm: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-0.1, le=1.0)] | None = (
+        Field(None, description="total radial travel of a cylindrical pair, in place of the bearing's")
+    )
     numerics: Annotated[
         Annotated[Literal["auto"], Tag("<name>")] | Annotated[keys_of(Numerics), Tag("<inline>")],  # type: ignore[valid-type]
         choose_form("<name>", lambda value: isinstance(value, str), "<inline>"),
@@ -176,6 +180,9 @@ class SceneFile(FileModel):
             bearing = replace(bearing, raceway_roughness=um.to_si(self.roughness.raceway_um))
         if self.roughness.rib_um is not None:
             bearing = replace(bearing, rib_roughness=um.to_si(self.roughness.rib_um))
+        if self.radial_clearance_mm is not None and isinstance(bearing, CylindricalBearing):
+            clearance = UNITS["mm"].to_si(self.radial_clearance_mm)
+            bearing = replace(bearing, radial_clearance=clearance)
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
         end_play = _mounted_end_play(given, bearing)
         if isinstance(bearing, CylindricalBearing):
@@ -245,6 +252,7 @@ class SceneFile(FileModel):
         yield from _axle_held_twice(given["operation"], given["mounting"])
         if isinstance(given["bearing"], SimulatedBearing):
             yield from _play_out_of_range(given, given["bearing"])
+            yield from _not_of_this_kind(self.radial_clearance_mm, given, given["bearing"])
         hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > hearing:
             yield (
@@ -253,6 +261,25 @@ class SceneFile(FileModel):
                 f"{PASSBAND * RATES[-1]:g} Hz"
             )
         yield from _rough_twice(given["background"], given["operation"])
+
+
+def _not_of_this_kind(
+    clearance: float | None, given: dict[str, Any], bearing: SimulatedBearing
+) -> Iterator[Problem]:
+    """Find a play that the bearing does not have, and an axle that nothing holds along its axis."""
+    if not isinstance(bearing, CylindricalBearing):
+        if clearance is not None:
+            yield Problem(
+                f"{bearing.name} is a {bearing.words}; its play is end_play_mm", ("radial_clearance_mm",)
+            )
+        return
+    held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.cone_ribs == "both")
+    if not held and getattr(given["mounting"], "axial_prop_stiffness", 1.0) == 0.0:
+        yield Problem(
+            f"{bearing.name} has cone_ribs {bearing.cone_ribs} and rows is {given['rows']}: nothing holds "
+            "the axle along its axis either way; give mounting.axial_prop_stiffness_MN_per_m",
+            ("bearing",),
+        )
 
 
 def _mounted_end_play(given: dict[str, Any], bearing: SimulatedBearing) -> float:

@@ -36,7 +36,7 @@ lamina_springs     laminae as springs, summed (quasistatic tier)
 lamina_coupling    laminae that sink with each other, also partly over a patch
 raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
-point_contact      contact with the cone at a point, which both ribs share
+point_contact      contact with a ring at a point, which all ribs share
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)
 thermal            nodes of the thermal network and where losses go
@@ -48,6 +48,7 @@ rib                large roller end on its rib
 rib_gap            where it is nearest to the rib: a sphere and its rim on a cone
 rib_friction       its film and friction
 small_rib          small roller end on its rib: a plane on a circle
+flanges            ends of cylindrical rollers on the ribs of both rings
 defect             patches, wear and size errors: tables, and the gaps they make
 patch_path         path of a roller over a patch, and how its sharp edges give way
 roller_spring      a roller as one spring along the cup's normal

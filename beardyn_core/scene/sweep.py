@@ -14,7 +14,16 @@ from beardyn_core.base.edge import INTERNAL, SEED, At, Problem
 SAMPLINGS = ("sobol", "latin_hypercube", "random", "grid")
 RUN, BEARING = "run", "bearing"
 # first words of keys that say how a bearing was made and what has happened to it
-OF_A_BEARING = ("bearing", "scatter", "defects", "waviness", "missing_rollers", "end_play_mm", "roughness")
+OF_A_BEARING = (
+    "bearing",
+    "scatter",
+    "defects",
+    "waviness",
+    "missing_rollers",
+    "end_play_mm",
+    "roughness",
+    "radial_clearance_mm",
+)
 MOST_RUNS = 10_000_000
 _LEVELS = At(ge=1, le=10_000)
 _KEY = "key path of a scene file, such as defects[0].width_mm; created where the scene has none"

@@ -26,9 +26,9 @@ operation: {{kind: constant, force_kN: [0, 0, 60], speed_rpm: 600}}
 
 
 def refused(text: str, name: str) -> bool:
-    """Whether one sentence says that runs are for tapered bearings, and what is possible."""
+    """Whether one sentence says for which kinds of bearings something is, and what is possible."""
     words = load_any_bearing(name).words
-    return all(part in text for part in (name, words, "tapered roller bearings only", "beardyn bearing"))
+    return all(part in text for part in (name, words, "roller bearings only", "beardyn bearing"))
 
 
 def scene_file(folder: Path, name: str) -> Path:
@@ -81,7 +81,7 @@ def test_the_monitor_takes_their_bearing_data(name: str, tmp_path: Path) -> None
         assert plate.frequencies == load_any_bearing(name).frequencies
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", SPHERICAL)
 def test_runs_are_refused_by_one_sentence(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -94,7 +94,7 @@ def test_runs_are_refused_by_one_sentence(
         assert main([*words]) == 2
         error = capsys.readouterr().err
         assert refused(error, name), error
-        assert error.count("tapered roller bearings only") == 1
+        assert error.count("tapered and cylindrical roller bearings only") == 1
     with pytest.raises(bd.InputError) as caught:
         bd.simulate(str(path))
     assert refused(str(caught.value), name)
@@ -106,7 +106,7 @@ def test_runs_are_refused_by_one_sentence(
     assert refused(str(caught.value), name)
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", SPHERICAL)
 def test_what_is_made_of_runs_is_refused(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -126,6 +126,10 @@ def test_what_is_made_of_runs_is_refused(
     assert refused(capsys.readouterr().err, name)
     assert main(["structure", "high_speed", "--bearing", name, "-o", str(box.with_suffix(".csv"))]) == 2
     assert refused(capsys.readouterr().err, name)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_what_is_for_tapered_bearings_alone_is_refused(name: str) -> None:
     with pytest.raises(bd.InputError) as caught:
         estimator_for(load_plate(name))
     assert refused(str(caught.value), name)
@@ -139,8 +143,45 @@ def test_a_scene_made_of_nouns_refuses_them() -> None:
     from dataclasses import replace
 
     with pytest.raises(bd.InputError) as caught:
-        replace(bd.scene("static_80kN"), bearing=bd.bearing("WJ130x240"))
-    assert refused(str(caught.value), "WJ130x240")
+        replace(bd.scene("static_80kN"), bearing=bd.bearing("SRB120x260"))
+    assert refused(str(caught.value), "SRB120x260")
+
+
+@pytest.mark.parametrize("name", CYLINDRICAL)
+def test_a_scene_takes_a_cylindrical_pair_and_its_text_gives_it_back(name: str) -> None:
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.config import scene_text
+
+    made = bd.scene(bearing=name, load_kN=60, speed_rpm=600, radial_clearance_mm=0.2)
+    assert isinstance(made.bearing, bd.CylindricalBearing)
+    assert made.bearing.radial_clearance == pytest.approx(0.2e-3)
+    assert scene_from_text(scene_text(made)) == made
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ({"bearing": {"cone_ribs": "none"}}, "holds the axle along its axis"),
+        ({"rows": 1}, "holds the axle along its axis"),
+        ({"bearing": "HS130x230", "radial_clearance_mm": 0.1}, "its play is end_play_mm"),
+    ],
+)
+def test_a_scene_in_which_nothing_holds_a_pair_is_refused(keys: dict[str, Any], said: str) -> None:
+    changes = keys.pop("bearing", "WJ130x240")
+    bearing = {**_keys("WJ130x240"), **changes} if isinstance(changes, dict) else changes
+    with pytest.raises(bd.InputError, match=said):
+        bd.scene(bearing=bearing, load_kN=60, speed_rpm=600, **keys)
+
+
+def test_warm_parts_close_the_radial_clearance_of_a_pair() -> None:
+    """Steel that is hotter than the outer ring by 10 K grows by 1.2e-4 of its diameters."""
+    temperatures = {"cup_C": 20, "cone_C": 30, "rollers_C": 30, "assembly_C": 20}
+    warm = bd.scene(bearing="WJ130x240", load_kN=60, speed_rpm=600, temperatures=temperatures).bearing
+    cold = bd.bearing("WJ130x240")
+    assert isinstance(warm, bd.CylindricalBearing)
+    assert isinstance(cold, bd.CylindricalBearing)
+    inside = 2.0 * cold.cone_radius + 2.0 * cold.roller_diameter
+    assert cold.radial_clearance - warm.radial_clearance == pytest.approx(12e-6 * 10.0 * inside, rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,10 @@ step_choice       the coarsest step that is converged
 friction_steps    the step that friction asks for, without an equilibrium
 tiers             what each tier computes with
 planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
+planar_contacts   its contacts with raceways and rib as springs
+planar_flanges    ends of cylinders on the ribs of both rings (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
+massless_flanges  axial springs of cylinders between ribs of both rings (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 sliding           rollers that slide along the cup, by the traction law (fast tiers)
 kinematic_rollers rollers that orbit kinematically, and their torque on the shaft
