@@ -31,9 +31,12 @@ def page(found: Mapping[str, Any]) -> str:
         for each in spalls
     ]
     left = [
-        (each["box"], "-", each["left"], "-")
+        (each["box"], "-", each["left"], "-", "-")
         if each["left_on_day"] is None
-        else (each["box"], f"{each['left_on_day']:.0f}", each["left"], f"{each['true_left_km']:,.0f} km")
+        else (
+            *(each["box"], f"{each['left_on_day']:.0f}", each["left"], each["laws"]),
+            f"{each['true_left_km']:,.0f} km",
+        )
         for each in spalls
     ]
     others = [(str(each["rank"]), each["box"], each["health"], each["why"]) for each in found["listed"]]
@@ -45,7 +48,7 @@ def page(found: Mapping[str, Any]) -> str:
         "runs": HEALTHY + 2 * len(WIDTHS_MM) + 1,
         "seconds": RECORDED,
         "spalls": markdown(_HEAD, rows, "llrrlllrr"),
-        "left": markdown(("axlebox", "day", "first statement", "true"), left, "lrlr"),
+        "left": markdown(("axlebox", "day", "first statement", "over the laws", "true"), left, "lrllr"),
         "listed": markdown(("rank", "axlebox", "health", "why"), others, "rlll"),
         "found": len(leads),
         "count": len(spalls),

@@ -181,6 +181,8 @@ def judge(store_path: Path) -> dict[str, Any]:
                 "width_mm": {k: None if not isfinite(d) else width_mm(spall, d) for k, d in firsts.items()},
                 "lead_days": None if not isfinite(firsts["plan"]) else ends - firsts["plan"],
                 "left": left.sentence,
+                "laws": left.laws_sentence,
+                "laws_hold": bool(left.span[0] <= 1e3 * KM_A_DAY * (ends - now) <= left.span[1]),
                 "left_on_day": now if left.is_known else None,
                 "left_km": [each / 1e3 for each in left.distance] if left.is_known else None,
                 "true_left_km": KM_A_DAY * (ends - now),
