@@ -9,6 +9,7 @@ from typing import Annotated as A
 from typing import Any
 
 from beardyn_core.base.edge import write_noun
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.effects import ModalStructure
 from beardyn_core.population.key_paths import Place, with_value
 from beardyn_core.scene.scene import Scene
@@ -45,6 +46,8 @@ class Unknown:
             return heard.amplitude_factor or None if heard is not None and heard.forces else None
         if self.name == "noise":
             return scene.sensors[sensor].noise_density or None
+        if isinstance(scene.bearing, CylindricalBearing):
+            return None
         return float(write_noun(scene)["end_play_mm"])
 
     def ends(self, base: float) -> tuple[float, float]:
@@ -110,6 +113,7 @@ NOISE = Unknown(
 )
 END_PLAY = Unknown(
     "end_play", "end play as mounted", "mm", False, (-0.15, 0.15), ("end_play_mm",),
+    absent="has a cylindrical pair, whose play between its ribs presses no roller",
 )  # fmt: skip
 UNKNOWNS = (FREQUENCY, DAMPING, BACKGROUND, NOISE, END_PLAY)
 """In the order in which they are reported."""

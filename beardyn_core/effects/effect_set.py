@@ -43,7 +43,7 @@ class EffectSet:
         RollingResistance | None, At(switch=True), "couple of the raceway contacts against rolling"
     ] = None
     drag: A[Drag | None, At(switch=True), "drag and churning of the rollers"] = None
-    rib: A[Rib | None, At(switch=True), "large roller ends on the cone rib"] = Rib()
+    rib: A[Rib | None, At(switch=True), "roller ends on their ribs"] = Rib()
     small_rib: A[SmallRib | None, At(switch=True), "small roller ends on the small rib of the cone"] = None
     cage: A[CageModel | None, At(switch=True), "cage of each row"] = Cage()
     seal: A[Seal | None, At(switch=True), "friction of the seals"] = None

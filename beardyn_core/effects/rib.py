@@ -1,4 +1,4 @@
-"""Large roller end on the cone rib."""
+"""Roller ends on ribs: the large end of tapered rollers on the cone rib, both ends of cylinders."""
 
 from __future__ import annotations
 
@@ -57,12 +57,13 @@ RibLubrication = RibMixedFilm | RibShearedFilm
 
 @dataclass(frozen=True)
 class Rib:
-    """Contact of the spherical large roller end with the conical cone rib."""
+    """Contact of spherical roller ends with conical ribs: of the cone, with cylinders of both rings."""
 
     about: ClassVar[About] = About(
         loss="rib",
         heat=RIB_HEAT,
-        adds="Sphere-on-cone contact of the large roller end with the cone rib, its edges and its film.",
+        adds="Sphere-on-cone contact of the large roller end with the cone rib, of cylinders with the ribs of "
+        "both rings, with edges and film.",
         states="none",
         cost="medium",
         validity="Elliptic Hertz contact, of the stiffness of the face also on an edge.",
@@ -71,7 +72,9 @@ class Rib:
 
     friction: A[float, SHARE, "without a lubrication"] = 0.05
     regularisation_speed: SlipSpeed = 0.05
-    stiffness: A[str, At(one_of=("fitted", "exact")), "elliptic integrals of the contact"] = "fitted"
+    stiffness: A[
+        str, At(one_of=("fitted", "exact")), "elliptic integrals of the contact; of cylinders always exact"
+    ] = "fitted"
     window: A[bool, "the face ends at the undercut and at the rib's corner"] = True
     edge_radius: A[float, At("mm", gt=0.0, le=2.0), "rounding of both edges of the face"] = 0.3e-3
     roller_end: A[bool, "the sphere ends at the rim of the roller end, which carries beyond it"] = True
