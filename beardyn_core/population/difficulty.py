@@ -77,7 +77,8 @@ def difficulty_line(found: Mapping[str, Any] | None) -> str:
         apart = "all runs are of one bearing"
     else:
         skill = "; a learner near 100 % shows no skill on it" if linear >= _EASY else ""
-        apart = f"a linear rule that learns from other bearings names {_percent(linear)} of all runs{skill}"
+        share = f"{_percent(linear)} of all {found['runs']} runs"
+        apart = f"a linear rule that learns from other bearings names {share}{skill}"
     word = "an easy set" if isfinite(linear) and linear >= _EASY else "difficulty"
     return f"{word}: the shipped monitor names the part in {_percent(named)} of faulty runs{wrong}; {apart}"
 

@@ -134,5 +134,6 @@ def test_the_short_blocks_of_the_page_run(
     text = SHORT_BLOCKS[number].replace("duration=2.0", "duration=0.2")
     header = "import beardyn_core as bd\n"
     if re.search(r"\brun\b", text) and "run =" not in text:
-        header += "run = bd.simulate('cup_spall', tier='quasistatic', duration=0.2)\n"
+        seconds = 0.6 if "envelope" in text else 0.2
+        header += f"run = bd.simulate('cup_spall', tier='quasistatic', duration={seconds})\n"
     run_text(header + text, tmp_path, monkeypatch)
