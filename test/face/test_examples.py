@@ -108,7 +108,8 @@ def test_the_strikes_of_a_wheel_flat_show_in_the_loads_of_the_rollers(
     names["plt"].close("all")
     assert (tmp_path / "wheel_flat.png").stat().st_size > 5_000
     assert re.search(r"most loaded roller: [\d.]+ kN, at the strikes [\d.]+ kN", capsys.readouterr().out)
-    assert 1.2 * names["usual"] < names["strike"] < 4.0 * names["usual"]
+    # in a box with modes 1.17 in `quasistatic`, 1.18 in `full`; 1.4 in a rigid one
+    assert 1.1 * names["usual"] < names["strike"] < 1.4 * names["usual"]
 
 
 def test_the_page_shows_the_examples_as_they_run() -> None:
