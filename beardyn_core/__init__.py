@@ -243,8 +243,8 @@ if not TYPE_CHECKING:
         """Import a name of `__all__` when it is first asked for."""
         if name not in _PLACE:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        place = f"{__name__}.{_PLACE[name]}"
-        found = import_module(place) if name == _PLOTS else getattr(import_module(place), name)
+        room = import_module(f"{__name__}.{_PLACE[name]}")
+        found = room if name == _PLOTS else getattr(room, name)
         globals()[name] = found
         return found
 

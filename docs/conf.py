@@ -84,9 +84,10 @@ def words_of_fields(app: Any, what: str, name: str, found: Any, options: Any, li
     """List the fields of a dataclass with the words of their annotations, where no docstring has them."""
     if what != "class" or not is_dataclass(found) or any(line.strip() == "Attributes" for line in lines):
         return
-    hints = get_type_hints(
-        found, localns=_ForTypesAlone(vars(sys.modules[found.__module__])), include_extras=True
-    )
+    there: dict[str, Any] = {}
+    for base in found.__mro__:  # a field may come from the module of a base
+        there |= vars(sys.modules[base.__module__])
+    hints = get_type_hints(found, localns=_ForTypesAlone(there), include_extras=True)
     words = {
         field.name: next((each for each in get_args(hints[field.name])[1:] if isinstance(each, str)), "")
         for field in fields(found)

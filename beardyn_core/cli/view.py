@@ -48,7 +48,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--of",
         choices=SUBJECTS,
         help="what --gif and --mp4 show: load_zone, the rollers over one turn of the cage; crossing, rollers "
-        "that cross a spall of a ring, with the vibration. Default crossing where a ring has a spall, else "
+        "that cross a spall of a ring, with the vibration; default crossing where a ring has a spall, else "
         "load_zone",
     )
     parser.add_argument(

@@ -87,6 +87,7 @@ def test_existing_files_are_replaced_only_with_force(
         (["simulate", "static_5kN", "-o", str(notes)], f"--output {notes}"),
         (["view", str(recording), "--save", str(view)], f"--save {view}"),
         (["view", str(recording), "--screenshot", str(notes)], f"--screenshot {notes}"),
+        (["view", str(recording), "--gif", str(notes)], f"--gif {notes}"),
         (["contacts", "--rrd", str(notes)], f"--rrd {notes}"),
         (["contacts", "-o", str(folder)], f"--output {folder / 'contacts_nine.png'}"),
         (["ladder", "static_5kN", "-o", str(folder)], f"--output {folder / 'ladder.json'}"),
@@ -120,6 +121,8 @@ def test_a_full_disk_ends_view_and_new_in_a_sentence_and_leaves_no_part_of_a_fil
     # where not even the blueprint fits, rerun's own `save` may wait for ever for its thread
     for words, path, room in (
         (["view", str(recording), "--save", str(view)], view, 100_000),
+        (["view", str(recording), "--gif", str(folder / "run.gif")], folder / "run.gif", 100_000),
+        (["view", str(recording), "--mp4", str(folder / "run.mp4")], folder / "run.mp4", 50_000),
         (["new", "cup_spall", "-o", str(copy)], copy, 512),
     ):
         with files_of_at_most(room):
@@ -306,6 +309,8 @@ def test_an_output_has_the_ending_of_its_format_and_two_are_never_one_file(
         (["contacts", "-o", str(tmp_path / "found"), "--rrd", str(tmp_path / "contacts.json")], ".rrd"),
         (["view", "run.mcap", "--save", str(tmp_path / "run.txt")], ".rrd"),
         (["view", "run.mcap", "--screenshot", str(tmp_path / "run.txt")], ".png"),
+        (["view", "run.mcap", "--gif", str(tmp_path / "run.png")], ".gif"),
+        (["view", "run.mcap", "--mp4", str(tmp_path / "run.gif")], ".mp4"),
     ):
         assert command.main(words) == command.BAD_INPUT
         assert f"let its name end in {ending}" in capsys.readouterr().err

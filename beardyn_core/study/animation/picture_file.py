@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -73,7 +72,10 @@ def write_gif(picture: MovingFigure, path: Path, *, replace: bool = True) -> int
         optimize=False, transparency=COLOURS, disposal=1,
     )  # fmt: skip
     with as_a_whole(path, replace=replace) as fresh:
-        fresh.write_bytes(held.getvalue())
+        try:
+            fresh.write_bytes(held.getvalue())
+        except OSError as error:
+            raise InputError(_unwritten(path, error.strerror)) from error
     return count
 
 
@@ -113,17 +115,18 @@ def write_mp4(picture: MovingFigure, path: Path, *, replace: bool = True) -> int
         )  # fmt: skip
         try:
             writer.send(None)
-            _send(writer, [first])
-            _send(writer, frames)
-        except OSError as error:
-            raise InputError(
-                f"{path}: FFmpeg could not write the file ({error}); is the disk full?"
-            ) from error
+            for frame in chain([first], frames):
+                writer.send(np.ascontiguousarray(frame))
+            writer.close()
+            written, _ = ffmpeg.count_frames_and_secs(str(fresh))
+        except (OSError, RuntimeError) as error:  # of a pipe to a program that has ended, or of no film
+            raise InputError(_unwritten(path, "FFmpeg ended early")) from error
         finally:
             writer.close()
+        if written != count:
+            raise InputError(_unwritten(path, f"{written} of {count} frames are in it"))
     return count
 
 
-def _send(writer: object, frames: Iterable[NDArray[np.uint8]]) -> None:
-    for frame in frames:
-        writer.send(np.ascontiguousarray(frame))  # type: ignore[attr-defined]
+def _unwritten(path: Path, reason: str | None) -> str:
+    return f"{path}: cannot be written ({reason}); is the disk full? Free space, or choose another disk"
