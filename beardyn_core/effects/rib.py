@@ -62,8 +62,8 @@ class Rib:
     about: ClassVar[About] = About(
         loss="rib",
         heat=RIB_HEAT,
-        adds="Sphere-on-cone contact of the large roller end with the cone rib, of cylinders with the ribs of "
-        "both rings, with edges and film.",
+        adds="Sphere-on-cone contact of the large roller end with the cone rib, of cylinders with the "
+        "ribs of both rings, with edges and film.",
         states="none",
         cost="medium",
         validity="Elliptic Hertz contact, of the stiffness of the face also on an edge.",
