@@ -1,4 +1,4 @@
-"""Spalls of a cylindrical pair in a loaded wagon in service: the monitor names each part, none without one."""
+"""Spalls of a cylindrical pair in a loaded wagon in service: the monitor names each part, none if healthy."""
 
 from __future__ import annotations
 
