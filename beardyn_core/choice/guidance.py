@@ -75,7 +75,7 @@ def small_rib(evidence: Evidence) -> Rule:
     """Decide on the small rib: on when rollers can leave the large rib."""
     scene, loads = evidence.scene, evidence.loads
     effect = scene.effects.small_rib
-    if effect is None or scene.bearing.half_angle == 0.0:  # like ends are those of the effect rib
+    if effect is None or not effect.about.suits(scene.bearing.kind):
         return absent("small_rib")
     outward = centrifugal_force(scene.bearing, loads.typical.speed) * math.sin(scene.bearing.cup_angle)
     outward /= scene.bearing.roller_mass * STANDARD_GRAVITY

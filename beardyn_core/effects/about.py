@@ -31,3 +31,8 @@ class About:
         Mapping[str, float], "part that its loss warms, of `physics.thermal.NODES` -> share of it; sum 1"
     ] = field(default_factory=dict)
     needs: A[tuple[str, ...], "members of the `EffectSet` without which it means nothing"] = ()
+    bearings: A[tuple[str, ...], "kinds of bearings that have it; empty for all"] = ()
+
+    def suits(self, kind: str) -> bool:
+        """Tell whether bearings of a kind have what the effect is about."""
+        return not self.bearings or kind in self.bearings

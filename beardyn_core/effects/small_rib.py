@@ -25,6 +25,7 @@ class SmallRib:
         cost="low",
         validity="Brief contacts; the rib bears on a circle at half its height, with a linear spring.",
         source="Plane on circle, exact; stiffness and damping assumed",
+        bearings=("tapered",),
     )
 
     stiffness: A[float, At("MN_per_m", gt=0.0), "of one contact"] = 2.0e8

@@ -244,8 +244,12 @@ class Scene:
         beyond_rim = ("rib.roller_end",) if rib is not None and rib.roller_end else ()
         asked = (*self.effect_names, *beyond_rim)
         found = missing_effects(self.tier, asked)
-        if isinstance(self.bearing, CylindricalBearing):  # whose ribs of both rings are the effect rib
-            found = tuple(name for name in asked if name in {"small_rib", *found})
+        foreign = {
+            name
+            for name in self.effects.names()
+            if not getattr(self.effects, name).about.suits(self.bearing.kind)
+        }
+        found = tuple(name for name in asked if name in {*foreign, *found})
         if (
             self.tier != "full" and self.effects.film is None
         ):  # what a fast tier has of traction is the creep of films
