@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import partial
 from math import isfinite
@@ -92,7 +94,6 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
             )
         )
         links.append(f"p{number[each.axlebox]}" if each.axlebox in number else "")
-    healthy = tuple(each.axlebox.name for each in status.standings if each.health.state == OK)
     worst = status.standings[0]
     told = ", ".join(f"{count} {state.replace('_', ' ')}" for state, count in counts.items() if count)
     headline = Headline(
@@ -118,15 +119,33 @@ def _overview(status: FleetStatus, shown: list[Standing]) -> Page:
     scale = Facts(
         "The scale", tuple((state.replace("_", " "), MEANINGS[state]) for state in reversed(SCALE)), 1
     )
-    return Page(f"{TITLE}, {write_date(status.as_of)}", headline, (*_tables(table, healthy), scale))
+    return Page(f"{TITLE}, {write_date(status.as_of)}", headline, (*_tables(table, status.standings), scale))
 
 
-def _tables(table: Rows, healthy: tuple[str, ...]) -> list[Part]:
-    """Give the table of those that are not ok, and the names of those that are."""
+def _tables(table: Rows, standings: Sequence[Standing]) -> list[Part]:
+    """Give the table of those that are not ok, and the others by vehicle."""
     parts: list[Part] = [table] if table.rows else []
-    if healthy:
-        parts.append(Points(f"{len(healthy)} axleboxes that are ok", (", ".join(healthy),)))
+    vehicles: dict[str, list[Standing]] = {}
+    for each in standings:
+        vehicles.setdefault(each.axlebox.vehicle, []).append(each)
+    points = []
+    for vehicle in sorted(vehicles, key=_in_order):
+        every = vehicles[vehicle]
+        healthy = [each.axlebox for each in every if each.health.state == OK]
+        if len(healthy) == len(every) > 1:
+            points.append(f"{vehicle}: all {len(every)}")
+        elif healthy:
+            ends = sorted(healthy, key=lambda box: (_in_order(box.axle), box.side))
+            points.append(f"{vehicle}: {', '.join(f'axle {box.axle} {box.side}' for box in ends)}")
+    if points:
+        count = sum(each.health.state == OK for each in standings)
+        parts.append(Points(f"{count} axleboxes that are ok, by vehicle", tuple(points)))
     return parts
+
+
+def _in_order(name: str) -> tuple[tuple[str, int], ...]:
+    """Give a key by which T2 comes before T10."""
+    return tuple((text, int(number or 0)) for text, number in re.findall(r"(\D*)(\d*)", name))
 
 
 def acknowledged_mark(standing: Standing) -> str:
