@@ -20,7 +20,7 @@ from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
-    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.any_bearing import SimulatedBearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.effects import LineFilm
@@ -187,7 +187,7 @@ def torque(
     from beardyn_core.physics.rolling_resistance import oil_supply
     from beardyn_core.physics.statics.torque import running_torque
 
-    chosen = _tapered(bearing, "torques")
+    chosen = _simulated(bearing, "torques")
     oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
     rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
@@ -316,7 +316,7 @@ def film(
     from beardyn_core.physics.lamina_table import equivalent_radius
     from beardyn_core.physics.statics.torque import entrainment_speeds
 
-    chosen = _tapered(bearing, "films")
+    chosen = _simulated(bearing, "films")
     oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
@@ -364,10 +364,10 @@ def _bearing(bearing: RollerBearing | str) -> RollerBearing:
     return bearing if isinstance(bearing, RollerBearing) else load_any_bearing(bearing)
 
 
-def _tapered(bearing: RollerBearing | str, what: str) -> Bearing:
-    from beardyn_core.bearing.any_bearing import require_tapered
+def _simulated(bearing: RollerBearing | str, what: str) -> SimulatedBearing:
+    from beardyn_core.bearing.any_bearing import require_simulated
 
-    return require_tapered(_bearing(bearing), what)
+    return require_simulated(_bearing(bearing), what=what)
 
 
 def _played(

@@ -39,10 +39,10 @@ def require_tapered(bearing: RollerBearing, what: str, label: str = "bearing") -
     return bearing
 
 
-def require_simulated(bearing: RollerBearing, label: str = "bearing") -> SimulatedBearing:
+def require_simulated(bearing: RollerBearing, label: str = "bearing", what: str = "runs") -> SimulatedBearing:
     """Give a bearing back that a twin runs; raise `InputError` for one of another kind, as above."""
     if not isinstance(bearing, Bearing | CylindricalBearing):
-        refuse_kind(bearing.name, bearing.kind, "runs", label, SIMULATED_KINDS)
+        refuse_kind(bearing.name, bearing.kind, what, label, SIMULATED_KINDS)
     return bearing
 
 

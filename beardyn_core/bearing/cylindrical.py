@@ -55,6 +55,11 @@ class CylindricalBearing(RadialBearing):
     roller_chamfer: A[float, At("mm", gt=0.0), "radius of a roller less that of its crowned ends"] = 0.5e-3
     contact_angle: A[float, INTERNAL] = 0.0
 
+    @property
+    def clamped(self) -> Self:
+        """The bearing without radial clearance."""
+        return replace(self, radial_clearance=0.0)
+
     def mounted(self, end_play: float) -> Self:
         """Give the bearing with ribs that leave this end play, [m]."""
         return self if end_play == self.end_play else replace(self, end_play=end_play)

@@ -199,6 +199,11 @@ class RollerBearing:
         def roller_orbit_radius(self) -> float:
             """Radius on which the centres of mass orbit, [m]."""
 
+    @property
+    def clamped(self) -> Self:
+        """The bearing with its rollers just touching, where its play is a dimension of its rings."""
+        return self
+
     def mounted(self, end_play: float) -> Self:
         """Give the bearing with the end play of its mounting, where that is a dimension of its ribs."""
         return self

@@ -65,7 +65,7 @@ class Statics:
             return None
         bearing = self.scene.bearing
         try:
-            spring = spring_params(bearing, laminae)
+            spring = spring_params(bearing, max(laminae, bearing.usual_laminae))
         except np.linalg.LinAlgError:  # laminae that a profile keeps out of contact
             return None
         azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count

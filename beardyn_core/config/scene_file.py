@@ -14,6 +14,7 @@ from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, p
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
 from beardyn_core.bearing.any_bearing import SimulatedBearing
+from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY
 from beardyn_core.bearing.radial_bearing import MOST_CLEARANCE, MOST_PRELOAD
@@ -273,6 +274,9 @@ def _not_of_this_kind(
                 f"{bearing.name} is a {bearing.words}; its play is end_play_mm", ("radial_clearance_mm",)
             )
         return
+    if given["end_play"] is not None:
+        for sentence in check(bearing.mounted(given["end_play"])):
+            yield Problem(sentence.removesuffix("."), ("end_play_mm",))
     held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.cone_ribs == "both")
     if not held and getattr(given["mounting"], "axial_prop_stiffness", 1.0) == 0.0:
         yield Problem(

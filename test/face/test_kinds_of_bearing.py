@@ -133,10 +133,29 @@ def test_what_is_for_tapered_bearings_alone_is_refused(name: str) -> None:
     with pytest.raises(bd.InputError) as caught:
         estimator_for(load_plate(name))
     assert refused(str(caught.value), name)
-    for call in (lambda: bd.torque(name, 600), lambda: bd.film(name, 600), lambda: load_bearing(name)):
+    with pytest.raises(bd.InputError) as caught:
+        load_bearing(name)
+    assert refused(str(caught.value), name)
+
+
+@pytest.mark.parametrize("name", SPHERICAL)
+def test_torque_and_film_of_barrels_are_refused(name: str) -> None:
+    for call in (lambda: bd.torque(name, 600), lambda: bd.film(name, 600)):
         with pytest.raises(bd.InputError) as caught:
             call()
         assert refused(str(caught.value), name)
+
+
+def test_thrust_on_a_pair_costs_what_its_ribs_rub() -> None:
+    """Friction of both ribs times the slip of pure rolling at their contact heights, and a little spin: within 5 %."""
+    pair = bd.bearing("WJ130x240")
+    assert isinstance(pair, bd.CylindricalBearing)
+    plain = bd.torque(pair, 600, (0, 0, 80), rib_friction=0.05)
+    pushed = bd.torque(pair, 600, (0, 5, 80), rib_friction=0.05)
+    per_turn = pair.pitch_diameter / pair.roller_diameter * pair.rib_contact_height  # both slips, over w
+    assert pushed - plain == pytest.approx(0.05 * 5000.0 * per_turn, rel=0.05)
+    films = bd.film(pair, 600, (0, 0, 80))
+    assert 1e-7 < float(films["cup"][films["cup"] > 0.0].min()) < 5e-6
 
 
 def test_a_scene_made_of_nouns_refuses_them() -> None:
@@ -163,6 +182,7 @@ def test_a_scene_takes_a_cylindrical_pair_and_its_text_gives_it_back(name: str) 
     [
         ({"bearing": {"cone_ribs": "none"}}, "holds the axle along its axis"),
         ({"rows": 1}, "holds the axle along its axis"),
+        ({"end_play_mm": 0.1}, "roller_play"),
         ({"bearing": "HS130x230", "radial_clearance_mm": 0.1}, "its play is end_play_mm"),
     ],
 )

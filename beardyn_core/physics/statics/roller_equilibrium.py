@@ -100,8 +100,13 @@ def _pressing(bearing: RollerBearing, laminae: int, depth: float) -> tuple[Conta
     return replace(model, clearance=-depth), ConePose(np.zeros(3), np.eye(3))
 
 
-@cache
 def spring_params(bearing: RollerBearing, laminae: int) -> SpringParams:
+    """Fit the spring of one roller, see `_fitted_spring`; bearings that differ in their play share it."""
+    return _fitted_spring(bearing.clamped, laminae)
+
+
+@cache
+def _fitted_spring(bearing: RollerBearing, laminae: int) -> SpringParams:
     """Fit the spring of one roller by least squares in the ninth root of the approach.
 
     Notes

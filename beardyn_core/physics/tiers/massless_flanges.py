@@ -11,7 +11,6 @@ Neglected: that a leaning roller presses its raceways harder.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -64,7 +63,7 @@ def thrust_params(bearing: RollerBearing, laminae: int) -> ThrustParams | None:
     if not isinstance(bearing, CylindricalBearing):
         return None
     lever = bearing.roller_diameter - 2.0 * bearing.rib_contact_height
-    depth, stiffness = lean_stiffness(replace(bearing, radial_clearance=0.0), laminae)
+    depth, stiffness = lean_stiffness(bearing.clamped, laminae)
     depth, stiffness = depth[depth < _DEEPEST], stiffness[depth < _DEEPEST]
     x = np.log2(depth)
     square, slope, level = np.polyfit(x, np.log2(lever**2 / stiffness), 2).tolist()
