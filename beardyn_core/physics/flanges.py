@@ -3,8 +3,8 @@
 A rib is that of `physics.rib`, a cone before a sphere with a rim. One at the inner end of the rollers is seen
 from its own side: with the axes of roller and ring the other way round it is one at the outer end.
 
-The output has the rib of the cone that carries most, or that of the cup where the cone has none: a roller that
-passes thrust on is pressed by one of each with nearly the same load, and only one of them has a place there.
+The output has the rib of the cone that carries most, or that of the cup where the cone has none: a roller
+that passes thrust on is pressed by one of each with nearly the same load, and there is place for one of them.
 """
 
 from __future__ import annotations

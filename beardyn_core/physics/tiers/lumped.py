@@ -115,7 +115,8 @@ def trend_shape(rollers: tuple[int, ...], parameters: LumpedParameters) -> tuple
 class SpringTrend:
     """Rollers at some instants, see `physics.tiers.kinematics.Instants`.
 
-    ``trends`` [time, row, 1, lane] are from `advance_lumped`, see `trend_shape`; nobody changes them any more.
+    ``trends`` [time, row, 1, lane] are from `advance_lumped`, see `trend_shape`; nobody changes them any
+    more.
     """
 
     def __init__(self, lanes: Any, trends: NDArray[np.float64], parameters: LumpedParameters) -> None:

@@ -56,8 +56,8 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
 from beardyn_core.physics.tiers.massless_flanges import (
     add_thrust,
     outward_waves,
-    store_thrust,
     show_thrust,
+    store_thrust,
     thrust_torque,
     with_thrust,
 )
@@ -427,6 +427,4 @@ def show_springs(lanes, rollers, trend, p):
         largest = lanes.load(trend, blocks + TREND_EXTRAS + block, 0)
         watch_loads(lanes, rollers, block, cup_cone_rib(largest, speeds, p))
         thrust = 2 * blocks + TREND_EXTRAS + block
-        show_thrust(
-            lanes, rollers, block, axis, trend, thrust, speeds[0], p.thrust, p.base.effects.flanges
-        )
+        show_thrust(lanes, rollers, block, axis, trend, thrust, speeds[0], p.thrust, p.base.effects.flanges)

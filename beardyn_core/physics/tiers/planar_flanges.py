@@ -195,7 +195,7 @@ def _add_torque(total, load, speed, flange):
 
 @inline
 def show_flanges(lanes, rollers, block, axis, loads, speed, flanges):
-    """Write force, place and slip of one rib contact of each roller, see `flanges`; lean of the rings neglected."""
+    """Write force, place and slip of one rib contact of each roller, see `flanges`; rings do not lean."""
     if flanges is None:
         return
     zero = 0.0 * loads.total
