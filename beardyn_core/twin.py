@@ -308,7 +308,8 @@ class Twin:
 
     def _run(self, state: State, loads: Float, signals: Float, blocks: int) -> tuple[Any, Float]:
         tier = self._tier
-        rollers = np.empty((blocks * self._instants, *tier.trend_shape(state.rollers.shape)))
+        kept = tier.trend_shape(state.rollers.shape, self._kernel_parameters)
+        rollers = np.empty((blocks * self._instants, *kept))
         bodies = np.empty((blocks * self._instants, *state.bodies.shape))
         output = Output(signals, rollers, bodies, self._audit)
         tier.advance(self._lanes, state, self._work, loads, output, self._kernel_parameters)

@@ -280,9 +280,10 @@ def _not_of_this_kind(
     held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.cone_ribs == "both")
     if not held and getattr(given["mounting"], "axial_prop_stiffness", 1.0) == 0.0:
         yield Problem(
-            f"{bearing.name} has cone_ribs {bearing.cone_ribs} and rows is {given['rows']}: nothing holds "
-            "the axle along its axis either way; give mounting.axial_prop_stiffness_MN_per_m",
-            ("bearing",),
+            f"{bearing.name} has cone_ribs {bearing.cone_ribs}, cup_ribs {bearing.cup_ribs} and rows is "
+            f"{given['rows']}: nothing holds the axle along its axis either way; give "
+            "mounting.axial_prop_stiffness_MN_per_m",
+            ("rows",) if bearing.carries_thrust else ("bearing",),
         )
 
 

@@ -3,7 +3,8 @@
 A rib is that of `physics.rib`, a cone before a sphere with a rim. One at the inner end of the rollers is seen
 from its own side: with the axes of roller and ring the other way round it is one at the outer end.
 
-Of all ribs the output has the contact that carries most.
+The output has the rib of the cone that carries most, or that of the cup where the cone has none: a roller
+that passes thrust on is pressed by one of each with nearly the same load, and there is place for one of them.
 """
 
 from __future__ import annotations
@@ -228,11 +229,21 @@ def settle_flanges(contacts, change, total, here, flanges, p):
     most = ContactOutput(nothing, nothing, zero, zero)
     total, most = _settle(contacts.cone_outer, change, total, most, here, CONE, flanges.cone_outer, p)
     total, most = _settle(contacts.cone_inner, change, total, most, here, CONE, flanges.cone_inner, p)
-    total, most = _settle(contacts.cup_outer, change, total, most, here, CUP, flanges.cup_outer, p)
-    total, most = _settle(contacts.cup_inner, change, total, most, here, CUP, flanges.cup_inner, p)
+    total, of_cup = _settle(contacts.cup_outer, change, total, most, here, CUP, flanges.cup_outer, p)
+    total, of_cup = _settle(contacts.cup_inner, change, total, of_cup, here, CUP, flanges.cup_inner, p)
+    most = of_output(most, of_cup, flanges.cone_outer, flanges.cone_inner)
     output_contact(here.lanes, here.rollers, here.block, RIB, most)
     watch_largest(here.lanes, here.rollers, here.block, RIB, dot(most.force, most.force))
     return total
+
+
+@inline
+def of_output(of_cone, of_cup, cone_outer, cone_inner):
+    """Take what the output has: of the cone, and of the cup where both ribs of the cone are ``None``."""
+    if cone_outer is None:
+        if cone_inner is None:
+            return of_cup
+    return of_cone
 
 
 @inline

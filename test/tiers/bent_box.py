@@ -62,7 +62,7 @@ def stepped(twin: Twin, steps: int, speed: float | None = None) -> tuple[Float, 
         loads[:, 6] = speed
         state.bodies[CAGE_BODY:, RATE] *= speed
     signals = np.zeros((steps, twin._channels))
-    rollers = np.zeros((steps, *twin._tier.trend_shape(state.rollers.shape)))
+    rollers = np.zeros((steps, *twin._tier.trend_shape(state.rollers.shape, twin._kernel_parameters)))
     output = Output(signals, rollers, np.zeros((steps, *state.bodies.shape)), twin._audit)
     twin._tier.advance(twin._lanes, state, twin._work, loads, output, twin._kernel_parameters)
     return signals, rollers

@@ -378,13 +378,13 @@ def _require_possible(
 
 
 def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> None:
-    """Refuse a single row that its own thrust drives off its raceways.
+    """Refuse a single row that its own thrust drives off its raceways; one between two ribs is held.
 
     Every cup load has the angle of the cup, so their sum along the axle is at least its tangent times their
     sum across, in any pose. Across they carry the load, and centrifugal forces where rollers are missing:
     those of the others add up to no more than the missing ones would have.
     """
-    if len(model.centre) > 1:
+    if len(model.centre) > 1 or getattr(model.bearing, "cone_ribs", "") == "both":
         return
     across, pressed = math.hypot(load[0], load[2]), float(load[1])
     uneven = float(model.inertia_load[0]) * np.count_nonzero(model.missing)

@@ -47,7 +47,7 @@ def advance_lumped(lanes, state, work, loads, output, p):
     """Advance the lumped tier over whole blocks of steps; arguments as of the full tier's `advance`.
 
     The energy balance is not kept, but what each source loses. The trend of the rollers [trend,
-    2 block + TREND_EXTRAS, 1, lane] has the loads, from which `show_lumped` makes the rollers.
+    row, 1, lane], see `trend_shape`, has the loads, from which `show_lumped` makes the rollers.
     """
     rollers, bodies, energy, flex, axle = state.rollers, state.bodies, state.energy, state.flex, state.axle
     bending = p.bending
@@ -102,16 +102,20 @@ def show_lumped(lanes, trends, rollers, p):
         show_springs(lanes, rollers[t], trends[t], p)
 
 
-def trend_shape(rollers: tuple[int, ...]) -> tuple[int, ...]:
-    """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state."""
+def trend_shape(rollers: tuple[int, ...], parameters: LumpedParameters) -> tuple[int, ...]:
+    """Shape what `advance_lumped` writes at an instant, from the shape of the rollers' state.
+
+    Rows: loads of each block of rollers, instant, largest loads, and of cylinders what each passes on along
+    the axle.
+    """
     block, _fields, lane = rollers
-    return 2 * block + TREND_EXTRAS, 1, lane
+    return (2 if parameters.thrust is None else 3) * block + TREND_EXTRAS, 1, lane
 
 
 class SpringTrend:
     """Rollers at some instants, see `physics.tiers.kinematics.Instants`.
 
-    ``trends`` [time, 2 block + TREND_EXTRAS, 1, lane] are from `advance_lumped`; nobody changes them any
+    ``trends`` [time, row, 1, lane] are from `advance_lumped`, see `trend_shape`; nobody changes them any
     more.
     """
 
@@ -123,13 +127,15 @@ class SpringTrend:
 
     def hardest(self) -> SpringTrend:
         """Take the instant with the largest load of a roller since the snapshot before."""
-        largest = self._trends[:, (self._trends.shape[1] + TREND_EXTRAS) // 2 :].max(axis=(1, 2, 3))
+        blocks = len(self._parameters.base.rollers)
+        first = blocks + TREND_EXTRAS
+        largest = self._trends[:, first : first + blocks].max(axis=(1, 2, 3))
         time = int(largest.argmax())
         return self[time : time + 1]
 
     def _empty(self, fields: int) -> NDArray[np.float64]:
-        times, rows, _one, lane = self._trends.shape
-        return np.zeros((times, (rows - TREND_EXTRAS) // 2, fields, lane))
+        times, _rows, _one, lane = self._trends.shape
+        return np.zeros((times, len(self._parameters.base.rollers), fields, lane))
 
     def whole(self) -> NDArray[np.float64]:
         """Make the state as the full tier has it, shape [time, block, ROLLER_FIELDS, lane]."""

@@ -20,13 +20,15 @@ from beardyn_core.base.jit import inline, plain
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.rib_face import RibFace, faces_of_ring
 from beardyn_core.bearing.roller_bearing import RollerBearing
-from beardyn_core.physics.bodies.contact_output import store_vector
+from beardyn_core.physics.bodies.contact_output import store_vector, watch_largest
+from beardyn_core.physics.bodies.layout import RIB
 from beardyn_core.physics.bodies.rigid_bodies import row_totals
 from beardyn_core.physics.flanges import flange_torque
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, exp2, log2, sqrt, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
 from beardyn_core.physics.statics.roller_equilibrium import lean_stiffness
 from beardyn_core.physics.tiers.kinematic_rollers import KEPT_COSINE, LOAD_AXIAL
+from beardyn_core.physics.tiers.planar_flanges import FlangeLoads, show_flanges
 
 _TINY = 1e-18
 _NEWTON_STEPS = 3
@@ -161,14 +163,18 @@ def _outward(side, motion, i, direction, thrust):
 
 
 @inline
-def add_thrust(sums, waves, cosine, sine, counted, approach, thrust, time):
-    """Add a block of rollers to the sums of axial forces: plain, times cosine and sine, of both ways."""
+def add_thrust(lanes, sums, waves, cosine, sine, counted, approach, thrust, time, trend, row):
+    """Add a block of rollers to the sums of axial forces: plain, times cosine and sine, of both ways.
+
+    Each roller's force on the cup, outwards, goes to a ``row`` of the ``trend``.
+    """
     if thrust is None:
         return sums
     way = waves[0][0] * cosine + (waves[0][1] * sine + waves[0][2])
     rate = waves[1][0] * cosine + (waves[1][1] * sine + waves[1][2])
     push, both = push_along(way, rate, approach, thrust, time)
     push = counted * push
+    lanes.store(trend, row, 0, push)
     return sums[0] + push, sums[1] + push * cosine, sums[2] + push * sine, sums[3] + counted * both
 
 
@@ -200,6 +206,19 @@ def with_thrust(totals, rib, sums, sides, thrust):
         totals[3] - radius * (inner * cosine[0] + outer * cosine[1]),
         totals[4] - radius * (inner * sine[0] + outer * sine[1]),
     ), rib + 2.0 * (both[0] + both[1])
+
+
+@inline
+def show_thrust(lanes, rollers, block, axis, trend, row, speed, thrust, flanges):
+    """Write the rib contacts of a block of rollers from what `add_thrust` kept; nothing of tapered ones."""
+    if thrust is None:
+        return
+    push = lanes.load(trend, row, 0)
+    inwards, outwards, zero = at_least(-push, 0.0), at_least(push, 0.0), 0.0 * push
+    both = inwards + outwards
+    loads = FlangeLoads((inwards, outwards, outwards, inwards), 2.0 * both, (zero, zero, zero))
+    show_flanges(lanes, rollers, block, axis, loads, speed, flanges)
+    watch_largest(lanes, rollers, block, RIB, both * both)
 
 
 @inline

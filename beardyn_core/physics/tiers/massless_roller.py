@@ -56,6 +56,7 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
 from beardyn_core.physics.tiers.massless_flanges import (
     add_thrust,
     outward_waves,
+    show_thrust,
     store_thrust,
     thrust_torque,
     with_thrust,
@@ -187,7 +188,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
     """Load all rollers and sum their loads by row.
 
     Written are the largest approach of the ``rollers``, ``LOAD_COSINE``, ``LOAD_SINE`` and ``RIB_SUM`` of the
-    ``sums``, and the cup loads of the ``trend`` [2 block + TREND_EXTRAS, 1, lane] with the largest ones.
+    ``sums``, and the cup loads of the ``trend`` (`lumped.trend_shape`) with the largest ones.
 
     Half of the centrifugal load of the cup comes off the cone: the two contacts are as stiff as each other.
     What is not worked out at every step has functions of its own: with it in here the compiler counts the
@@ -222,7 +223,10 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
             lanes.store(rollers, block, PENETRATION, deepest)
         waves = load_vector(lanes, p.pockets, block, COUNTED)
         loads = add_scaled(loads, load, waves)
-        along = add_thrust(along, outward, cosine, sine, waves[0], approach, p.thrust, time)
+        thrust = 2 * rollers.shape[0] + TREND_EXTRAS + block
+        along = add_thrust(
+            lanes, along, outward, cosine, sine, waves[0], approach, p.thrust, time, trend, thrust
+        )
         add_reaction(lanes, sums, block, waves[0] * load, p.bending, None)
         lanes.store(trend, block, 0, load)
         largest = rollers.shape[0] + TREND_EXTRAS + block
@@ -237,7 +241,7 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
 def begin_largest(trends, index, blocks):
     """Start the largest loads of an instant of the trends, or go on with those of the one before.
 
-    ``trends`` [trend, 2 block + TREND_EXTRAS, 1, lane]: changed at `index`.
+    ``trends`` [trend, row, 1, lane], see `lumped.trend_shape`: changed at `index`.
     """
     first = blocks + TREND_EXTRAS
     for row in range(first, first + blocks):
@@ -422,3 +426,5 @@ def show_springs(lanes, rollers, trend, p):
         show_contacts(lanes, rollers, block, axis, loads, (zero, zero), speeds, p)
         largest = lanes.load(trend, blocks + TREND_EXTRAS + block, 0)
         watch_loads(lanes, rollers, block, cup_cone_rib(largest, speeds, p))
+        thrust = 2 * blocks + TREND_EXTRAS + block
+        show_thrust(lanes, rollers, block, axis, trend, thrust, speeds[0], p.thrust, p.base.effects.flanges)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.contact_output import ContactOutput, output_contact
 from beardyn_core.physics.bodies.layout import RIB
-from beardyn_core.physics.flanges import flange_torque
+from beardyn_core.physics.flanges import flange_torque, of_output
 from beardyn_core.physics.lanes.lane_math import at_least, where_greater
 from beardyn_core.physics.lanes.vectors import Vector, choose_vector, scale
 from beardyn_core.physics.tiers.planar_contacts import add_raceway, damper_force, rib_spring
@@ -157,21 +157,18 @@ def settle_flange_loads(springs, place, move, factor, rate, cup_radius):
 
 
 @inline
-def heaviest_flange(rib, loads):
-    """Take the load of the rib that carries most, [N]; ``rib``: that of a roller with one rib."""
+def shown_load(rib, loads, flanges):
+    """Take the load of the rib that the output has, [N]; ``rib``: that of a roller with one rib."""
     if loads is None:
         return rib
-    return _largest(loads.each)
-
-
-@inline
-def _largest(each):
-    return at_least(at_least(each[0], each[1]), at_least(each[2], each[3]))
+    each = loads.each
+    of_cone, of_cup = at_least(each[0], each[1]), at_least(each[2], each[3])
+    return of_output(of_cone, of_cup, flanges.cone_outer, flanges.cone_inner)
 
 
 @inline
 def all_flanges(rib, loads):
-    """Add up the loads of all ribs, [N]; see `heaviest_flange`."""
+    """Add up the loads of all ribs, [N]; see `shown_load`."""
     if loads is None:
         return rib
     return loads.total
@@ -198,7 +195,7 @@ def _add_torque(total, load, speed, flange):
 
 @inline
 def show_flanges(lanes, rollers, block, axis, loads, speed, flanges):
-    """Write force, place and slip of the heaviest rib contact of each roller; lean of the rings neglected."""
+    """Write force, place and slip of one rib contact of each roller, see `flanges`; rings do not lean."""
     if flanges is None:
         return
     zero = 0.0 * loads.total
@@ -206,8 +203,9 @@ def show_flanges(lanes, rollers, block, axis, loads, speed, flanges):
     most, kept = zero, ContactOutput(nothing, nothing, zero, zero)
     most, kept = _heavier(most, kept, axis, loads.each[0], speed, flanges.cone_outer)
     most, kept = _heavier(most, kept, axis, loads.each[1], speed, flanges.cone_inner)
-    most, kept = _heavier(most, kept, axis, loads.each[2], speed, flanges.cup_outer)
-    most, kept = _heavier(most, kept, axis, loads.each[3], speed, flanges.cup_inner)
+    most, of_cup = _heavier(most, kept, axis, loads.each[2], speed, flanges.cup_outer)
+    most, of_cup = _heavier(most, of_cup, axis, loads.each[3], speed, flanges.cup_inner)
+    kept = of_output(kept, of_cup, flanges.cone_outer, flanges.cone_inner)
     output_contact(lanes, rollers, block, RIB, kept)
 
 

@@ -37,8 +37,8 @@ from beardyn_core.physics.tiers.planar_contacts import (
 from beardyn_core.physics.tiers.planar_flanges import (
     add_flanges,
     flange_springs,
-    heaviest_flange,
     settle_flange_loads,
+    shown_load,
 )
 from beardyn_core.physics.waviness import crown_bend, wave_gap
 
@@ -138,7 +138,8 @@ def balance(lanes, block, place, axis, flight, beside, views, azimuths, opening,
     rib_deeper = rib_way[0] * move[0] + rib_way[1] * move[1] + rib_way[2] * move[2]
     rib_load = at_least(rib_force + factor * rib_stiffness * rib_deeper, 0.0)
     loads = settle_flange_loads(flanges, place, move, factor, p.motion.rate, p.kinematic.cup_radius)
-    return move, cup_load, cone_load, heaviest_flange(rib_load, loads), lever, cup_approach[0], loads
+    rib_load = shown_load(rib_load, loads, p.base.effects.flanges)
+    return move, cup_load, cone_load, rib_load, lever, cup_approach[0], loads
 
 
 @inline

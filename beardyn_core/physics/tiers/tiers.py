@@ -49,7 +49,7 @@ class Tier:
     # first load (wrench and shaft speed)
     start: Callable[[Scene, Arrangement, Any, StaticSolution, Float], State]
     # Shape of what the kernel keeps of the rollers at an instant, from that of their state
-    trend_shape: Callable[[tuple[int, ...]], tuple[int, ...]] = lambda shape: shape
+    trend_shape: Callable[[tuple[int, ...], Any], tuple[int, ...]] = lambda shape, _parameters: shape
     # Rollers at the instants from lanes, what the kernel kept, and kernel parameters
     shown: Callable[[Any, Float, Any], Any] = lambda _lanes, trend, _parameters: trend
 
