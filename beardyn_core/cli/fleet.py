@@ -129,11 +129,7 @@ def run_add(args: argparse.Namespace) -> int:
     defaults = {key: value for key, value in given.items() if value not in (None, [])}
     if "channels" in defaults:
         defaults["channels"] = ",".join(defaults["channels"])
-    defaults |= {
-        name: value
-        for name in _IDENTITY
-        if (value := getattr(args, name))
-    }
+    defaults |= {name: value for name in _IDENTITY if (value := getattr(args, name))}
     workers = core_count() if args.workers is None and not args.scheduler else args.workers
     warnings: list[str] = []
     kept = [0]
