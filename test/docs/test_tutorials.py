@@ -58,7 +58,8 @@ def test_another_word_is_found_and_another_number_is_not(
 
 
 def test_a_refusal_that_no_longer_comes_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    code = "try:\n    if {}: raise ValueError('not possible yet')\nexcept ValueError as error:\n    print(error)\n"
+    code = "try:\n    if {}: raise ValueError('not possible yet')\n"
+    code += "except ValueError as error:\n    print(error)\n"
     page = "```python\n" + code + "print('end')\n```\n\n```text\nnot possible yet\nend\n```\n"
     assert check(tmp_path, monkeypatch, page.format(True)) == 0
     assert check(tmp_path, monkeypatch, page.format(False)) == 1
