@@ -1,7 +1,8 @@
 """Run the commands of the tutorial, and write the answers into its pages: ``python docs/write_tutorials.py``.
 
 Names of pages may follow (``first_run``), else it is all of docs/tutorial. ``--check`` runs and writes
-nothing: it ends with 1 when a command fails. Blocks run in order, in one new folder a page: ``bash`` and
+nothing: it ends with 1 when a command fails, or when an answer differs from the page in its words: numbers,
+times, absolute paths and digests may differ. Blocks run in order, in one new folder a page: ``bash`` and
 ``python`` ones, the answer of each in the ``text`` block behind it if there is one; a block that begins with
 ``# NAME.py`` or ``# NAME.yaml`` becomes that file.
 """
@@ -13,6 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from difflib import SequenceMatcher
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -25,6 +27,12 @@ LONGEST_ANSWER = 40  # lines
 ONCE = re.compile(
     r"beardyn: (compiling the kernels|kernels ready|choosing (the )?effects)"
 )  # of a first run only
+
+# what differs from run to run and machine to machine; a number stands alone or before its unit
+TIME = re.compile(r"\b\d{4}-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d)?)?")
+PATH = re.compile(r"(?<![\w.~])/(?:[\w.+-]+/)+[\w.+-]*")
+DIGEST = re.compile(r"\b(?=[a-z]*\d)(?=\d*[a-f])[0-9a-f]{8,}\b")
+NUMBER = re.compile(r"(?<![\w.])[-+\u2212]?\d+(?:[.,:]\d+)*(?:e[-+]?\d+)?")
 
 
 def run(kind: str, text: str, folder: Path) -> str:
@@ -67,17 +75,46 @@ def answered(page: str, folder: Path) -> str:
     return BLOCK.sub(block, page)
 
 
+def masked(line: str) -> str:
+    """Leave of a line what is the same in every run: its words."""
+    for pattern, name in ((TIME, "TIME"), (PATH, "PATH"), (DIGEST, "DIGEST"), (NUMBER, "#")):
+        line = pattern.sub(name, line)
+    return " ".join(line.split())
+
+
+def differences(page: str, now: str) -> list[str]:
+    """List the lines of a page whose words are no longer so, and those in their place."""
+    old, new = page.splitlines(), now.splitlines()
+    told = []
+    matcher = SequenceMatcher(None, [masked(each) for each in old], [masked(each) for each in new], False)
+    for kind, first, last, begin, end in matcher.get_opcodes():
+        if kind != "equal":
+            told += [f"line {first + 1}:", *(f"- {each}" for each in old[first:last])]
+            told += [f"+ {each}" for each in new[begin:end]]
+    return told
+
+
 def main(arguments: list[str]) -> int:
     """Run the pages that are named, or all."""
     check = "--check" in arguments
     names = [each for each in arguments if each != "--check"]
+    wrong = 0
     for path in [PAGES / f"{name}.md" for name in names] or sorted(PAGES.glob("*.md")):
         with tempfile.TemporaryDirectory() as folder:
-            page = answered(path.read_text(encoding="utf-8"), Path(folder))
+            page = path.read_text(encoding="utf-8")
+            now = answered(page, Path(folder))
         if not check:
-            path.write_text(page, encoding="utf-8")
+            path.write_text(now, encoding="utf-8")
+        elif told := differences(page, now):
+            wrong += 1
+            print(
+                f"{path.name}: answers differ; run python docs/write_tutorials.py {path.stem}",
+                *told,
+                sep="\n",
+            )
+            continue
         print(f"{path.name}: every block ran")
-    return 0
+    return int(wrong > 0)
 
 
 if __name__ == "__main__":

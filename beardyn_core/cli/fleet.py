@@ -21,6 +21,15 @@ if TYPE_CHECKING:
     from beardyn_core.fleet.ranking import FleetStatus, Standing
 
 SOME_REFUSED = 3
+_IDENTITY = {
+    "vehicle": "name or number of the vehicle",
+    "axle": "name or number of the axle",
+    "side": "left or right",
+    "time": "begin of the recording, as 2026-03-01 or 2026-03-01T14:05:00, UTC without a zone",
+    "bearing": "designation of the catalogue, shipped bearing or YAML file",
+    "sensor": "accelerometer in the file",
+    "train": "whose axleboxes ride together",
+}
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -52,15 +61,9 @@ def _add_add(parts: argparse._SubParsersAction[argparse.ArgumentParser]) -> None
     add_parameter(parser, Fleet.add, "scheduler", metavar="ADDR")
     add_tls(parser)
     group = parser.add_argument_group("identity", "of every file that neither manifest nor path names")
-    for name, words in (
-        ("vehicle", "name or number of the vehicle"),
-        ("axle", "name or number of the axle"),
-        ("side", "left or right"),
-        ("bearing", "designation of the catalogue, shipped bearing or YAML file"),
-        ("sensor", "accelerometer in the file"),
-        ("train", "whose axleboxes ride together"),
-    ):
-        group.add_argument(f"--{name}", metavar="NAME", default="", help=f"{words}; default none")
+    for name, words in _IDENTITY.items():
+        metavar = "TIME" if name == "time" else "NAME"
+        group.add_argument(f"--{name}", metavar=metavar, default="", help=f"{words}; default none")
     add_json(parser)
     add_reading(parser)
     parser.set_defaults(run=run_add)
@@ -126,11 +129,7 @@ def run_add(args: argparse.Namespace) -> int:
     defaults = {key: value for key, value in given.items() if value not in (None, [])}
     if "channels" in defaults:
         defaults["channels"] = ",".join(defaults["channels"])
-    defaults |= {
-        name: value
-        for name in ("vehicle", "axle", "side", "bearing", "sensor", "train")
-        if (value := getattr(args, name))
-    }
+    defaults |= {name: value for name in _IDENTITY if (value := getattr(args, name))}
     workers = core_count() if args.workers is None and not args.scheduler else args.workers
     warnings: list[str] = []
     kept = [0]

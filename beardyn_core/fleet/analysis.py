@@ -16,6 +16,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.fleet.identity import FleetRecording
+from beardyn_core.follow.growth import NORMAL_90
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from beardyn_core.study.inspection import Inspection
 
 SHIPPED, NO_ESTIMATOR = "shipped", "none"
+_NORMAL_95 = 1.96  # standard deviations on either side of the middle that hold 95 %
 _ANALYSES = 6  # of a recording, about: many recordings count more than many analyses of one
 _LONGEST_LEVEL_S = 10.0  # of a piece whose levels are computed
 _LEAST_LEVEL_S = 0.05
@@ -48,7 +50,7 @@ class Analysis:
     stage: A[str, "of the spall; '' without a fault"] = ""
     stage_reason: A[str, "size and stage in a sentence"] = ""
     width: A[float, "of the spall, NaN where not measurable, [m]"] = nan
-    width_low: A[float, "lower end of its 95 % interval, [m]"] = nan
+    width_low: A[float, "lower end of its interval: 95 % of the monitor, 90 % of an estimator, [m]"] = nan
     width_high: A[float, "upper end, [m]"] = nan
     width_from: A[str, "``monitor`` or ``estimator``; '' without a width"] = ""
     also_fits: A[tuple[str, ...], "other parts that explain the lines as well"] = ()
@@ -64,6 +66,21 @@ class Analysis:
     evidence: A[bytes, "spectrum and waveform behind a verdict that is not healthy; see `read_evidence`"] = (
         b""
     )
+
+    @property
+    def width_deviation(self) -> float:
+        """Standard deviation of the width, NaN without a width, [m]."""
+        held = NORMAL_90 if self.width_from == "estimator" else _NORMAL_95
+        return 0.5 * (self.width_high - self.width_low) / held if np.isfinite(self.width) else nan
+
+    @property
+    def width_ends(self) -> tuple[float, float]:
+        """Ends of the 95 % interval of the width, whatever measured it, NaN without a width, [m]."""
+        if not np.isfinite(self.width):
+            return nan, nan
+        wider = _NORMAL_95 / NORMAL_90 if self.width_from == "estimator" else 1.0
+        low = self.width - wider * (self.width - self.width_low)
+        return max(low, 0.0), self.width + wider * (self.width_high - self.width)
 
 
 @dataclass(frozen=True)

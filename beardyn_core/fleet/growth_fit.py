@@ -45,7 +45,7 @@ class GrowthFit:
     misfit: A[float, "of a width by that draw, [-]"]
 
     @property
-    def is_sound(self) -> bool:
+    def is_usable(self) -> bool:
         """Whether the law can have made the widths, and enough draws say so."""
         effective = 1.0 / float(np.sum(self.weight**2))
         return effective >= _LEAST_EFFECTIVE and self.misfit <= _LARGEST_MISFIT

@@ -36,7 +36,9 @@ class HealthSettings:
     agreeing: A[int, "of them that name the same part: `plan`"] = 3
     agreeing_with_other: A[int, "the same where trend, sisters or temperature agree"] = 2
     least_confidence: A[float, "of a verdict that counts, [-]"] = 0.5
-    widest: A[float, "width that a spall may reach, at the upper end of its interval: `act`, [m]"] = 20e-3
+    widest: A[float, "width that a spall may reach, at the upper end of its 95 % interval: `act`, [m]"] = (
+        20e-3
+    )
     least_width: A[float, "or its width, or the least of it: `act`, [m]"] = 10e-3
     wide: A[int, "recordings of the bearing with such a spall, at any time"] = 2
     release: A[int, "recordings without cause, one after the other, after which an alarm ends"] = 10
@@ -327,7 +329,7 @@ def _cause(watched: _Watched, part: str, support: int, other: list[str], why: li
 def _is_wide(analysis: Analysis, settings: HealthSettings) -> bool:
     """Tell whether a spall is so wide that it must come out; a spall does not become smaller."""
     known = analysis.width if isfinite(analysis.width) else analysis.width_low
-    reaches = analysis.width_high >= settings.widest or known >= settings.least_width
+    reaches = analysis.width_ends[1] >= settings.widest or known >= settings.least_width
     return analysis.stage == SEVERE or reaches
 
 

@@ -23,6 +23,7 @@ _MEASURED = frozenset(
 )
 _YES = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False, "": False}
 _ABSENT = (None, "")
+_IDENTITY = ("vehicle", "axle", "side", "time")
 
 
 class Listed(NamedTuple):
@@ -83,13 +84,14 @@ def list_recordings(
     if manifest is not None and chosen:
         lines = [each for each in lines if each.path.resolve() in chosen]
     known = {each.path.resolve() for each in lines}
+    named_by_options = any((defaults or {}).get(key) not in _ABSENT for key in _IDENTITY)
     from_paths = []
     for given in inputs:
         for path in _measured_files(given):
             if path.resolve() in known:
                 continue
             stated = read_path.read(path) if read_path is not None else None
-            if stated is not None:
+            if stated is not None or (read_path is None and named_by_options and not lines):
                 from_paths.append(_Line(str(path), path, {"file": str(path)}))
             elif read_path is not None:
                 problems.append(
@@ -100,7 +102,8 @@ def list_recordings(
             else:
                 problems.append(
                     f"{path}: nothing names its axlebox; write {MANIFESTS[0]} in its "
-                    "folder, or give --pattern such as {vehicle}/{axle}_{side}/{date}.csv"
+                    "folder, give --pattern such as {vehicle}/{axle}_{side}/{date}.csv, or for one file "
+                    "--vehicle, --axle, --side and --time"
                 )
     lines += from_paths
     if not lines and not problems:
@@ -203,10 +206,12 @@ def _recording_of(
             found.append(f"{place}: {key} is {own} in the manifest and {value} in the path; correct one")
     cells = {**{k: v for k, v in defaults.items() if v not in _ABSENT}, **cells}
     texts = {key: str(cells.get(key, "")).strip() for key in IDENTITY_COLUMNS}
-    for key in ("vehicle", "axle", "side", "time"):
+    for key in _IDENTITY:
         if not texts[key]:
             named = "{date}" if key == "time" else f"{{{key}}}"
-            found.append(f"{place}: {key} is missing; give it in the manifest, or as {named} of --pattern")
+            found.append(
+                f"{place}: {key} is missing; give it in the manifest, as {named} of --pattern, or as --{key}"
+            )
     side = SIDES.get(texts["side"].lower(), "")
     if texts["side"] and not side:
         found.append(f"{place}: side is {texts['side']!r}; it must be left or right")

@@ -18,7 +18,6 @@ from beardyn_core.follow.growth import ASSUMED_LAW, GrowthLaw, PowerLaw, other_l
 
 _FEWEST = 3  # widths
 _MOST = 120  # widths that are taken, spread over all
-_NORMAL_95 = 1.96
 _SCATTER = 0.08  # of a width in addition to its interval, relative: the spall is not a rectangle; assumed
 _LEAST_LIKELY = 0.05  # of the law that explains the widths best: one that is less likely does not agree
 _DAYS = 86_400.0  # [s]
@@ -136,7 +135,7 @@ def judge_mileage(history: Sequence[Stored], part: str, law: GrowthLaw | None = 
             LawMileage(
                 name,
                 name == ASSUMED_LAW,
-                fit.is_sound and fit.likelihood >= best + log(_LEAST_LIKELY),
+                fit.is_usable and fit.likelihood >= best + log(_LEAST_LIKELY),
                 distance,
                 _dates(last.time, distance, pace),
             )
@@ -167,8 +166,8 @@ def _widths(known: Sequence[Stored]) -> Widths:
     taken = [known[int(place)] for place in chosen]
     mileage = np.array([each.mileage for each in taken])
     width = np.array([each.analysis.width for each in taken])
-    half = np.array([0.5 * (each.analysis.width_high - each.analysis.width_low) for each in taken])
-    return Widths(mileage - mileage[0], width, np.hypot(half / _NORMAL_95, _SCATTER * width))
+    deviation = np.array([each.analysis.width_deviation for each in taken])
+    return Widths(mileage - mileage[0], width, np.hypot(deviation, _SCATTER * width))
 
 
 def _distance(law: GrowthLaw | PowerLaw, fit: GrowthFit, since: float) -> Triple:

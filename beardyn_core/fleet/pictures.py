@@ -55,7 +55,7 @@ def draw_health(axes: Axes, points: Sequence[HealthPoint]) -> None:
 
 
 def draw_widths(axes: Axes, standing: Standing) -> None:
-    """Draw the measured widths over mileage, or over time where no mileage is known."""
+    """Draw the measured widths with 95 % intervals over mileage, or over time where no mileage is known."""
     known = [
         each
         for each in standing.history
@@ -66,7 +66,7 @@ def draw_widths(axes: Axes, standing: Standing) -> None:
         axes.set(xlabel="mileage, 1000 km", ylabel="width of the spall, mm")
         return
     width = np.array([1e3 * each.analysis.width for each in known])
-    ends = np.array([[1e3 * each.analysis.width_low, 1e3 * each.analysis.width_high] for each in known]).T
+    ends = np.array([[1e3 * end for end in each.analysis.width_ends] for each in known]).T
     mileage = np.array([each.mileage for each in known])
     has_mileage = bool(np.isfinite(mileage).all())
     place: Any = mileage / 1e6 if has_mileage else _dates(known)

@@ -112,7 +112,7 @@ def _made(row: Row, scenes: SweepScenes) -> tuple[Made, dict[str, Array], dict[s
     features: dict[str, Any] = {**dict.fromkeys(NAMES, float("nan")), VERDICT: ""}
     try:
         scene = scenes.scene(row)
-        labels["bearing_id"] = bearing_name(scene)
+        labels |= {"bearing_id": bearing_name(scene), "bearing_kind": scene.bearing.kind}
         run = simulated(scene)
         complete = run.status == DONE
         labels |= {"status": DONE if complete else FAILED, "reason": "" if complete else run.status}

@@ -7,16 +7,21 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from beardyn_core.base.edge import write_noun
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.population.difficulty import card_lines
 from beardyn_core.population.sweep_scenes import SweepScenes
 from beardyn_core.population.table import unit_in
 
+_MODELLED = {
+    Bearing.kind: "a double-row tapered roller bearing",
+    CylindricalBearing.kind: "a pair of cylindrical roller bearings",
+}
 _LIMITS = (
-    "Every run is simulated by a model of a double-row tapered roller bearing in an axlebox. What the model "
-    "leaves out is not in the signals; `docs/evidence/validation.md` and `docs/evidence/learner.md` of "
-    "beardyn state how far they agree with measurements. A learner that is good on this set is not therefore "
-    "good on a railway.",
+    "What the model leaves out is not in the signals; `docs/evidence/validation.md` and "
+    "`docs/evidence/learner.md` of beardyn state how far they agree with measurements. "
+    "A learner that is good on this set is not therefore good on a railway.",
     "The distributions are those of the sweep above: they are what was wanted, and not how often it is "
     "so in service.",
     "Failed runs stand in the table with their sentence; their signals end early, and are NaN from there on.",
@@ -85,10 +90,17 @@ def card_text(scenes: SweepScenes, about: Mapping[str, Any], rows: Sequence[Mapp
         *card_lines(about["difficulty"]),
         "## Known limits",
         "",
+        f"- Every run is simulated by a model of {_modelled(rows)} in an axlebox.",
         *(f"- {limit}" for limit in _LIMITS),
         "",
     ]
     return "\n".join(lines)
+
+
+def _modelled(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Name the kinds of bearing of a set; of runs that never had a scene the kind is not known."""
+    kinds = {row.get("bearing_kind") for row in rows}
+    return " or ".join(words for kind, words in _MODELLED.items() if kind in kinds) or "a bearing"
 
 
 def _sweep(scenes: SweepScenes) -> dict[str, Any]:

@@ -7,7 +7,7 @@ out of every run anyway, so they cost less than a second.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import isfinite, nan
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -42,7 +42,7 @@ def difficulty_of(
         condition but the healthy one the area under the ROC curve against healthy runs by the best single
         feature, and which.
         ``linear``: share of runs that a linear rule of all features names right, learnt from other bearings
-        in five parts; NaN of one bearing. ``chance``: the same by naming the most frequent condition.
+        in five parts; ``None`` of one bearing. ``chance``: the same by naming the most frequent condition.
 
     References
     ----------
@@ -73,13 +73,13 @@ def difficulty_line(found: Mapping[str, Any] | None) -> str:
     alarms = found["monitor"].get(HEALTHY)
     wrong = "" if alarms is None else f", false alarms in {_percent(1.0 - alarms['right'])} of healthy ones"
     linear = found["linear"]
-    if not isfinite(linear):
+    if linear is None:
         apart = "all runs are of one bearing"
     else:
         skill = "; a learner near 100 % shows no skill on it" if linear >= _EASY else ""
         share = f"{_percent(linear)} of all {found['runs']} runs"
         apart = f"a linear rule that learns from other bearings names {share}{skill}"
-    word = "an easy set" if isfinite(linear) and linear >= _EASY else "difficulty"
+    word = "an easy set" if linear is not None and linear >= _EASY else "difficulty"
     return f"{word}: the shipped monitor names the part in {_percent(named)} of faulty runs{wrong}; {apart}"
 
 
@@ -146,7 +146,7 @@ def _area(one: Float, other: Float) -> float:
     return float(max(area, 1.0 - area))
 
 
-def _linear_rule(conditions: Any, values: Float, bearings: Any, seed: int) -> dict[str, float]:
+def _linear_rule(conditions: Any, values: Float, bearings: Any, seed: int) -> dict[str, float | None]:
     """Name every run by a linear discriminant that has learnt from other bearings."""
     counts = np.unique(conditions, return_counts=True)[1]
     known = np.random.default_rng(seed).permutation(np.unique(bearings))
@@ -154,7 +154,7 @@ def _linear_rule(conditions: Any, values: Float, bearings: Any, seed: int) -> di
     for part in np.array_split(known, min(_FOLDS, len(known))):
         tested = np.isin(bearings, part)
         if tested.all():
-            return {"linear": nan, "chance": float(counts.max() / counts.sum())}
+            return {"linear": None, "chance": float(counts.max() / counts.sum())}
         right[tested] = conditions[tested] == _discriminate(
             conditions[~tested], values[~tested], values[tested]
         )

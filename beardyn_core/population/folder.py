@@ -41,7 +41,8 @@ def read_about(folder: Path) -> dict[str, Any]:
         The folder is no set.
     """
     try:
-        found = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
+        # earlier versions wrote NaN, which is no JSON
+        found = plain(json.loads((folder / ABOUT).read_text(encoding="utf-8")))
     except FileNotFoundError:
         raise InputError(
             f"{folder}: is no set of runs: it has no {ABOUT}; `beardyn sweep` makes one"
@@ -119,7 +120,7 @@ def begin(folder: Path, scenes: SweepScenes, *, fresh: bool) -> dict[str, Any]:
 
 def write_about(folder: Path, about: dict[str, Any]) -> None:
     """Write what a set says about itself."""
-    write_whole(folder / ABOUT, json.dumps(about, indent=1, default=str) + "\n")
+    write_whole(folder / ABOUT, json.dumps(plain(about), indent=1, allow_nan=False) + "\n")
 
 
 def done_rows(folder: Path) -> dict[int, dict[str, Any]]:

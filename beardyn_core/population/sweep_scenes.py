@@ -12,6 +12,7 @@ from typing import Any
 
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError
+from beardyn_core.base.plain_json import plain
 from beardyn_core.choice.load import choice_for, complete_scene
 from beardyn_core.choice.trial import together
 from beardyn_core.config.folders import find
@@ -106,7 +107,7 @@ class SweepScenes:
             sweep.pop(key, None)
         if self.sweep.extends:
             sweep.pop("runs", None)
-        found: dict[str, Any] = json.loads(json.dumps({**sweep, "base": self.base}, default=str))
+        found: dict[str, Any] = plain({**sweep, "base": self.base})  # as the file has it, to be compared
         return found
 
 

@@ -162,3 +162,21 @@ def test_a_file_that_cannot_be_read_is_refused_and_the_others_are_added(
     assert json.loads(out)["added"] == 3
     assert "not added" in err
     assert lines[0]["file"] in err
+
+
+def test_one_file_is_added_by_options_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    line = write_files(tmp_path / "own", 1, FAULTY)[2]
+    (tmp_path / "own" / "manifest.csv").unlink()
+    store = tmp_path / "fleet.sqlite"
+    words = ["--vehicle", "V1", "--axle", 2, "--side", "left", "--bearing", line["bearing"], "--unit", "m/s2"]
+    words += ["--rate-hz", line["rate_Hz"], "--channel", "z=z", "--tacho-channel", "tacho"]
+    words = ["add", tmp_path / "own" / line["file"], "--store", store, *words, "--estimator", "none"]
+    code, _, err = fleet(capsys, *words)
+    assert code == 2
+    assert "time is missing" in err
+    assert "nothing names" not in err
+    code, out, err = fleet(capsys, *words, "--time", "2026-03-01T10:00:00", "--workers", 1)
+    assert (code, "1 recordings added" in out) == (0, True), err
+    (box,) = json.loads(fleet(capsys, "status", "--store", store, "--json")[1])["axleboxes"]
+    assert (box["axle"], box["last_verdict"]) == ("2", "cup")
+    assert datetime.fromtimestamp(box["last_recording_s"], UTC) == datetime(2026, 3, 1, 10, tzinfo=UTC)

@@ -54,7 +54,7 @@ def test_many_exact_widths_leave_draws_that_count(count: int) -> None:
     at = until(LAW, 16e-3, count)
     width = grown(LAW, at)
     fit = fit_growth(LAW, LAW, Widths(at, width, np.maximum(0.03 * width, 2e-4)))
-    assert fit.is_sound
+    assert fit.is_usable
     low, middle, high = fit.quantiles(fit.begin / fit.across, (0.05, 0.5, 0.95))
     assert low < FIRST < high
     assert middle == pytest.approx(FIRST, rel=0.1)
@@ -68,7 +68,7 @@ def test_the_law_that_a_spall_grows_by_explains_its_widths(name: str) -> None:
     deviation = 0.02 * true
     widths = Widths(at, true + random.normal(0.0, deviation), deviation)
     fits = {each: fit_growth(LAWS[each], LAW, widths) for each in LAWS}
-    assert fits[name].is_sound
+    assert fits[name].is_usable
     best = max(fits.values(), key=lambda each: each.likelihood)
     assert fits[name].likelihood >= best.likelihood + np.log(0.05)
     far = {"linear": "exponential", "exponential": "linear"}.get(name)

@@ -86,6 +86,16 @@ def test_a_file_that_nothing_names_is_refused_or_told(tmp_path: Path) -> None:
     assert "b.csv" in listed.warnings[0]
 
 
+def test_options_name_one_file_and_what_they_lack_is_named(tmp_path: Path) -> None:
+    files(tmp_path, "a.csv")
+    own = {"vehicle": "W1", "axle": "1", "side": "left"}
+    (told,) = problems_of(tmp_path / "a.csv", defaults=own)
+    assert "time is missing" in told
+    assert told.endswith("or as --time")
+    (found,) = list_recordings([tmp_path / "a.csv"], defaults={**own, "time": "2026-03-01"}).recordings
+    assert (found.axlebox, found.time) == (Axlebox("W1", "1", "left"), read_time("2026-03-01"))
+
+
 def test_manifest_and_path_that_contradict_are_refused(tmp_path: Path) -> None:
     files(tmp_path, "V1/1_left/2026-03-01.csv")
     (tmp_path / "manifest.csv").write_text("file,axle,side\nV1/1_left/2026-03-01.csv,2,L\n")

@@ -12,7 +12,7 @@ import pytest
 
 from beardyn_core.population.difficulty import card_lines, difficulty_line, difficulty_of
 from beardyn_core.population.features import TRANSFERABLE, VERDICT
-from beardyn_core.population.folder import ABOUT, CARD, read_about
+from beardyn_core.population.folder import ABOUT, CARD, read_about, write_about
 from beardyn_core.population.labelled_set import LabelledSet
 from beardyn_core.population.table import FEATURES
 
@@ -126,3 +126,24 @@ def test_a_set_states_its_difficulty(made: tuple[Path, Any]) -> None:
     assert (folder / ABOUT).is_file()
     if found is not None:
         assert sum(each["runs"] for each in found["monitor"].values()) == len(opened.runs_of(None))
+
+
+def test_a_set_of_one_bearing_is_strict_json_and_says_so(tmp_path: Path) -> None:
+    rows, features = runs(0.1)
+    found = difficulty_of([{**row, "bearing_id": "b0"} for row in rows], features)
+    assert found is not None
+    about = {"format": 1, "difficulty": found, "unknown": float("nan"), "folder": tmp_path}
+    write_about(tmp_path, about)
+
+    def refused(name: str) -> None:
+        raise AssertionError(f"{name} is no JSON")
+
+    written = json.loads((tmp_path / ABOUT).read_text(), parse_constant=refused)
+    assert written["difficulty"]["linear"] is None
+    # a set of an earlier version
+    text = (tmp_path / ABOUT).read_text().replace('"linear": null', '"linear": NaN')
+    assert "NaN" in text
+    (tmp_path / ABOUT).write_text(text)
+    for each in (found, read_about(tmp_path)["difficulty"]):
+        assert difficulty_line(each).endswith("all runs are of one bearing")
+        assert any("discriminant" in line for line in card_lines(each))

@@ -19,10 +19,12 @@ import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.experiments.loop import Progress
-from beardyn_core.population.batch import Array, Made
+from beardyn_core.population.batch import Array, Made, run_batch
+from beardyn_core.population.data_card import card_text
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.features import NAMES, VERDICT
 from beardyn_core.population.finalizing import verify
+from beardyn_core.population.folder import read_about
 from beardyn_core.population.signal_store import SignalStore
 from beardyn_core.population.table import write_table
 from test.population.sweeps import planned
@@ -42,6 +44,7 @@ def test_a_set_is_what_the_runs_are(made: tuple[Path, list[Progress]]) -> None:
     np.testing.assert_allclose(runs.signals.time_vibration, alone.vibration.time)
     own = runs.table.iloc[1]
     assert own["condition"] == alone.labels["condition"]
+    assert own["bearing_kind"] == "tapered"
     assert own["load_fz_N_mean"] == pytest.approx(alone.labels["load_fz_N_mean"])
     assert own["status"] == "complete"
     assert runs.units["load_fz_N_mean"] == "N"
@@ -116,6 +119,7 @@ def test_the_card_says_what_how_and_for_what_not(made: tuple[Path, list[Progress
         "beardyn",
         "| seed | 1 |",
         "Known limits",
+        "model of a double-row tapered roller bearing in an axlebox",
     ):
         assert said in card
     assert "defects[0].width_mm` | mm" in card
@@ -208,3 +212,36 @@ def test_a_set_bigger_than_the_memory_streams_where_it_cannot_be_loaded(tmp_path
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run(words, env=environment, capture_output=True, text=True)
     assert done.stdout == "400 does not fit\n", done.stderr
+
+
+@pytest.mark.parametrize(
+    ("kinds", "words"),
+    [
+        (["tapered"], "of a double-row tapered roller bearing in"),
+        (["cylindrical"], "of a pair of cylindrical roller bearings in"),
+        (
+            ["cylindrical", "tapered"],
+            "of a double-row tapered roller bearing or a pair of cylindrical roller bearings in",
+        ),
+    ],
+)
+def test_the_card_names_the_kinds_of_bearing_of_the_set(
+    made: tuple[Path, list[Progress]], kinds: list[str], words: str
+) -> None:
+    about = read_about(made[0])
+    rows = [
+        {"bearing_id": f"b{k}", "condition": "cup", "bearing_kind": kinds[k % len(kinds)]} for k in range(4)
+    ]
+    given = {"run": 5, "bearing_id": "", "condition": None}  # gave up before it had a scene
+    assert f"by a model {words} an axlebox." in card_text(planned(), about, [*rows, given])
+
+
+@pytest.mark.slow  # kernels of pairs are compiled
+def test_a_run_of_a_cylindrical_pair_is_labelled_so() -> None:
+    plan = planned(
+        scene="freight_cylindrical", runs=1,
+        vary=[{"key": "temperature_C", "kind": "uniform", "low": 50, "high": 60}],
+        set={"tier": "lumped", "effects": "standard", "duration_s": 0.05},
+    )  # fmt: skip
+    (made,) = run_batch(rows_of(plan.sweep), plan)
+    assert (made.labels["status"], made.labels["bearing_kind"]) == ("complete", "cylindrical")
