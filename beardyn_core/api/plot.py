@@ -34,7 +34,8 @@ _AXES = ("x", "y", "z")
 _SEGMENT_S = 1.0  # of the parts of a spectrum, which then has lines of 1 Hz
 _SPEEDING = 1.05  # fastest over slowest speed from which a run is drawn over its speed
 _SAME_SPEED = 2e-3  # of the fastest, below which two segments are drawn as one
-_PLAYS_MM = tuple(np.round(np.linspace(-0.1, 0.3, 9), 3).tolist())
+_END_PLAYS_MM = tuple(np.round(np.linspace(-0.1, 0.3, 9), 3).tolist())
+_CLEARANCES_MM = tuple(np.round(np.linspace(0.0, 0.24, 9), 3).tolist())
 _SPEEDS_RPM = tuple(np.linspace(100.0, 1500.0, 15).tolist())
 
 
@@ -250,18 +251,22 @@ def stiffness_curve(
     bearing: RollerBearing | str,
     load_kN: Load = 80.0,
     *,
-    end_play_mm: Sequence[float] = _PLAYS_MM,
+    end_play_mm: float | Sequence[float] | None = None,
+    radial_clearance_mm: Sequence[float] | None = None,
     ax: Axes | None = None,
     **options: Any,
 ) -> Axes:
-    """Plot the stiffness of a bearing along x, y and z against its end play, negative for preload.
+    """Plot the stiffness of a bearing along x, y and z against its end play or its radial clearance.
 
     Parameters
     ----------
     bearing, load_kN
         See `equilibrium`.
-    end_play_mm : sequence of float
-        With ``radial_clearance_mm=[...]`` in the options the stiffness is plotted against that.
+    end_play_mm : sequence of float, optional
+        Negative for preload. Default -0.1 to 0.3 of tapered bearings. A number where the stiffness is plotted
+        against ``radial_clearance_mm``.
+    radial_clearance_mm : sequence of float, optional
+        Of cylindrical and spherical bearings, default 0 to 0.24.
     ax : axes, optional
     **options
         Of `beardyn_core.stiffness`.
@@ -270,15 +275,23 @@ def stiffness_curve(
     -------
     matplotlib.axes.Axes
     """
+    from beardyn_core.api.making import bearing as bearing_of
     from beardyn_core.api.statics import stiffness
+    from beardyn_core.bearing.geometry import Bearing
 
     draw = _drawing()
-    clearance = options.pop("radial_clearance_mm", None)
-    name, values = ("end_play_mm", end_play_mm) if clearance is None else ("radial_clearance_mm", clearance)
+    given: dict[str, Any] = {"end_play_mm": end_play_mm, "radial_clearance_mm": radial_clearance_mm}
+    given = {key: value for key, value in given.items() if value is not None}
+    if given:
+        name, values = list(given.items())[-1]
+    elif isinstance(bearing_of(bearing), Bearing):
+        name, values = "end_play_mm", _END_PLAYS_MM
+    else:
+        name, values = "radial_clearance_mm", _CLEARANCES_MM
     if np.ndim(values) != 1 or len(values) < 2:
         raise InputError(f"{name} is {values!r}; give two numbers or more")
-    options[name] = list(values)
-    found = np.asarray(stiffness(bearing, load_kN, **options))
+    given[name] = list(values)
+    found = np.asarray(stiffness(bearing, load_kN, **given, **options))
     place = draw.cartesian(ax)
     words = f"{name.removesuffix('_mm').replace('_', ' ')} [mm]"
     draw.draw_stiffness(place, np.asarray(values), 1e-6 * np.diagonal(found, axis1=1, axis2=2), words)

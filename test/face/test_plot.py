@@ -155,6 +155,28 @@ def test_curves_are_the_answers_of_statics() -> None:
     assert clear.get_xlabel() == "radial clearance [mm]"
 
 
+@pytest.mark.parametrize("name", [BEARING, "WJ130x240", "SRB120x260"])
+def test_a_stiffness_curve_of_any_kind_is_over_its_own_play(name: str) -> None:
+    axes = bd.plot.stiffness_curve(name)
+    play, stiffness = data_of(axes.lines[2])
+    key = "end_play_mm" if name == BEARING else "radial_clearance_mm"
+    assert axes.get_xlabel() == f"{key.removesuffix('_mm').replace('_', ' ')} [mm]"
+    for place in (0, len(play) - 1):
+        again: Any = bd.stiffness(name, 80, **{key: float(play[place])})  # type: ignore[arg-type]
+        assert stiffness[place] == pytest.approx(1e-6 * again[2, 2], rel=1e-9)
+
+
+def test_a_curve_over_the_radial_clearance_keeps_an_end_play_that_is_given() -> None:
+    clearances = [0.05, 0.15]
+    with_play = bd.plot.stiffness_curve(
+        "WJ130x240", (0, 10, 60), radial_clearance_mm=clearances, end_play_mm=0.3
+    )
+    expected = bd.stiffness("WJ130x240", (0, 10, 60), radial_clearance_mm=clearances, end_play_mm=0.3)
+    np.testing.assert_allclose(data_of(with_play.lines[1])[1], 1e-6 * expected[:, 1, 1])
+    with pytest.raises(bd.InputError, match="end_play_mm is a sequence"):
+        bd.plot.stiffness_curve("WJ130x240", radial_clearance_mm=clearances, end_play_mm=[0.2, 0.3])
+
+
 def test_recordings_and_measured_files_are_plotted(run: bd.Run, tmp_path: Path) -> None:
     source = tmp_path / "motor.csv"
     run.to_csv(source)
