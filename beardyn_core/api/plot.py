@@ -7,6 +7,7 @@ Every function takes ``ax=None``, axes to draw on, and draws on new ones otherwi
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -117,9 +118,7 @@ def spectrum(
     chosen = [name for name in _AXES if name in axes and known[_AXES.index(name)]]
     if not chosen:
         raise InputError(f"axes is {axes!r}; the run has {', '.join(np.array(_AXES)[known])}")
-    shown = slice(
-        1, None if highest_Hz is None else int(np.searchsorted(frequency, highest_Hz, side="right"))
-    )
+    shown = _lines_up_to(frequency, highest_Hz)
     place = draw.cartesian(ax)
     densities = {name: np.sqrt(power[shown, _AXES.index(name)]) for name in chosen}
     draw.draw_spectrum(place, frequency[shown], densities)
@@ -234,8 +233,8 @@ def waterfall(
         )
     frequency, moment, power = spectrogram(values, signal.rate, nperseg=length, noverlap=length // 2)
     moment = moment + float(signal.time[0])
-    last = len(frequency) if highest_Hz is None else int(np.searchsorted(frequency, highest_Hz, side="right"))
-    density, frequency = np.sqrt(power[1:last].T), frequency[1:last]
+    shown = _lines_up_to(frequency, highest_Hz)
+    density, frequency = np.sqrt(power[shown].T), frequency[shown]
     rpm = _mean_rpm(run, moment, segment_s)
     place, label = moment, "time [s]"
     kept = None if rpm is None else _places_of_run_up(rpm)
@@ -371,6 +370,15 @@ def _heard(source: Run | Path | str, bearing: RollerBearing | NamePlate | str | 
 
     run, plate, sensor = heard_of(source, bearing, sensor)
     return _Heard(run, _vibration(run, sensor), plate.frequencies)
+
+
+def _lines_up_to(frequency: Float, highest_Hz: float | None) -> slice:
+    """Choose the lines of a spectrum to draw, without the one at 0 Hz; refuse an end below the first."""
+    if highest_Hz is None:
+        return slice(1, None)
+    if not isinstance(highest_Hz, Real) or not highest_Hz >= frequency[1]:
+        raise InputError(f"highest_Hz is {highest_Hz!r}; give a frequency of {frequency[1]:.3g} Hz or more")
+    return slice(1, int(np.searchsorted(frequency, highest_Hz, side="right")))
 
 
 def _orders(frequencies: FaultFrequencies) -> Mapping[str, float]:

@@ -118,11 +118,31 @@ def test_a_derived_bearing_that_is_saved_loads_again_the_same(
         assert getattr(back, name) == pytest.approx(getattr(bearing, name), rel=1e-15)
 
 
-def test_a_lubricant_and_a_scene_are_saved_too(tmp_path: Path) -> None:
+def test_lubricant_bearing_data_and_scene_are_saved_too(tmp_path: Path) -> None:
     oil = bd.lubricant("L055")
     assert bd.lubricant(bd.save(oil, tmp_path / "oil.yaml")) == oil
+    data = bd.name_plate("6205-2RS JEM")
+    assert bd.name_plate(bd.save(data, tmp_path / "data.yaml")) == data
     scene = bd.scene("static_80kN", effects="standard", tier="quasistatic")
     assert bd.scene(bd.save(scene, tmp_path / "scene.yaml")) == scene
+
+
+@pytest.mark.parametrize(
+    ("noun", "said"),
+    [
+        ("HS130x230", r"the name 'HS130x230'; `beardyn new` copies a shipped file, and bd\.bearing\(name\)"),
+        (bd.Run.of_blocks([]), r"a Run; its bearing is run\.bearing"),
+        ({"bearing": "HS130x230"}, "a dict; save takes a bearing"),
+        (None, "a NoneType; save takes a bearing"),
+    ],
+)
+def test_what_cannot_be_saved_is_named_and_leaves_no_file(noun: Any, said: str, tmp_path: Path) -> None:
+    with pytest.raises(bd.InputError, match=said) as error:
+        bd.save(noun, tmp_path / "mine.txt")
+    assert len(error.value.problems) == 2  # the ending too
+    with pytest.raises(bd.InputError, match=said):
+        bd.save(noun, tmp_path / "mine.yaml")
+    assert not list(tmp_path.iterdir())
 
 
 def test_saving_replaces_nothing_unasked(tmp_path: Path) -> None:

@@ -118,6 +118,8 @@ def test_a_spectrum_has_the_power_of_the_signal(run: bd.Run) -> None:
     short = bd.plot.spectrum(run, axes="xz", highest_Hz=2000)
     assert len(short.lines) == 2
     assert short.get_xlim()[1] <= 2000
+    np.testing.assert_allclose(data_of(bd.plot.spectrum(run, axes="z", highest_Hz=1).lines[0])[0], [1.0])
+    assert bd.plot.waterfall(run, highest_Hz=5).collections
 
 
 def test_an_envelope_spectrum_peaks_at_the_fault_and_names_its_lines(run: bd.Run) -> None:
@@ -162,7 +164,8 @@ def test_a_stiffness_curve_of_any_kind_is_over_its_own_play(name: str) -> None:
     key = "end_play_mm" if name == BEARING else "radial_clearance_mm"
     assert axes.get_xlabel() == f"{key.removesuffix('_mm').replace('_', ' ')} [mm]"
     for place in (0, len(play) - 1):
-        again: Any = bd.stiffness(name, 80, **{key: float(play[place])})  # type: ignore[arg-type]
+        own: dict[str, Any] = {key: float(play[place])}
+        again = bd.stiffness(name, 80, **own)
         assert stiffness[place] == pytest.approx(1e-6 * again[2, 2], rel=1e-9)
 
 
@@ -195,8 +198,12 @@ def test_what_cannot_be_drawn_is_answered_in_a_sentence(run: bd.Run) -> None:
         (lambda: bd.plot.spectrum(run, sensor="roof"), "no sensor 'roof'"),
         (lambda: bd.plot.load_zone(run, at=5.0), "at is 5"),
         (lambda: bd.plot.waterfall(run, segment_s=9.0), "segment_s"),
+        (lambda: bd.plot.waterfall(run, highest_Hz=-5), "highest_Hz is -5; give a frequency of 5 Hz"),
+        (lambda: bd.plot.waterfall(run, highest_Hz=4.9), "highest_Hz is 4.9"),
+        (lambda: bd.plot.spectrum(run, highest_Hz=0), "highest_Hz is 0; give a frequency of 1 Hz"),
+        (lambda: bd.plot.spectrum(run, highest_Hz=float("nan")), "highest_Hz is nan"),
         (lambda: bd.plot.envelope_spectrum(run, harmonics=0), "harmonics is 0"),
-        (lambda: bd.plot.stiffness_curve(BEARING, end_play_mm=0.1), "two numbers or more"),  # type: ignore[arg-type]
+        (lambda: bd.plot.stiffness_curve(BEARING, end_play_mm=0.1), "two numbers or more"),
     ):
         with pytest.raises(bd.InputError, match=said):
             call()
