@@ -165,15 +165,17 @@ def envelope_spectrum(
     draw = _drawing()
     if harmonics < 1:
         raise InputError(f"harmonics is {harmonics}; give 1 or more")
-    heard = _heard(source, bearing, sensor)
-    orders = _orders(heard.frequencies)
+    measured = _bearing_signal(source, bearing, sensor)
+    orders = _orders(measured.frequencies)
     highest = (harmonics + 0.3) * max(value for value in orders.values() if np.isfinite(value))
-    signal = heard.signal
+    signal = measured.signal
     known = np.isfinite(signal.values).all(axis=0)
-    found = envelope_order_spectrum(replace(signal, values=signal.values[:, known]), heard.run.shaft, highest)
+    found = envelope_order_spectrum(
+        replace(signal, values=signal.values[:, known]), measured.run.shaft, highest
+    )
     if found is None:
         raise InputError(
-            f"{heard.run.label}: no envelope spectrum; the shaft must turn four times or more, one way"
+            f"{measured.run.label}: no envelope spectrum; the shaft must turn four times or more, one way"
         )
     place = draw.cartesian(ax)
     draw.draw_envelope_spectrum(place, found.order, found.level, orders, harmonics)
@@ -218,8 +220,8 @@ def waterfall(
         raise InputError(f"axis is {axis!r}; allowed are x, y, z")
     run = _run(source)
     try:
-        heard = _heard(run, bearing, sensor)
-        signal, orders = heard.signal, _orders(heard.frequencies)
+        measured = _bearing_signal(run, bearing, sensor)
+        signal, orders = measured.signal, _orders(measured.frequencies)
     except InputError:
         if bearing is not None:
             raise
@@ -331,7 +333,7 @@ def torque_curve(
     return place
 
 
-class _Heard(NamedTuple):
+class _BearingSignal(NamedTuple):
     """Vibration of a run and the frequencies of its bearing."""
 
     run: Run
@@ -365,11 +367,13 @@ def _vibration(run: Run, sensor: str) -> Signal:
     return signal
 
 
-def _heard(source: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str) -> _Heard:
+def _bearing_signal(
+    source: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str
+) -> _BearingSignal:
     from beardyn_core.api.reading import heard_of
 
     run, plate, sensor = heard_of(source, bearing, sensor)
-    return _Heard(run, _vibration(run, sensor), plate.frequencies)
+    return _BearingSignal(run, _vibration(run, sensor), plate.frequencies)
 
 
 def _lines_up_to(frequency: Float, highest_Hz: float | None) -> slice:
