@@ -10,10 +10,11 @@ from collections.abc import Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beardyn_core.api.plot_sources import bearing_signal, rollers_on_cup, run_from, vibration_of
 from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.physics.statics.static import StaticSolution
-    from beardyn_core.record.arrays import Signal
     from beardyn_core.record.run import Run
 
 __all__ = ["envelope_spectrum", "load_zone", "spectrum", "stiffness_curve", "torque_curve", "waterfall"]
@@ -70,7 +70,7 @@ def load_zone(
         The run has no contacts, as a measured one.
     """
     draw = _drawing()
-    azimuth, load, stress = _rollers(source, at)
+    azimuth, load, stress = rollers_on_cup(source, at)
     values = (
         (stress * 1e-9, "Hertz pressure on the cup", "GPa") if pressure else (load * 1e-3, "Load zone", "kN")
     )
@@ -92,7 +92,8 @@ def spectrum(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording.
+        Simulated or measured run, a recording, or a measured file that states its rate and unit. What a file
+        lacks is given to `read_measured`.
     axes : str
         Of the accelerometer, such as ``z``; those that were not measured are left out.
     sensor : str, optional
@@ -111,7 +112,7 @@ def spectrum(
     draw = _drawing()
     if not axes or set(axes) - set(_AXES):
         raise InputError(f"axes is {axes!r}; give one or more of x, y and z")
-    signal = _vibration(_run(source), sensor)
+    signal = vibration_of(run_from(source), sensor)
     length = min(len(signal), round(_SEGMENT_S * signal.rate))
     frequency, power = welch(np.nan_to_num(signal.values), signal.rate, nperseg=length, axis=0)
     known = np.asarray(np.isfinite(signal.values).all(axis=0))
@@ -138,7 +139,7 @@ def envelope_spectrum(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording, with vibration and shaft angle.
+        As of `spectrum`, with vibration and shaft angle.
     bearing : bearing, NamePlate or str, optional
         By default that of the run.
     sensor : str, optional
@@ -165,7 +166,13 @@ def envelope_spectrum(
     draw = _drawing()
     if harmonics < 1:
         raise InputError(f"harmonics is {harmonics}; give 1 or more")
-    measured = _bearing_signal(source, bearing, sensor)
+    run = run_from(source)
+    if len(run.shaft) < 2:
+        raise InputError(
+            f"{run.label}: has no speed of the shaft; bd.read_measured(file, speed_rpm=...) reads a measured "
+            "file with it"
+        )
+    measured = bearing_signal(run, bearing, sensor)
     orders = _orders(measured.frequencies)
     highest = (harmonics + 0.3) * max(value for value in orders.values() if np.isfinite(value))
     signal = measured.signal
@@ -197,7 +204,7 @@ def waterfall(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording.
+        As of `spectrum`.
     axis : str
         ``x``, ``y`` or ``z`` of the accelerometer.
     sensor, bearing : optional
@@ -218,14 +225,14 @@ def waterfall(
     draw = _drawing()
     if axis not in _AXES:
         raise InputError(f"axis is {axis!r}; allowed are x, y, z")
-    run = _run(source)
+    run = run_from(source)
     try:
-        measured = _bearing_signal(run, bearing, sensor)
+        measured = bearing_signal(run, bearing, sensor)
         signal, orders = measured.signal, _orders(measured.frequencies)
     except InputError:
         if bearing is not None:
             raise
-        signal, orders = _vibration(run, sensor), {}
+        signal, orders = vibration_of(run, sensor), {}
     values = signal.values[:, _AXES.index(axis)]
     length = round(segment_s * signal.rate)
     if not np.isfinite(values).all() or not 16 <= length <= len(values):
@@ -333,14 +340,6 @@ def torque_curve(
     return place
 
 
-class _BearingSignal(NamedTuple):
-    """Vibration of a run and the frequencies of its bearing."""
-
-    run: Run
-    signal: Signal
-    frequencies: FaultFrequencies
-
-
 def _drawing() -> ModuleType:
     """Import what draws."""
     from beardyn_core.base.optional import library
@@ -349,31 +348,6 @@ def _drawing() -> ModuleType:
     from beardyn_core.study import plot_axes
 
     return plot_axes
-
-
-def _run(source: Run | Path | str) -> Run:
-    from beardyn_core.record.reading import read_run
-    from beardyn_core.record.run import Run
-
-    return source if isinstance(source, Run) else read_run(source)
-
-
-def _vibration(run: Run, sensor: str) -> Signal:
-    if sensor and sensor not in run.sensors:
-        raise InputError(f"{run.label}: has no sensor {sensor!r}; it has {', '.join(run.sensors)}")
-    signal = run.sensors[sensor] if sensor else run.vibration
-    if len(signal) < 16:
-        raise InputError(f"{run.label}: has no vibration")
-    return signal
-
-
-def _bearing_signal(
-    source: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str
-) -> _BearingSignal:
-    from beardyn_core.api.reading import heard_of
-
-    run, plate, sensor = heard_of(source, bearing, sensor)
-    return _BearingSignal(run, _vibration(run, sensor), plate.frequencies)
 
 
 def _lines_up_to(frequency: Float, highest_Hz: float | None) -> slice:
@@ -393,37 +367,6 @@ def _orders(frequencies: FaultFrequencies) -> Mapping[str, float]:
         "2 BSF": 2.0 * frequencies.bsf,
         "FTF": frequencies.ftf,
     }
-
-
-def _rollers(source: Run | StaticSolution | Path | str, at: float | None) -> tuple[Float, Float, Float]:
-    """Take azimuth [rad], load [N] and pressure [Pa] of rollers on the cup, shape [moment, row, roller]."""
-    from beardyn_core.physics.statics.static import StaticSolution
-    from beardyn_core.sensors.summary import SETTLING_S
-
-    if isinstance(source, StaticSolution):
-        if at is not None:
-            raise InputError("at is given; a static solution has no time")
-        rows, count = source.cup_load.shape
-        azimuth = np.tile(2.0 * np.pi * np.arange(count) / count, (rows, 1))
-        return azimuth[None], source.cup_load[None], source.cup_pressure[None]
-    run = _run(source)
-    contacts, bodies = run.contacts, run.bodies
-    if not len(contacts) or not len(bodies):
-        raise InputError(f"{run.label}: has no contacts of rollers; simulated runs have them")
-    time = contacts.time
-    if at is None:
-        shown = time >= min(SETTLING_S, 0.5 * time[-1])
-    elif time[0] <= at <= time[-1] or np.isclose(at, 0.0):
-        shown = np.arange(len(time)) == np.abs(time - at).argmin()
-    else:
-        raise InputError(f"at is {at:g}; the run has {time[0]:g} to {time[-1]:g} s")
-    rows, count = contacts.slip.shape[1:3]
-    names = [f"roller_{row}_{k}" for row in range(rows) for k in range(count)]
-    places = [bodies.names.index(name) for name in names]
-    centre = bodies.pose[shown][:, places, :3].reshape(-1, rows, count, 3)
-    cup = contacts.of("cup")
-    azimuth = np.arctan2(centre[..., 0], centre[..., 2])
-    return azimuth, contacts.load[shown][..., cup], contacts.pressure[shown][..., cup]
 
 
 def _mean_rpm(run: Run, moment: Float, segment_s: float) -> Float | None:

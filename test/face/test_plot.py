@@ -192,6 +192,44 @@ def test_recordings_and_measured_files_are_plotted(run: bd.Run, tmp_path: Path) 
         bd.plot.load_zone(measured)
 
 
+def test_a_measured_file_that_states_rate_and_unit_is_plotted_by_its_path(tmp_path: Path) -> None:
+    rate, count = 10_000, 20_000
+    noise = np.random.default_rng(1).normal(size=count)
+    stated, bare = tmp_path / "stated.csv", tmp_path / "bare.csv"
+    table = np.column_stack([np.arange(count) / rate, noise])
+    np.savetxt(stated, table, delimiter=",", header="time [s],z [m/s^2]", comments="")
+    np.savetxt(bare, noise, header="z", comments="")
+
+    frequency, density = data_of(bd.plot.spectrum(str(stated)).lines[0])
+    assert frequency[-1] == rate / 2
+    assert np.sum(density**2) == pytest.approx(noise.var(), rel=0.05)  # lines of 1 Hz
+    assert bd.plot.waterfall(stated, highest_Hz=2000).collections
+    with pytest.raises(bd.InputError, match=r"no speed of the shaft; bd\.read_measured\(file, speed_rpm"):
+        bd.plot.envelope_spectrum(stated, bearing=BEARING)
+    with pytest.raises(bd.InputError, match="no contacts"):
+        bd.plot.load_zone(stated)
+    for draw in (bd.plot.spectrum, bd.plot.waterfall):
+        with pytest.raises(bd.InputError, match=r"bd\.read_measured\('.*bare\.csv', unit=") as error:
+            draw(str(bare))
+        assert any("state the rate" in problem for problem in error.value.problems)
+
+
+def test_a_recording_of_any_name_is_read_as_one(run: bd.Run, tmp_path: Path) -> None:
+    recorded, named = tmp_path / "run.mcap", tmp_path / "run.recording"
+    source = tmp_path / "motor.csv"
+    run.to_csv(source)
+    bd.import_measured(source, recorded, speed_rpm=900, bearing=BEARING)
+    named.write_bytes(recorded.read_bytes())
+    drawn = [data_of(bd.plot.spectrum(each).lines[0]) for each in (recorded, named)]
+    np.testing.assert_array_equal(drawn[0], drawn[1])
+    assert bd.plot.envelope_spectrum(named).lines
+    recorded.write_bytes(b"no recording at all")
+    for path in (recorded, tmp_path / "absent.csv"):
+        with pytest.raises(bd.InputError) as error:
+            bd.plot.spectrum(path)
+        assert "read_measured" not in str(error.value)
+
+
 def test_what_cannot_be_drawn_is_answered_in_a_sentence(run: bd.Run) -> None:
     for call, said in (
         (lambda: bd.plot.spectrum(run, axes="q"), "one or more of x, y and z"),
