@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import beardyn_core as bd
+from beardyn_core.base.edge import write_noun
 from beardyn_core.config import shipped_names
+from beardyn_core.config.nouns import bearing_from_mapping
 
 FIVE: dict[str, Any] = {
     "roller_count": 20,
@@ -125,6 +127,23 @@ def test_lubricant_bearing_data_and_scene_are_saved_too(tmp_path: Path) -> None:
     assert bd.name_plate(bd.save(data, tmp_path / "data.yaml")) == data
     scene = bd.scene("static_80kN", effects="standard", tier="quasistatic")
     assert bd.scene(bd.save(scene, tmp_path / "scene.yaml")) == scene
+
+
+@pytest.mark.parametrize(("kind", "shipped"), [("cylindrical", "WJ130x240"), ("spherical", "SRB120x260")])
+def test_derive_is_refused_for_what_is_not_tapered(kind: str, shipped: str) -> None:
+    for keys, others in (
+        ({"kind": kind, **FIVE}, ["is missing"]),
+        (write_noun(bd.bearing(shipped)), []),
+        ({**write_noun(bd.bearing(shipped)), "rollers": 20}, ["unknown key"]),
+    ):
+        with pytest.raises(bd.InputError) as error:
+            bearing_from_mapping({**keys, "derive": True}, "mine.yaml")
+        first, *rest = error.value.problems
+        assert first.startswith(f"mine.yaml: derive is for tapered roller bearings; the file of a {kind}")
+        assert f"beardyn schema {kind}_bearing" in first
+        assert bool(rest) == bool(others)
+        assert all(any(other in problem for problem in rest) for other in others)
+        assert not any(": derive: " in problem for problem in rest)
 
 
 @pytest.mark.parametrize(
