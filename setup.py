@@ -102,7 +102,7 @@ if __name__ == "__main__":
     setup(
         name=NAME,
         version="0.1.0",
-        description="Real-time digital twin of a railway axlebox double-row tapered roller bearing",
+        description="Real-time digital twin of a railway axlebox bearing",
         long_description=Path(__file__).resolve().with_name("README.md").read_text(encoding="utf-8"),
         long_description_content_type="text/markdown",
         author="beardyn developers",

@@ -9,6 +9,7 @@ simulating    simulate a scene
 reading       read a recording, let a monitor judge a run
 report_pages  a page for each axlebox, to read on screen and paper
 plot          load zone, spectra, waterfall, curves of stiffness and torque
+plot_sources  what plots are drawn of
 sensitivity   the smallest spall that a healthy record would have shown
 exporting     signals of a recording for other programs
 measuring     read measured files, make recordings of them

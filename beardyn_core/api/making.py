@@ -79,12 +79,12 @@ def bearing(
     return bearing_from_mapping({**derive, **keys}, "bearing made in code")
 
 
-def save(noun: RollerBearing | Lubricant | Scene, path: str | Path, force: bool = False) -> Path:
-    """Write a bearing, a lubricant or a scene to a YAML file, which loads again as the same.
+def save(noun: RollerBearing | NamePlate | Lubricant | Scene, path: str | Path, force: bool = False) -> Path:
+    """Write a bearing, bearing data, a lubricant or a scene to a YAML file, which loads again as the same.
 
     Parameters
     ----------
-    noun : bearing, Lubricant or Scene
+    noun : bearing, NamePlate, Lubricant or Scene
         Every number is written in the units of the file, with its source where it has one. The file of a
         scene holds all that the scene refers to.
     path : str or Path
@@ -95,12 +95,12 @@ def save(noun: RollerBearing | Lubricant | Scene, path: str | Path, force: bool 
     Returns
     -------
     Path
-        Of the file; `bearing`, `lubricant` and `scene` take it, and so do scenes and commands.
+        Of the file; `bearing`, `name_plate`, `lubricant` and `scene` take it, and so do scenes and commands.
 
     Raises
     ------
     InputError
-        The file exists, has another ending or cannot be written.
+        It is none of the nouns above; the file exists, has another ending or cannot be written.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def save(noun: RollerBearing | Lubricant | Scene, path: str | Path, force: bool 
     True
     """
     file = Path(path)
-    problems = file_problems("path", file, force=force)
+    problems = [*_unsaved(noun), *file_problems("path", file, force=force)]
     if file.suffix.lower() not in _ENDINGS:
         problems.append(f"path {file}: ends in {file.suffix or 'nothing'}; allowed are {', '.join(_ENDINGS)}")
     if problems:
@@ -117,6 +117,23 @@ def save(noun: RollerBearing | Lubricant | Scene, path: str | Path, force: bool 
     text = scene_text(noun) if isinstance(noun, Scene) else write_mapping(write_noun(noun))
     write_whole(file, text, replace=force)
     return file
+
+
+def _unsaved(noun: Any) -> list[str]:
+    """State why a noun is not saved, and what is meant instead."""
+    if isinstance(noun, RollerBearing | Lubricant | NamePlate | Scene):
+        return []
+    from beardyn_core.record.run import Run
+
+    found = f"noun is a {type(noun).__name__}"
+    if isinstance(noun, str | Path):
+        found = (
+            f"noun is the name {str(noun)!r}; `beardyn new` copies a shipped file, and bd.bearing(name), "
+            "bd.lubricant(name) or bd.scene(name) gives what can be saved"
+        )
+    elif isinstance(noun, Run):
+        found += "; its bearing is run.bearing, its scene the YAML text run.scene_text"
+    return [f"{found}; save takes a bearing, bearing data, a lubricant or a scene"]
 
 
 def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:

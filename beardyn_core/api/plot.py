@@ -7,12 +7,14 @@ Every function takes ``ax=None``, axes to draw on, and draws on new ones otherwi
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from beardyn_core.api.plot_sources import bearing_signal, rollers_on_cup, run_from, vibration_of
 from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +27,6 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.physics.statics.static import StaticSolution
-    from beardyn_core.record.arrays import Signal
     from beardyn_core.record.run import Run
 
 __all__ = ["envelope_spectrum", "load_zone", "spectrum", "stiffness_curve", "torque_curve", "waterfall"]
@@ -34,7 +35,8 @@ _AXES = ("x", "y", "z")
 _SEGMENT_S = 1.0  # of the parts of a spectrum, which then has lines of 1 Hz
 _SPEEDING = 1.05  # fastest over slowest speed from which a run is drawn over its speed
 _SAME_SPEED = 2e-3  # of the fastest, below which two segments are drawn as one
-_PLAYS_MM = tuple(np.round(np.linspace(-0.1, 0.3, 9), 3).tolist())
+_END_PLAYS_MM = tuple(np.round(np.linspace(-0.1, 0.3, 9), 3).tolist())
+_CLEARANCES_MM = tuple(np.round(np.linspace(0.0, 0.24, 9), 3).tolist())
 _SPEEDS_RPM = tuple(np.linspace(100.0, 1500.0, 15).tolist())
 
 
@@ -68,7 +70,7 @@ def load_zone(
         The run has no contacts, as a measured one.
     """
     draw = _drawing()
-    azimuth, load, stress = _rollers(source, at)
+    azimuth, load, stress = rollers_on_cup(source, at)
     values = (
         (stress * 1e-9, "Hertz pressure on the cup", "GPa") if pressure else (load * 1e-3, "Load zone", "kN")
     )
@@ -90,7 +92,8 @@ def spectrum(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording.
+        Simulated or measured run, a recording, or a measured file that states its rate and unit. What a file
+        lacks is given to `read_measured`.
     axes : str
         Of the accelerometer, such as ``z``; those that were not measured are left out.
     sensor : str, optional
@@ -109,16 +112,14 @@ def spectrum(
     draw = _drawing()
     if not axes or set(axes) - set(_AXES):
         raise InputError(f"axes is {axes!r}; give one or more of x, y and z")
-    signal = _vibration(_run(source), sensor)
+    signal = vibration_of(run_from(source), sensor)
     length = min(len(signal), round(_SEGMENT_S * signal.rate))
     frequency, power = welch(np.nan_to_num(signal.values), signal.rate, nperseg=length, axis=0)
     known = np.asarray(np.isfinite(signal.values).all(axis=0))
     chosen = [name for name in _AXES if name in axes and known[_AXES.index(name)]]
     if not chosen:
         raise InputError(f"axes is {axes!r}; the run has {', '.join(np.array(_AXES)[known])}")
-    shown = slice(
-        1, None if highest_Hz is None else int(np.searchsorted(frequency, highest_Hz, side="right"))
-    )
+    shown = _lines_up_to(frequency, highest_Hz)
     place = draw.cartesian(ax)
     densities = {name: np.sqrt(power[shown, _AXES.index(name)]) for name in chosen}
     draw.draw_spectrum(place, frequency[shown], densities)
@@ -138,7 +139,7 @@ def envelope_spectrum(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording, with vibration and shaft angle.
+        As of `spectrum`, with vibration and shaft angle.
     bearing : bearing, NamePlate or str, optional
         By default that of the run.
     sensor : str, optional
@@ -165,15 +166,23 @@ def envelope_spectrum(
     draw = _drawing()
     if harmonics < 1:
         raise InputError(f"harmonics is {harmonics}; give 1 or more")
-    heard = _heard(source, bearing, sensor)
-    orders = _orders(heard.frequencies)
+    run = run_from(source)
+    if len(run.shaft) < 2:
+        raise InputError(
+            f"{run.label}: has no speed of the shaft; bd.read_measured(file, speed_rpm=...) reads a measured "
+            "file with it"
+        )
+    measured = bearing_signal(run, bearing, sensor)
+    orders = _orders(measured.frequencies)
     highest = (harmonics + 0.3) * max(value for value in orders.values() if np.isfinite(value))
-    signal = heard.signal
+    signal = measured.signal
     known = np.isfinite(signal.values).all(axis=0)
-    found = envelope_order_spectrum(replace(signal, values=signal.values[:, known]), heard.run.shaft, highest)
+    found = envelope_order_spectrum(
+        replace(signal, values=signal.values[:, known]), measured.run.shaft, highest
+    )
     if found is None:
         raise InputError(
-            f"{heard.run.label}: no envelope spectrum; the shaft must turn four times or more, one way"
+            f"{measured.run.label}: no envelope spectrum; the shaft must turn four times or more, one way"
         )
     place = draw.cartesian(ax)
     draw.draw_envelope_spectrum(place, found.order, found.level, orders, harmonics)
@@ -195,7 +204,7 @@ def waterfall(
     Parameters
     ----------
     source : Run, Path or str
-        Simulated or measured run, or a recording.
+        As of `spectrum`.
     axis : str
         ``x``, ``y`` or ``z`` of the accelerometer.
     sensor, bearing : optional
@@ -216,14 +225,14 @@ def waterfall(
     draw = _drawing()
     if axis not in _AXES:
         raise InputError(f"axis is {axis!r}; allowed are x, y, z")
-    run = _run(source)
+    run = run_from(source)
     try:
-        heard = _heard(run, bearing, sensor)
-        signal, orders = heard.signal, _orders(heard.frequencies)
+        measured = bearing_signal(run, bearing, sensor)
+        signal, orders = measured.signal, _orders(measured.frequencies)
     except InputError:
         if bearing is not None:
             raise
-        signal, orders = _vibration(run, sensor), {}
+        signal, orders = vibration_of(run, sensor), {}
     values = signal.values[:, _AXES.index(axis)]
     length = round(segment_s * signal.rate)
     if not np.isfinite(values).all() or not 16 <= length <= len(values):
@@ -233,8 +242,8 @@ def waterfall(
         )
     frequency, moment, power = spectrogram(values, signal.rate, nperseg=length, noverlap=length // 2)
     moment = moment + float(signal.time[0])
-    last = len(frequency) if highest_Hz is None else int(np.searchsorted(frequency, highest_Hz, side="right"))
-    density, frequency = np.sqrt(power[1:last].T), frequency[1:last]
+    shown = _lines_up_to(frequency, highest_Hz)
+    density, frequency = np.sqrt(power[shown].T), frequency[shown]
     rpm = _mean_rpm(run, moment, segment_s)
     place, label = moment, "time [s]"
     kept = None if rpm is None else _places_of_run_up(rpm)
@@ -250,18 +259,22 @@ def stiffness_curve(
     bearing: RollerBearing | str,
     load_kN: Load = 80.0,
     *,
-    end_play_mm: Sequence[float] = _PLAYS_MM,
+    end_play_mm: float | Sequence[float] | None = None,
+    radial_clearance_mm: Sequence[float] | None = None,
     ax: Axes | None = None,
     **options: Any,
 ) -> Axes:
-    """Plot the stiffness of a bearing along x, y and z against its end play, negative for preload.
+    """Plot the stiffness of a bearing along x, y and z against its end play or its radial clearance.
 
     Parameters
     ----------
     bearing, load_kN
         See `equilibrium`.
-    end_play_mm : sequence of float
-        With ``radial_clearance_mm=[...]`` in the options the stiffness is plotted against that.
+    end_play_mm : sequence of float, optional
+        Negative for preload. Default -0.1 to 0.3 of tapered bearings. A number where the stiffness is plotted
+        against ``radial_clearance_mm``.
+    radial_clearance_mm : sequence of float, optional
+        Of cylindrical and spherical bearings, default 0 to 0.24.
     ax : axes, optional
     **options
         Of `beardyn_core.stiffness`.
@@ -270,15 +283,23 @@ def stiffness_curve(
     -------
     matplotlib.axes.Axes
     """
+    from beardyn_core.api.making import bearing as bearing_of
     from beardyn_core.api.statics import stiffness
+    from beardyn_core.bearing.geometry import Bearing
 
     draw = _drawing()
-    clearance = options.pop("radial_clearance_mm", None)
-    name, values = ("end_play_mm", end_play_mm) if clearance is None else ("radial_clearance_mm", clearance)
+    given: dict[str, Any] = {"end_play_mm": end_play_mm, "radial_clearance_mm": radial_clearance_mm}
+    given = {key: value for key, value in given.items() if value is not None}
+    if given:
+        name, values = list(given.items())[-1]
+    elif isinstance(bearing_of(bearing), Bearing):
+        name, values = "end_play_mm", _END_PLAYS_MM
+    else:
+        name, values = "radial_clearance_mm", _CLEARANCES_MM
     if np.ndim(values) != 1 or len(values) < 2:
         raise InputError(f"{name} is {values!r}; give two numbers or more")
-    options[name] = list(values)
-    found = np.asarray(stiffness(bearing, load_kN, **options))
+    given[name] = list(values)
+    found = np.asarray(stiffness(bearing, load_kN, **given, **options))
     place = draw.cartesian(ax)
     words = f"{name.removesuffix('_mm').replace('_', ' ')} [mm]"
     draw.draw_stiffness(place, np.asarray(values), 1e-6 * np.diagonal(found, axis1=1, axis2=2), words)
@@ -319,14 +340,6 @@ def torque_curve(
     return place
 
 
-class _Heard(NamedTuple):
-    """Vibration of a run and the frequencies of its bearing."""
-
-    run: Run
-    signal: Signal
-    frequencies: FaultFrequencies
-
-
 def _drawing() -> ModuleType:
     """Import what draws."""
     from beardyn_core.base.optional import library
@@ -337,27 +350,13 @@ def _drawing() -> ModuleType:
     return plot_axes
 
 
-def _run(source: Run | Path | str) -> Run:
-    from beardyn_core.record.reading import read_run
-    from beardyn_core.record.run import Run
-
-    return source if isinstance(source, Run) else read_run(source)
-
-
-def _vibration(run: Run, sensor: str) -> Signal:
-    if sensor and sensor not in run.sensors:
-        raise InputError(f"{run.label}: has no sensor {sensor!r}; it has {', '.join(run.sensors)}")
-    signal = run.sensors[sensor] if sensor else run.vibration
-    if len(signal) < 16:
-        raise InputError(f"{run.label}: has no vibration")
-    return signal
-
-
-def _heard(source: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str) -> _Heard:
-    from beardyn_core.api.reading import heard_of
-
-    run, plate, sensor = heard_of(source, bearing, sensor)
-    return _Heard(run, _vibration(run, sensor), plate.frequencies)
+def _lines_up_to(frequency: Float, highest_Hz: float | None) -> slice:
+    """Choose the lines of a spectrum to draw, without the one at 0 Hz; refuse an end below the first."""
+    if highest_Hz is None:
+        return slice(1, None)
+    if not isinstance(highest_Hz, Real) or not highest_Hz >= frequency[1]:
+        raise InputError(f"highest_Hz is {highest_Hz!r}; give a frequency of {frequency[1]:.3g} Hz or more")
+    return slice(1, int(np.searchsorted(frequency, highest_Hz, side="right")))
 
 
 def _orders(frequencies: FaultFrequencies) -> Mapping[str, float]:
@@ -368,37 +367,6 @@ def _orders(frequencies: FaultFrequencies) -> Mapping[str, float]:
         "2 BSF": 2.0 * frequencies.bsf,
         "FTF": frequencies.ftf,
     }
-
-
-def _rollers(source: Run | StaticSolution | Path | str, at: float | None) -> tuple[Float, Float, Float]:
-    """Take azimuth [rad], load [N] and pressure [Pa] of rollers on the cup, shape [moment, row, roller]."""
-    from beardyn_core.physics.statics.static import StaticSolution
-    from beardyn_core.sensors.summary import SETTLING_S
-
-    if isinstance(source, StaticSolution):
-        if at is not None:
-            raise InputError("at is given; a static solution has no time")
-        rows, count = source.cup_load.shape
-        azimuth = np.tile(2.0 * np.pi * np.arange(count) / count, (rows, 1))
-        return azimuth[None], source.cup_load[None], source.cup_pressure[None]
-    run = _run(source)
-    contacts, bodies = run.contacts, run.bodies
-    if not len(contacts) or not len(bodies):
-        raise InputError(f"{run.label}: has no contacts of rollers; simulated runs have them")
-    time = contacts.time
-    if at is None:
-        shown = time >= min(SETTLING_S, 0.5 * time[-1])
-    elif time[0] <= at <= time[-1] or np.isclose(at, 0.0):
-        shown = np.arange(len(time)) == np.abs(time - at).argmin()
-    else:
-        raise InputError(f"at is {at:g}; the run has {time[0]:g} to {time[-1]:g} s")
-    rows, count = contacts.slip.shape[1:3]
-    names = [f"roller_{row}_{k}" for row in range(rows) for k in range(count)]
-    places = [bodies.names.index(name) for name in names]
-    centre = bodies.pose[shown][:, places, :3].reshape(-1, rows, count, 3)
-    cup = contacts.of("cup")
-    azimuth = np.arctan2(centre[..., 0], centre[..., 2])
-    return azimuth, contacts.load[shown][..., cup], contacts.pressure[shown][..., cup]
 
 
 def _mean_rpm(run: Run, moment: Float, segment_s: float) -> Float | None:

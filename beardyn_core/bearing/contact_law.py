@@ -12,6 +12,9 @@ from functools import cache
 from typing import TYPE_CHECKING
 from typing import Annotated as A
 
+import numpy as np
+
+from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.geometry import Bearing, Material
 
 if TYPE_CHECKING:
@@ -19,6 +22,16 @@ if TYPE_CHECKING:
 
 LINE_EXPONENT = 10.0 / 9.0
 POINT_EXPONENT = 1.5
+
+
+def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, Float, Float]:
+    """Work out force, tangent stiffness and energy of Q = K delta^p, zero when apart."""
+    pressed = np.maximum(approach, 0.0)
+    force = factor * pressed**exponent
+    stiffness = (
+        exponent * factor * np.where(pressed > 0.0, pressed, 1.0) ** (exponent - 1.0) * (pressed > 0.0)
+    )
+    return force, stiffness, force * pressed / (exponent + 1.0)
 
 
 def line_contact_factor(material: Material, length: float) -> float:

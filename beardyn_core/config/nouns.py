@@ -65,8 +65,16 @@ def bearing_from_mapping(data: dict[str, Any], label: str) -> AnyBearing:
     kind = data.get("kind", Bearing.kind)
     if not isinstance(kind, str) or kind not in BEARING_OF_KIND:
         raise InputError(f"{label}: kind is {kind!r}; allowed are {', '.join(BEARING_OF_KIND)}")
+    refused = []
     if kind == Bearing.kind:
         data = {key: value for key, value in data.items() if key != "kind"}
+    elif "derive" in data:
+        data = {key: value for key, value in data.items() if key != "derive"}
+        words = BEARING_OF_KIND[kind].words
+        refused = [
+            f"{label}: derive is for tapered roller bearings; the file of a {words} gives every number, see "
+            f"`beardyn schema {kind}_bearing`"
+        ]
     try:
         bearing: AnyBearing = read_noun(BEARING_OF_KIND[kind], data, label)
     except InputError as error:
@@ -74,9 +82,9 @@ def bearing_from_mapping(data: dict[str, Any], label: str) -> AnyBearing:
         if kind == Bearing.kind and several and "derive" not in data:
             hint = f"{label}: `derive: true` derives what is missing from five numbers; see bearing_data.md"
             raise InputError([*error.problems, hint]) from None
-        raise
-    if problems := check(bearing):
-        raise InputError([f"{label}: {problem.removesuffix('.')}" for problem in problems])
+        raise InputError([*refused, *error.problems]) from None
+    if problems := [*refused, *(f"{label}: {problem.removesuffix('.')}" for problem in check(bearing))]:
+        raise InputError(problems)
     return bearing
 
 

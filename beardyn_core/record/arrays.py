@@ -133,9 +133,9 @@ class Contacts(Timed):
     def pressure(self) -> Float:
         """Largest Hertz pressure of each contact under `load`, shape [snapshot, row, roller, kind], [Pa].
 
-        See `physics.hertz_pressure.pressure_law`: the load of a raceway is spread evenly along the roller,
-        which tilt, profile and the edges of a spall exceed. NaN of pockets, and where no scene names the
-        bearing.
+        See `physics.hertz_pressure.pressure_law`: the load of a raceway is spread along the roller as its
+        profile spreads it, which tilt and the edges of a spall exceed. NaN of pockets, and where no scene
+        names the bearing.
         """
         return self._pressure_under(self.load)
 

@@ -1,4 +1,4 @@
-"""Triangle meshes of the parts of a double-row tapered roller bearing, from its recorded shape.
+"""Triangle meshes of the parts of a tapered or cylindrical bearing, from its recorded shape.
 
 World axes: y along the bearing axis, azimuth from +z towards +x. Cup and cone meshes have their origin
 at the bearing centre, a cage at the centre of its row, a roller at its mid-length with x along its axis

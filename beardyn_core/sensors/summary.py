@@ -134,7 +134,7 @@ class RunSummary:
     shaft_speed: A[float, "mean, NaN where nothing is averaged, [rad/s]"] = math.nan
     # of any roller with the cup in any step, [N]
     largest_roller_load: A[float, "NaN in recordings of earlier versions"] = math.nan
-    # of any roller with a raceway, its load spread evenly along it, [Pa]
+    # of any roller with a raceway, its load spread along it by its profile, [Pa]
     largest_pressure: A[float, "see `physics.hertz_pressure`"] = math.nan
     wheel_diameter: A[float | None, "of the wheel on the axle; ``None`` where the scene has none, [m]"] = None
 

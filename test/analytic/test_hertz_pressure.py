@@ -77,6 +77,51 @@ def test_slices_show_the_pressure_that_a_profile_adds() -> None:
     assert sliced.largest_pressure > 1.03 * even.largest_pressure
 
 
+@pytest.mark.parametrize("load", [20, 80, 160, 210])
+@pytest.mark.parametrize(
+    "bearing",
+    [
+        bd.bearing(CYLINDER),
+        bd.bearing("WJ120x240"),
+        bd.bearing(TAPERED, profile={"kind": "lundberg", "design_pressure_MPa": 2000}),
+    ],
+    ids=["WJ130x240", "WJ120x240", "lundberg"],
+)
+def test_the_law_of_a_profile_is_that_of_the_slices_of_the_statics(
+    bearing: bd.Bearing | bd.CylindricalBearing, load: float
+) -> None:
+    """Every roller of rigid rings; a tapered one tilts a little against its rib, 1.1 % at most."""
+    found = bd.equilibrium(bearing, load, laminae=30, rings="rigid")
+    for ring, loads, sliced in (
+        ("cup", found.cup_load, found.cup_pressure),
+        ("cone", found.cone_load, found.cone_pressure),
+    ):
+        np.testing.assert_allclose(pressure_law(bearing, ring).of(loads), sliced, rtol=0.02)
+    straight = pressure_law(bd.bearing(bearing, profile={"kind": "straight"}), "cone")
+    assert found.largest_pressure > 1.025 * straight.of(found.cone_load.max())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("load", [80, 160, 210])
+def test_a_run_of_cylinders_has_the_pressure_of_the_statics(load: float) -> None:
+    scene = bd.scene(bearing=CYLINDER, load_kN=load, speed_rpm=60, effects="standard", tier="quasistatic")
+    contacts = bd.simulate(scene, duration=0.6, rings="rigid").contacts
+    static = bd.equilibrium(CYLINDER, load, rings="rigid")
+    settled = contacts.pressure[len(contacts) // 2 :]
+    for ring, expected in (("cup", static.cup_pressure), ("cone", static.cone_pressure)):
+        assert settled[..., contacts.of(ring)].max() == pytest.approx(expected.max(), rel=0.02)
+
+
+@given(st.floats(1.0, 5e5), st.floats(1.0, 2.0))
+def test_a_profile_gives_more_pressure_to_more_load_and_none_to_none(load: float, times: float) -> None:
+    law = pressure_law(bd.bearing(CYLINDER), "cup")
+    less, more = law.of(np.array([load, times * load]))
+    assert less <= more <= less * times
+    unloaded = law.of(np.array([0.0, math.nan]))
+    assert unloaded[0] == 0.0
+    assert math.isnan(unloaded[1])
+
+
 @pytest.mark.parametrize("name", [CYLINDER, BARREL])
 def test_other_kinds_have_pressures_too(name: str) -> None:
     found = bd.equilibrium(name, 80)

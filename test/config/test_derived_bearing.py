@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import beardyn_core as bd
+from beardyn_core.base.edge import write_noun
 from beardyn_core.config import shipped_names
+from beardyn_core.config.nouns import bearing_from_mapping
 
 FIVE: dict[str, Any] = {
     "roller_count": 20,
@@ -118,11 +120,48 @@ def test_a_derived_bearing_that_is_saved_loads_again_the_same(
         assert getattr(back, name) == pytest.approx(getattr(bearing, name), rel=1e-15)
 
 
-def test_a_lubricant_and_a_scene_are_saved_too(tmp_path: Path) -> None:
+def test_lubricant_bearing_data_and_scene_are_saved_too(tmp_path: Path) -> None:
     oil = bd.lubricant("L055")
     assert bd.lubricant(bd.save(oil, tmp_path / "oil.yaml")) == oil
+    data = bd.name_plate("6205-2RS JEM")
+    assert bd.name_plate(bd.save(data, tmp_path / "data.yaml")) == data
     scene = bd.scene("static_80kN", effects="standard", tier="quasistatic")
     assert bd.scene(bd.save(scene, tmp_path / "scene.yaml")) == scene
+
+
+@pytest.mark.parametrize(("kind", "shipped"), [("cylindrical", "WJ130x240"), ("spherical", "SRB120x260")])
+def test_derive_is_refused_for_what_is_not_tapered(kind: str, shipped: str) -> None:
+    for keys, others in (
+        ({"kind": kind, **FIVE}, ["is missing"]),
+        (write_noun(bd.bearing(shipped)), []),
+        ({**write_noun(bd.bearing(shipped)), "rollers": 20}, ["unknown key"]),
+    ):
+        with pytest.raises(bd.InputError) as error:
+            bearing_from_mapping({**keys, "derive": True}, "mine.yaml")
+        first, *rest = error.value.problems
+        assert first.startswith(f"mine.yaml: derive is for tapered roller bearings; the file of a {kind}")
+        assert f"beardyn schema {kind}_bearing" in first
+        assert bool(rest) == bool(others)
+        assert all(any(other in problem for problem in rest) for other in others)
+        assert not any(": derive: " in problem for problem in rest)
+
+
+@pytest.mark.parametrize(
+    ("noun", "said"),
+    [
+        ("HS130x230", r"the name 'HS130x230'; `beardyn new` copies a shipped file, and bd\.bearing\(name\)"),
+        (bd.Run.of_blocks([]), r"a Run; its bearing is run\.bearing"),
+        ({"bearing": "HS130x230"}, "a dict; save takes a bearing"),
+        (None, "a NoneType; save takes a bearing"),
+    ],
+)
+def test_what_cannot_be_saved_is_named_and_leaves_no_file(noun: Any, said: str, tmp_path: Path) -> None:
+    with pytest.raises(bd.InputError, match=said) as error:
+        bd.save(noun, tmp_path / "mine.txt")
+    assert len(error.value.problems) == 2  # the ending too
+    with pytest.raises(bd.InputError, match=said):
+        bd.save(noun, tmp_path / "mine.yaml")
+    assert not list(tmp_path.iterdir())
 
 
 def test_saving_replaces_nothing_unasked(tmp_path: Path) -> None:

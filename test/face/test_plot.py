@@ -118,6 +118,8 @@ def test_a_spectrum_has_the_power_of_the_signal(run: bd.Run) -> None:
     short = bd.plot.spectrum(run, axes="xz", highest_Hz=2000)
     assert len(short.lines) == 2
     assert short.get_xlim()[1] <= 2000
+    np.testing.assert_allclose(data_of(bd.plot.spectrum(run, axes="z", highest_Hz=1).lines[0])[0], [1.0])
+    assert bd.plot.waterfall(run, highest_Hz=5).collections
 
 
 def test_an_envelope_spectrum_peaks_at_the_fault_and_names_its_lines(run: bd.Run) -> None:
@@ -155,6 +157,29 @@ def test_curves_are_the_answers_of_statics() -> None:
     assert clear.get_xlabel() == "radial clearance [mm]"
 
 
+@pytest.mark.parametrize("name", [BEARING, "WJ130x240", "SRB120x260"])
+def test_a_stiffness_curve_of_any_kind_is_over_its_own_play(name: str) -> None:
+    axes = bd.plot.stiffness_curve(name)
+    play, stiffness = data_of(axes.lines[2])
+    key = "end_play_mm" if name == BEARING else "radial_clearance_mm"
+    assert axes.get_xlabel() == f"{key.removesuffix('_mm').replace('_', ' ')} [mm]"
+    for place in (0, len(play) - 1):
+        own: dict[str, Any] = {key: float(play[place])}
+        again = bd.stiffness(name, 80, **own)
+        assert stiffness[place] == pytest.approx(1e-6 * again[2, 2], rel=1e-9)
+
+
+def test_a_curve_over_the_radial_clearance_keeps_an_end_play_that_is_given() -> None:
+    clearances = [0.05, 0.15]
+    with_play = bd.plot.stiffness_curve(
+        "WJ130x240", (0, 10, 60), radial_clearance_mm=clearances, end_play_mm=0.3
+    )
+    expected = bd.stiffness("WJ130x240", (0, 10, 60), radial_clearance_mm=clearances, end_play_mm=0.3)
+    np.testing.assert_allclose(data_of(with_play.lines[1])[1], 1e-6 * expected[:, 1, 1])
+    with pytest.raises(bd.InputError, match="end_play_mm is a sequence"):
+        bd.plot.stiffness_curve("WJ130x240", radial_clearance_mm=clearances, end_play_mm=[0.2, 0.3])
+
+
 def test_recordings_and_measured_files_are_plotted(run: bd.Run, tmp_path: Path) -> None:
     source = tmp_path / "motor.csv"
     run.to_csv(source)
@@ -167,14 +192,56 @@ def test_recordings_and_measured_files_are_plotted(run: bd.Run, tmp_path: Path) 
         bd.plot.load_zone(measured)
 
 
+def test_a_measured_file_that_states_rate_and_unit_is_plotted_by_its_path(tmp_path: Path) -> None:
+    rate, count = 10_000, 20_000
+    noise = np.random.default_rng(1).normal(size=count)
+    stated, bare = tmp_path / "stated.csv", tmp_path / "bare.csv"
+    table = np.column_stack([np.arange(count) / rate, noise])
+    np.savetxt(stated, table, delimiter=",", header="time [s],z [m/s^2]", comments="")
+    np.savetxt(bare, noise, header="z", comments="")
+
+    frequency, density = data_of(bd.plot.spectrum(str(stated)).lines[0])
+    assert frequency[-1] == rate / 2
+    assert np.sum(density**2) == pytest.approx(noise.var(), rel=0.05)  # lines of 1 Hz
+    assert bd.plot.waterfall(stated, highest_Hz=2000).collections
+    with pytest.raises(bd.InputError, match=r"no speed of the shaft; bd\.read_measured\(file, speed_rpm"):
+        bd.plot.envelope_spectrum(stated, bearing=BEARING)
+    with pytest.raises(bd.InputError, match="no contacts"):
+        bd.plot.load_zone(stated)
+    for draw in (bd.plot.spectrum, bd.plot.waterfall):
+        with pytest.raises(bd.InputError, match=r"bd\.read_measured\('.*bare\.csv', unit=") as error:
+            draw(str(bare))
+        assert any("state the rate" in problem for problem in error.value.problems)
+
+
+def test_a_recording_of_any_name_is_read_as_one(run: bd.Run, tmp_path: Path) -> None:
+    recorded, named = tmp_path / "run.mcap", tmp_path / "run.recording"
+    source = tmp_path / "motor.csv"
+    run.to_csv(source)
+    bd.import_measured(source, recorded, speed_rpm=900, bearing=BEARING)
+    named.write_bytes(recorded.read_bytes())
+    drawn = [data_of(bd.plot.spectrum(each).lines[0]) for each in (recorded, named)]
+    np.testing.assert_array_equal(drawn[0], drawn[1])
+    assert bd.plot.envelope_spectrum(named).lines
+    recorded.write_bytes(b"no recording at all")
+    for path in (recorded, tmp_path / "absent.csv"):
+        with pytest.raises(bd.InputError) as error:
+            bd.plot.spectrum(path)
+        assert "read_measured" not in str(error.value)
+
+
 def test_what_cannot_be_drawn_is_answered_in_a_sentence(run: bd.Run) -> None:
     for call, said in (
         (lambda: bd.plot.spectrum(run, axes="q"), "one or more of x, y and z"),
         (lambda: bd.plot.spectrum(run, sensor="roof"), "no sensor 'roof'"),
         (lambda: bd.plot.load_zone(run, at=5.0), "at is 5"),
         (lambda: bd.plot.waterfall(run, segment_s=9.0), "segment_s"),
+        (lambda: bd.plot.waterfall(run, highest_Hz=-5), "highest_Hz is -5; give a frequency of 5 Hz"),
+        (lambda: bd.plot.waterfall(run, highest_Hz=4.9), "highest_Hz is 4.9"),
+        (lambda: bd.plot.spectrum(run, highest_Hz=0), "highest_Hz is 0; give a frequency of 1 Hz"),
+        (lambda: bd.plot.spectrum(run, highest_Hz=float("nan")), "highest_Hz is nan"),
         (lambda: bd.plot.envelope_spectrum(run, harmonics=0), "harmonics is 0"),
-        (lambda: bd.plot.stiffness_curve(BEARING, end_play_mm=0.1), "two numbers or more"),  # type: ignore[arg-type]
+        (lambda: bd.plot.stiffness_curve(BEARING, end_play_mm=0.1), "two numbers or more"),
     ):
         with pytest.raises(bd.InputError, match=said):
             call()

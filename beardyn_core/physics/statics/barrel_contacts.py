@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.contact_law import barrel_ellipse
+from beardyn_core.bearing.contact_law import barrel_ellipse, power_law
 from beardyn_core.bearing.spherical import SphericalBearing
-from beardyn_core.physics.statics.roller_contacts import ConePose, ContactModel, ContactSet, power_law
+from beardyn_core.physics.statics.roller_contacts import ConePose, ContactModel, ContactSet
 
 SLICE_EXPONENT = 1.0
 # arcs whose centres are this close have no line through them; they are far out of contact there [m]

@@ -20,6 +20,7 @@ from beardyn_core.bearing.contact_law import (
     LINE_EXPONENT,
     POINT_EXPONENT,
     line_contact_factor,
+    power_law,
 )
 from beardyn_core.bearing.kinematics import cage_speed, centrifugal_force, roller_spin
 from beardyn_core.bearing.lamina_coupling import LaminaRoot, coupled_law
@@ -143,16 +144,6 @@ def _inertia_load(bearing: RollerBearing, speed: float) -> Float:
     axial, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia
     gyroscopic = cage * sine * (axial * spin - (axial - transverse) * cage * cosine)
     return np.array([centrifugal, 0.0, gyroscopic + centrifugal * bearing.roller_mass_offset * cosine])
-
-
-def power_law(approach: Float, factor: float, exponent: float) -> tuple[Float, Float, Float]:
-    """Work out force, tangent stiffness and energy of Q = K delta^p, zero when apart."""
-    pressed = np.maximum(approach, 0.0)
-    force = factor * pressed**exponent
-    stiffness = (
-        exponent * factor * np.where(pressed > 0.0, pressed, 1.0) ** (exponent - 1.0) * (pressed > 0.0)
-    )
-    return force, stiffness, force * pressed / (exponent + 1.0)
 
 
 def line_law(model: ContactModel, approach: Float) -> tuple[Float, Float, Float]:
