@@ -23,6 +23,7 @@ FROM_PIP = {
     "gmsh",
     "mcap",
     "amqtt",
+    "imageio-ffmpeg",
     "colcon-package-information",
     "colcon-ros",
     "colcon-test-result",
