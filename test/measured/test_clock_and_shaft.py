@@ -200,3 +200,15 @@ def test_a_slow_speed_channel_beside_fast_vibration_is_merged_in_time(tmp_path: 
         tmp_path / "a.tdms", tmp_path / "run.mcap", channels="z=az", speed_channel="speed"
     )
     np.testing.assert_array_equal(bd.read(recording).shaft.angle, run.shaft.angle)
+
+
+@pytest.mark.parametrize("rate", [12_000.0, 25_600.0, 51_200.0])
+def test_stamps_of_seven_digits_have_one_rate_beyond_ten_seconds(rate: float) -> None:
+    """Written with %.7g, stamps have steps of 1 us below 10 s and of 10 us beyond."""
+    stamps = np.array([float(f"{each:.7g}") for each in np.arange(int(14.0 * rate)) / rate])
+    clock = Clock(1.0)
+    for part in np.array_split(stamps, 7):
+        clock.take(part)
+    clock.end()
+    assert clock.problems("here") == []
+    assert clock.rate == pytest.approx(rate, rel=1e-5)
