@@ -33,6 +33,11 @@ loads go with the rating, the spalls with the distance of two rollers, and the b
 `$BEARDYN_DATA_DIR/estimators` or `~/.local/share/beardyn/estimators`, their runs next to them. An estimate
 without a fitting estimator names this command.
 
+Chosen is the estimator of most axes among those whose axes are all measured, of equals your own, and of these
+the newest: by commands, Python, the fleet and the node `follower`. The node chooses with the first vibration,
+and anew where further axes come before the first stretch is whole; from then on an axis that stays away is a
+doubt in its diagnostics.
+
 The shipped estimators, judged crosswise by runs of `full` of bearings that were not learnt from: runs with a
 number, their median error, and how many of them the 90 % interval holds. By `python -m
 evidence.follow.bearings`:

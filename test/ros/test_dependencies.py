@@ -18,7 +18,7 @@ BROUGHT = {"pydantic_core": "pydantic", "llvmlite": "numba"}
 # of an extra, or without a rosdep key: package.xml says so in a comment
 FROM_PIP = {
     "mcap", "zstandard",
-    "rerun", "matplotlib", "gmsh", "skfem", "pyuff", "zarr", "torch", "sklearn", "dask", "distributed",
+    "rerun", "matplotlib", "PIL", "gmsh", "skfem", "pyuff", "zarr", "torch", "sklearn", "dask", "distributed",
 }  # fmt: skip
 # Keys in rosdep/python.yaml of rosdistro, read there. A new dependency is looked up before its key is added.
 ROSDEP = {
