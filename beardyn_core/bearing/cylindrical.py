@@ -96,6 +96,11 @@ class CylindricalBearing(RadialBearing):
         return any(-side in self.cup_rib_sides for side in self.cone_rib_sides)
 
     @property
+    def row_is_held(self) -> bool:
+        """Whether one row alone passes thrust on in both directions."""
+        return all(side in self.cone_rib_sides and -side in self.cup_rib_sides for side in (-1.0, 1.0))
+
+    @property
     def cone_rib_sides(self) -> tuple[float, ...]:
         """Ends of the rollers at which the inner ring has a rib: 1 outer, -1 inner."""
         return _SIDES[self.cone_ribs]

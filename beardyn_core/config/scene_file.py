@@ -277,7 +277,7 @@ def _not_of_this_kind(
     if given["end_play"] is not None:
         for sentence in check(bearing.mounted(given["end_play"])):
             yield Problem(sentence.removesuffix("."), ("end_play_mm",))
-    held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.cone_ribs == "both")
+    held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.row_is_held)
     if not held and getattr(given["mounting"], "axial_prop_stiffness", 1.0) == 0.0:
         yield Problem(
             f"{bearing.name} has cone_ribs {bearing.cone_ribs}, cup_ribs {bearing.cup_ribs} and rows is "

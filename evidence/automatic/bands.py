@@ -49,8 +49,8 @@ def levels(scene: Scene) -> Float:
     quiet = tuple(replace(sensor, noise_density=0.0, rate=25_600.0) for sensor in scene.sensors)
     simulation = start(replace(scene, sensors=quiet), SECONDS)
     blocks = simulation.blocks(simulation.twin.blocks_at_once)
-    heard = np.concatenate([block.acceleration[0] for block in blocks if len(block.acceleration)])
-    return third_octave_levels(heard[round(SETTLING * 25_600.0) :])
+    vibration = np.concatenate([block.acceleration[0] for block in blocks if len(block.acceleration)])
+    return third_octave_levels(vibration[round(SETTLING * 25_600.0) :])
 
 
 def worst(apart: Float, ranges: Iterable[tuple[float, float]] = tuple(RANGES)) -> list[str]:

@@ -31,7 +31,7 @@ from beardyn_core.study.ladder_levels import (
 from beardyn_core.study.ladder_report import count_words, error_text, machine
 from beardyn_core.study.ladder_result import Ladder, LevelResult
 from beardyn_core.study.measures import UNITS
-from evidence.automatic.page import MEANS, heard
+from evidence.automatic.page import MEANS, keep_bands
 from evidence.ladder.turns import in_turns
 from evidence.pages import REPORTS, write_page
 from evidence.runner import kept_json
@@ -79,7 +79,7 @@ def judged(name: str) -> list[dict[str, Any]]:
 
 def found(ladder: Ladder, row: LevelResult, full_cost: float) -> dict[str, Any]:
     """Write down what a level misses; `full_cost`: of `full` as it is chosen, [s] a simulated second."""
-    vibration = {f"{to:g}": heard(row, to) for to in BANDS}
+    vibration = {f"{to:g}": keep_bands(row, to) for to in BANDS}
     return {
         "scene": ladder.scene,
         "tier": row.level.tier,

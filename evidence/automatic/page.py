@@ -118,7 +118,7 @@ def tried(
 
 
 def _case(ladder: Ladder, row: LevelResult, case: Case, choice: Choice) -> dict[str, Any]:
-    asked, row = case.asked, heard(row, case.to)
+    asked, row = case.asked, keep_bands(row, case.to)
     return {
         "scene": ladder.scene,
         "asked": list(asked),
@@ -140,7 +140,7 @@ def _case(ladder: Ladder, row: LevelResult, case: Case, choice: Choice) -> dict[
     }
 
 
-def heard(row: LevelResult, to: float | None) -> LevelResult:
+def keep_bands(row: LevelResult, to: float | None) -> LevelResult:
     """Leave out the third octaves above a frequency, [Hz]."""
     if to is None:
         return row

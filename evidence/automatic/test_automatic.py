@@ -89,10 +89,10 @@ def test_third_octaves_above_what_is_asked_for_do_not_count() -> None:
     )
     level: Any = None
     row = LevelResult(level, 1, Cost(1.0, 1.0, 1.0), errors, (), "complete")
-    assert page.heard(row, None).verdict(("vibration",), 0.05) == "no"
-    assert page.heard(row, 1000.0).verdict(("vibration",), 0.05) == "yes"
-    assert page.heard(row, 1250.0).verdict(("vibration",), 0.05) == "no"
-    assert page.heard(row, 1000.0).of("torque") == errors[0]
+    assert page.keep_bands(row, None).verdict(("vibration",), 0.05) == "no"
+    assert page.keep_bands(row, 1000.0).verdict(("vibration",), 0.05) == "yes"
+    assert page.keep_bands(row, 1250.0).verdict(("vibration",), 0.05) == "no"
+    assert page.keep_bands(row, 1000.0).of("torque") == errors[0]
 
 
 def test_what_is_kept_is_not_run_again_and_an_open_case_is_run_longer(

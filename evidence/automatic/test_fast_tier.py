@@ -8,7 +8,7 @@ from typing import Any
 from beardyn_core.choice.load import scene_with_all
 from beardyn_core.study.ladder_result import Cost, LevelResult, Part, QuantityError
 from evidence.automatic import fast_tier
-from evidence.automatic.page import heard
+from evidence.automatic.page import keep_bands
 from evidence.pages import render
 
 
@@ -50,8 +50,8 @@ def test_the_farthest_third_octave_is_named_with_its_doubt_up_to_a_frequency() -
     level = next(iter(fast_tier.levels("smooth_run")))
     error = QuantityError("vibration", "dB", parts)
     row = LevelResult(level, 6, Cost(0.1, 0.1, 0.1), (error,), (), "complete")
-    assert fast_tier._where(heard(row, 8000.0)) == "-1.9 ± 0.2 at 8000 Hz"
-    assert fast_tier._where(heard(row, 1000.0)) == "+0.4 ± 0.2 at 1000 Hz"
+    assert fast_tier._where(keep_bands(row, 8000.0)) == "-1.9 ± 0.2 at 8000 Hz"
+    assert fast_tier._where(keep_bands(row, 1000.0)) == "+0.4 ± 0.2 at 1000 Hz"
 
 
 def test_scenes_are_counted_for_each_step() -> None:

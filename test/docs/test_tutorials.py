@@ -51,7 +51,7 @@ def test_another_word_is_found_and_another_number_is_not(
     answer: str,
     code: int,
 ) -> None:
-    text = PAGE.format(folder="/tmp/abc/run.mcap", other="/home/me/x/run.mcap", seconds=12, answer=answer)
+    text = PAGE.format(folder="/data/one/run.mcap", other="/mnt/other/run.mcap", seconds=12, answer=answer)
     assert check(tmp_path, monkeypatch, text) == code
     told = capsys.readouterr().out
     assert ("+ refused: no runs yet" in told or "- and one line more" in told) == bool(code)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.kinematics import fault_frequencies
 from beardyn_core.choice import scene_from_mapping
@@ -193,3 +193,14 @@ def test_a_single_row_between_two_ribs_of_its_inner_ring_carries_thrust_either_w
     scene = replace(scene, bearing=replace(scene.bearing, cone_ribs="both"), rows=1)
     force = joined(blocks_of(scene, 0.2)[-5:], "force_waveform")[:, 1]
     assert force.mean() == pytest.approx(1e3 * axial, rel=0.05)
+
+
+@pytest.mark.parametrize("cup_ribs", ["none", "outer", "inner"])
+def test_a_single_row_is_held_by_two_ribs_of_each_ring_only(cup_ribs: str) -> None:
+    scene = scene_of("lumped", (0.0, -6.0, 40.0))
+    assert isinstance(scene.bearing, CylindricalBearing)
+    assert replace(scene.bearing, cone_ribs="both").row_is_held
+    bearing = replace(scene.bearing, cone_ribs="both", cup_ribs=cup_ribs)
+    assert not bearing.row_is_held
+    with pytest.raises(InputError if cup_ribs == "none" else ValidityError):
+        blocks_of(replace(scene, bearing=bearing, rows=1), 0.02)

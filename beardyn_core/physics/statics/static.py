@@ -384,7 +384,9 @@ def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> N
     sum across, in any pose. Across they carry the load, and centrifugal forces where rollers are missing:
     those of the others add up to no more than the missing ones would have.
     """
-    if len(model.centre) > 1 or getattr(model.bearing, "cone_ribs", "") == "both":
+    if len(model.centre) > 1:
+        return
+    if isinstance(model.bearing, CylindricalBearing) and model.bearing.row_is_held:
         return
     across, pressed = math.hypot(load[0], load[2]), float(load[1])
     uneven = float(model.inertia_load[0]) * np.count_nonzero(model.missing)
