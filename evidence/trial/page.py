@@ -26,9 +26,7 @@ COLOURS = 64
 DEFAULT, GROWTH = "default", "growth"
 NEXT = "## Limits\n"
 # of another trial, or of other monitors
-_SECTION = re.compile(
-    r"^## (?:`\w+`|Beside other monitors|With the effects `standard`)\n(?:(?!## ).*\n)*", re.MULTILINE
-)
+_SECTION = re.compile(r"^## (?:`\w+`|Compared with other monitors)\n(?:(?!## ).*\n)*", re.MULTILINE)
 
 
 def main() -> None:
@@ -38,18 +36,11 @@ def main() -> None:
     parser.add_argument(
         "--rivals", type=Path, help="of `python -m evidence.trial.rivals -o`; default as it was"
     )
-    parser.add_argument(
-        "--standard", type=Path, help="of the last one with `--effects standard`; default as it was"
-    )
     args = parser.parse_args()
     folders = args.folder
     found = [json.loads((each / "trial.json").read_text(encoding="utf-8")) for each in folders]
     rivals = [] if args.rivals is None else json.loads(args.rivals.read_text(encoding="utf-8"))
-    heard = beside_others([Judged(**each) for each in rivals])
-    beside = ""
-    if args.standard is not None:
-        standard = json.loads((args.standard / "trial.json").read_text(encoding="utf-8"))
-        beside = beside_standard(found[-1], standard)
+    compared = beside_others([Judged(**each) for each in rivals])
     text = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     if found[0]["trial"] == DEFAULT:
         text = with_old_sections(page(found[0]), text)
@@ -58,7 +49,7 @@ def main() -> None:
     for each in others:
         if each["trial"] == GROWTH:
             growth_picture.draw(each)
-    for section in (heard, *map(other_trial, others), beside):
+    for section in (compared, *map(other_trial, others)):
         text = with_section_of(text, section)
     PAGE.write_text(text, encoding="utf-8")
     MONITOR_PAGE.write_text(monitor_page(), encoding="utf-8")
@@ -136,23 +127,6 @@ def other_trial(found: dict[str, Any]) -> str:
     """Write the section of another trial."""
     picture = f"../pictures/{growth_picture.PICTURE.name}" if found["trial"] == GROWTH else ""
     return render(HERE / "other_trial.md", {**_results(found), "picture": picture})
-
-
-def beside_standard(right: dict[str, Any], standard: dict[str, Any]) -> str:
-    """Write what a trial found with the effects that its accuracy needs, and with `standard`."""
-    if (one := right["trial"]) != (other := standard["trial"]):
-        raise SystemExit(f"--standard is of the trial {other}; the last folder is of {one}")
-    rows = [
-        (
-            a["name"],
-            _rate(a["found"]),
-            _rate(b["found"]),
-            _rate(a["false_alarms"]),
-            _rate(b["false_alarms"]),
-        )
-        for a, b in zip(right["slices"], standard["slices"], strict=True)
-    ]
-    return render(HERE / "standard.md", {"trial": one, "rows": rows})
 
 
 def beside_others(judged: Sequence[Judged]) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -16,7 +15,7 @@ from beardyn_core.study.trial_result import TrialResult
 from evidence.trial import growth_picture
 from evidence.trial.page import (
     MONITOR_PAGE,
-    beside_standard,
+    beside_others,
     monitor_page,
     other_trial,
     page,
@@ -73,21 +72,6 @@ def test_sections_of_other_trials_are_put_in_replaced_and_kept() -> None:
     assert with_section_of(two, "") == two
 
 
-def test_right_effects_and_standard_stand_side_by_side() -> None:
-    trial = load_trial("quick")
-    cells = trial.cells()
-
-    def found(least: float) -> dict[str, Any]:
-        runs = [run_of(cell, cell.fault if cell.size > least else "healthy") for cell in cells]
-        told: dict[str, Any] = json.loads(json_text("trial", json_object(TrialResult.of(trial, "", runs))))
-        return told
-
-    section = beside_standard(found(3e-3), found(1.0))
-    assert "| all | 18/27, 66.7 % (46 to 83.5) | 0/27, 0 % (0 to 12.8) |" in section
-    page = with_section_of("# Trial\n\n## Limits\n\nabout\n", section)
-    assert with_old_sections("# Trial\n\n## Limits\n\nabout\n", page) == page
-
-
 def test_a_spall_adds_its_own_power() -> None:
     sound = np.array([0.0, 10.0, 3.0])
     spalled = 10.0 * np.log10(10.0 ** (0.1 * sound) + [1.0, 100.0, 0.0])
@@ -130,6 +114,10 @@ def test_the_rivals_are_counted_over_the_same_runs() -> None:
     assert [row[1].split(",")[0] for row in rows] == ["1/1", "0/1", "1/1", "1/1"]
     assert [row[2:4] for row in rows] == [["0", "0"], ["1", "0"], ["0", "0"], ["0", "0"]]
     assert [row[5].split(",")[0] for row in rows] == ["0/4", "1/4", "1/4", "0/4"]
+    # a page that is written without them keeps what it said of them
+    bare = "# Trial\n\n## Limits\n\nabout\n"
+    compared = with_section_of(bare, beside_others(judged))
+    assert with_old_sections(bare, compared) == compared != bare
 
 
 def test_a_threshold_is_raised_until_it_alarms_as_seldom_and_misses_what_is_below() -> None:
