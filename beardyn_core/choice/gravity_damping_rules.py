@@ -10,8 +10,8 @@ from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_o
 from beardyn_core.physics.cage.rubbing import bar_weight
 
 _NOTABLE = 0.01  # of the torque
-# What idle rollers on the cage take may be so many times the estimate, whose count of them is that of the rings
-# at rest: 1.2 with one roller too large (`oversize_roller`), which lifts its neighbours off once a turn.
+# What idle rollers on the cage take may be so many times the estimate, whose count of them is that of rings at
+# rest: 1.2 with one roller too large (`oversize_roller`), which lifts its neighbours off once a turn.
 _MORE_IDLE = 1.5
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile
 # What independent laminae add to third octaves behind a fault in `full`: 1.5 dB at 8 kHz (`cup_spall`), 1.6
@@ -50,9 +50,8 @@ def gravity(evidence: Evidence) -> Rule:
     influence["roller_load"] += moved["roller_load"]
     influence["deflection"] += moved["deflection"]
     if evidence.torque_share(torque) > _NOTABLE:
-        reason += (
-            f"; idle ones that lie on the cage make up to {percent(evidence.torque_share(torque))} of the torque"
-        )
+        most = percent(evidence.torque_share(torque))
+        reason += f"; idle ones that lie on the cage make up to {most} of the torque"
     return on_or_off("gravity", effect, reason, influence, evidence.costs.saved("gravity"))
 
 

@@ -41,7 +41,7 @@ def test_the_mean_force_alone_leads_to_the_lumped_tier() -> None:
 
 
 def test_weight_stays_where_idle_rollers_on_the_cage_make_loaded_ones_slip() -> None:
-    """Without it the torque of `static_5kN` is 16 % less in a run, and that of `oversize_roller` 5.2 % more."""
+    """Without it the torque of `static_5kN` is 16 % less in a run, of `oversize_roller` 5.2 % more."""
     means = ["force", "deflection", "roller_load", "torque"]
     light, uneven = (
         load_scene(name, effects="auto", quantities=means) for name in ("static_5kN", "oversize_roller")
