@@ -10,7 +10,7 @@ from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_o
 from beardyn_core.physics.cage.rubbing import bar_weight
 
 _NOTABLE = 0.01  # of the torque
-# What idle rollers on the cage take may be so many times the estimate, whose count of them is that of rings at
+# What idle rollers on the cage take may be so many times the estimate, which counts them with the rings at
 # rest: 1.2 with one roller too large (`oversize_roller`), which lifts its neighbours off once a turn.
 _MORE_IDLE = 1.5
 _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat, its 99 % quantile
