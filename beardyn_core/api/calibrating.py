@@ -73,7 +73,7 @@ def calibrate(
         Recordings do not fit the scene, one has a fault, or what is to be fitted is not in the scene.
     """
     from beardyn_core.api.making import scene as make_scene
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.calibration.calibration_result import Calibration
     from beardyn_core.calibration.fitting import Fitter
     from beardyn_core.calibration.intake import rides_heard, sensor_number, unknowns_of
@@ -95,7 +95,7 @@ def calibrate(
         raise InputError(problems)
     library("cma", "a calibration", "calibrate")
     twin = make_scene(base, tier=tier)
-    heard = [heard_of(each, bearing, sensor) for each in several]
+    heard = [resolve_source(each, bearing, sensor) for each in several]
     number = sensor_number(twin, heard[0][2], asked=bool(sensor))
     wanted, absent = unknowns_of(twin, number, fit)
     hearing, rides = rides_heard(twin, number, heard)

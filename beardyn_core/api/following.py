@@ -120,7 +120,7 @@ def follow(
 
     from beardyn_core.api.estimating import kelvin_of, known_load_in
     from beardyn_core.api.making import scene as make_scene
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.api.twin_residual import residual_beside
     from beardyn_core.follow.estimator_choice import estimator_of_run
     from beardyn_core.follow.load_checks import read_axle_loads
@@ -140,7 +140,7 @@ def follow(
             )
     stated = one_each("load_kn", load_kn, len(several))
     sensors = one_each("load_sensor", load_sensor or None, len(several))
-    heard, plate, ear = heard_of(several[0], bearing, sensor)
+    heard, plate, ear = resolve_source(several[0], bearing, sensor)
     if estimator is None:
         estimator = estimator_of_run(heard, plate, ear)
     follower = follower_of(
@@ -154,7 +154,7 @@ def follow(
     time = distance = 0.0
     for k, run in enumerate(several):
         if k:
-            heard, plate, ear = heard_of(run, bearing, sensor)
+            heard, plate, ear = resolve_source(run, bearing, sensor)
             follower.begin()
         follower.know_load(known_load_in(heard, stated[k], sensors[k] or ()))
         begin = distance if mileages is None else mileages[k]

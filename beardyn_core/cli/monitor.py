@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator
+from itertools import groupby
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -56,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="draw the envelope spectrum behind each verdict, with the lines of every part; default none",
     )
     add_force(parser, "replace the picture when it exists; default refuse")
+    parser.add_argument("--verbose", action="store_true", help="print a line for every analysis")
     add_json(parser)
     add_plates(parser, "default that of the recording")
     add_settings(parser)
@@ -129,7 +132,7 @@ def run(args: argparse.Namespace) -> int:
     smallest = {each.mounted: _smallest_spalls(args, each, algorithm) for each in inspections}
     heard = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
-        _draw(results, args.picture, replace=args.force)
+        _draw(args, results)
     if args.json:
         print(json_text("monitor", json_object(args, heard, smallest)))
         return _exit_code(heard)
@@ -140,8 +143,8 @@ def run(args: argparse.Namespace) -> int:
     for mounted, findings in heard.items():
         if labelled:
             print(f"{mounted.label}, {mounted.plate.name}:")
-        for finding in findings:
-            print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
+        for line in _lines_of(findings, every=args.verbose):
+            print(line)
     for mounted, findings in heard.items():
         label = f"{mounted.label} " if labelled else ""
         print(f"{label}{_ending(findings)}")
@@ -155,6 +158,17 @@ def run(args: argparse.Namespace) -> int:
         for part in hidden_parts(mounted.plate, findings):
             print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
     return _exit_code(heard)
+
+
+def _lines_of(findings: list[Finding], *, every: bool) -> Iterator[str]:
+    """Write a line for every analysis, or for the first of those that agree and one for the others."""
+    for verdict, group in groupby(findings, key=lambda finding: finding.verdict):
+        alike = list(group)
+        for finding in alike if every else alike[:1]:
+            yield f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}"
+        if not every and len(alike) > 1:
+            more = f"{len(alike) - 1} more {'analysis' if len(alike) == 2 else 'analyses'}"
+            yield f"{alike[-1].time:8.2f} s  {verdict:8} the same in {more}"
 
 
 def _smallest_spalls(
@@ -216,19 +230,24 @@ def _picture_problems(args: argparse.Namespace) -> list[str]:
     return problems + file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
 
 
-def _draw(results: dict[Mounted, BearingResults], path: Path, *, replace: bool) -> None:
+def _draw(args: argparse.Namespace, results: dict[Mounted, BearingResults]) -> None:
     """Write the picture of all bearings that have a verdict."""
     from beardyn_core.study.monitor_picture import monitor_picture
 
+    files = f"{Path(args.files[0]).name}{', ...' if len(args.files) > 1 else ''}"
+    labels = {mounted: f"{mounted.label}, " if len(results) > 1 else "" for mounted in results}
     shown = {
-        mounted.label: (each.concluded, mounted.plate.frequencies)
+        f"{files}, {labels[mounted]}bearing {mounted.plate.name}": (
+            each.concluded,
+            mounted.plate.frequencies,
+        )
         for mounted, each in results.items()
         if each.concluded is not None
     }
     if not shown:
         print("beardyn: warning: there is no analysis to draw; no picture is written", file=sys.stderr)
         return
-    with as_a_whole(path, replace=replace) as fresh:
+    with as_a_whole(args.picture, replace=args.force) as fresh:
         monitor_picture(shown, fresh)
 
 

@@ -163,11 +163,12 @@ def draw() -> None:
         axis.plot(1e3 * found.time, found.motion, "C0", lw=0.7)
         edge = 0.5e3 * case.width / found.speed
         axis.axvspan(-edge, edge, color="0.8")
+        title = f"spall of {1e3 * case.width:g} mm at {case.speed:g} km/h; grey: a roller is over it"
+        axis.set_title(title, fontsize="medium")
         axis.set(ylabel="seat [m/s$^2$]", xlim=(-edge - 1.0, edge + 4.0))
         forces = axis.twinx()
         forces.plot(1e3 * found.time, 1e-3 * found.force, "C1", lw=0.9)
         forces.set_ylabel("force [kN]", color="C1")
-    axes[0].set_title("grey: the contact is over the spall")
     axes[1].set_xlabel("time [ms]")
     _save(figure, CROSSING)
     figure, axes = plt.subplots(1, 2, figsize=(7.0, 2.9), sharey=True, layout="constrained")
