@@ -27,6 +27,7 @@ from beardyn_core.record.published import (
 )
 from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
+from beardyn_core.choice.rule import shorten_summary
 from beardyn_core.record.run_summary import chosen_for, collect_diagnostic, recorded_budget
 from beardyn_core.record.stamp_offset import StampOffset, earliest_stamp
 from beardyn_core.record.topics import relative_name
@@ -259,7 +260,7 @@ def _lines(r: Report) -> list[str]:
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         if r.chosen is not None:
-            lines.append(f"effects  {r.chosen}")
+            lines.append(f"accuracy {shorten_summary(r.chosen)}")
         faults = [defect_from(fault).described() for fault in r.faults]
         lines.append(f"faults   {'; '.join(faults) or 'none'}")
     if r.sensor_rates_Hz:

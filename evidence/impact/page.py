@@ -163,7 +163,8 @@ def draw() -> None:
         axis.plot(1e3 * found.time, found.motion, "C0", lw=0.7)
         edge = 0.5e3 * case.width / found.speed
         axis.axvspan(-edge, edge, color="0.8")
-        title = f"spall of {1e3 * case.width:g} mm at {case.speed:g} km/h; grey: a roller is over it"
+        long = "the whole roller" if case.length == WHOLE else f"{1e3 * case.length:g} mm of it"
+        title = f"spall {1e3 * case.width:g} mm wide, along {long}; grey: a roller is over the spall"
         axis.set_title(title, fontsize="medium")
         axis.set(ylabel="seat [m/s$^2$]", xlim=(-edge - 1.0, edge + 4.0))
         forces = axis.twinx()
@@ -181,7 +182,7 @@ def draw() -> None:
             density = (np.abs(np.fft.rfft(pieces, axis=1)) ** 2).mean(axis=0) * 2.0
             density /= RATE * float(np.sum(window**2))
             frequency = 1e-3 * np.fft.rfftfreq(count, 1.0 / RATE)
-            axis.semilogy(frequency, np.sqrt(density), colour, lw=0.9, label=name(case))
+            axis.semilogy(frequency, np.sqrt(density), colour, lw=0.9, label=name(case).replace("cup", "spall on the cup, mm:"))
         axis.set(xlabel="frequency [kHz]", title=f"{speed:g} km/h", xlim=(0, 20), ylim=(1e-4, 3.0))
         axis.grid(True, alpha=0.3)
     axes[0].set_ylabel("m/s$^2$/Hz$^{1/2}$")
