@@ -87,14 +87,14 @@ def estimate(
     from beardyn_core.follow.run_stretches import whole_bearing
     from beardyn_core.follow.service import Service
 
-    heard, plate, sensor = resolve_source(run, bearing, sensor)
+    received, plate, sensor = resolve_source(run, bearing, sensor)
     if estimator is None:
-        estimator = estimator_of_run(heard, plate, sensor)
+        estimator = estimator_of_run(received, plate, sensor)
     elif not isinstance(estimator, Estimator):
         estimator = read_estimator(Path(estimator))
-    known = known_load_in(heard, load_kn, load_sensor)
+    known = known_load_in(received, load_kn, load_sensor)
     axles = read_axle_loads(axle_load_t, "axle_load_t")
-    found = estimates_of(heard, estimator, plate, sensor)
+    found = estimates_of(received, estimator, plate, sensor)
     if known is None:
         return found
     wheel = wheel_diameter or Service().wheel_diameter

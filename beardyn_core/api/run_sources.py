@@ -53,8 +53,9 @@ def read_source(
             raise InputError(f"{', '.join(options)}: for measured files; {source.label} is read already")
         return source
     if not isinstance(source, str | Path) or "channels" in options or is_measured_file(Path(source)):
-        known = bearing is None or isinstance(bearing, str | NamePlate)
-        return read_measured(source, bearing=bearing if known else NamePlate.of(bearing), **options)
+        if bearing is not None and not isinstance(bearing, str | NamePlate):
+            bearing = NamePlate.of(bearing)
+        return read_measured(source, bearing=bearing, **options)
     if options:
         raise InputError(f"{', '.join(options)}: for measured files; {source} is a recording, or not there")
     return read_run(source, box)

@@ -130,22 +130,22 @@ def run(args: argparse.Namespace) -> int:
     inspections = inspect_files(args, algorithm, bearings, problems, recorded=recorded)
     results = {each.mounted: each.results for each in inspections}
     smallest = {each.mounted: _smallest_spalls(args, each, algorithm) for each in inspections}
-    heard = {mounted: each.findings for mounted, each in results.items()}
+    received = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
         _draw(args, results)
     if args.json:
-        print(json_text("monitor", json_object(args, heard, smallest)))
-        return _exit_code(heard)
-    taken = [catalogue_sentence(each.entry) for each in heard if each.entry is not None]
+        print(json_text("monitor", json_object(args, received, smallest)))
+        return _exit_code(received)
+    taken = [catalogue_sentence(each.entry) for each in received if each.entry is not None]
     for sentence in dict.fromkeys(taken):  # of several axleboxes once
         print(sentence)
-    labelled = len(heard) > 1
-    for mounted, findings in heard.items():
+    labelled = len(received) > 1
+    for mounted, findings in received.items():
         if labelled:
             print(f"{mounted.label}, {mounted.plate.name}:")
         for line in _lines_of(findings, every=args.verbose):
             print(line)
-    for mounted, findings in heard.items():
+    for mounted, findings in received.items():
         label = f"{mounted.label} " if labelled else ""
         print(f"{label}{_ending(findings)}")
         whole = conclude(findings).finding
@@ -157,7 +157,7 @@ def run(args: argparse.Namespace) -> int:
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
         for part in hidden_parts(mounted.plate, findings):
             print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
-    return _exit_code(heard)
+    return _exit_code(received)
 
 
 def _lines_of(findings: list[Finding], *, every: bool) -> Iterator[str]:
@@ -216,11 +216,11 @@ def _known_twin(name: str) -> None:
         scene(name)
 
 
-def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
+def _exit_code(received: dict[Mounted, list[Finding]]) -> int:
     """Give the exit code of the worst bearing."""
     from beardyn_core.study.monitored_recording import EXIT_CODES, conclude, worst
 
-    return EXIT_CODES[worst(conclude(findings).verdict for findings in heard.values())]
+    return EXIT_CODES[worst(conclude(findings).verdict for findings in received.values())]
 
 
 def _picture_problems(args: argparse.Namespace) -> list[str]:
@@ -276,7 +276,7 @@ def _confidence_text(finding: Finding) -> str:
 
 def json_object(
     args: argparse.Namespace,
-    heard: dict[Mounted, list[Finding]],
+    received: dict[Mounted, list[Finding]],
     smallest: dict[Mounted, SmallestSpalls | str | None],
 ) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
@@ -284,7 +284,7 @@ def json_object(
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
-    for mounted, findings in heard.items():
+    for mounted, findings in received.items():
         conclusion = conclude(findings)
         spall = keyed_fields(conclusion.finding or Finding(conclusion.verdict, "", 0.0))
         every.append(

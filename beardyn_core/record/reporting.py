@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.factors import SYMBOLS
+from beardyn_core.choice.rule import shorten_summary
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
@@ -27,7 +28,6 @@ from beardyn_core.record.published import (
 )
 from beardyn_core.record.reading import namespace_in, read_with_times
 from beardyn_core.record.run import Run
-from beardyn_core.choice.rule import shorten_summary
 from beardyn_core.record.run_summary import chosen_for, collect_diagnostic, recorded_budget
 from beardyn_core.record.stamp_offset import StampOffset, earliest_stamp
 from beardyn_core.record.topics import relative_name

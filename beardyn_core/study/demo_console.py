@@ -47,7 +47,7 @@ class Progress:
         self._terminal = sys.stdout.isatty()
         self._open = False
 
-    def hear(self, verdict: str) -> None:
+    def receive(self, verdict: str) -> None:
         """Keep the latest verdict of the monitor."""
         self._monitor = {
             "waiting": "no verdict yet",

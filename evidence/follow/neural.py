@@ -45,7 +45,7 @@ SEED = 1
 FLOWS = {"maf": "flow, Gaussian", "nsf": "flow, splines"}  # by the names that sbi has for them
 
 
-def heard_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
+def received_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
     """Find the descriptors that go best with a number."""
     centred = descriptors - descriptors.mean(axis=0)
     size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
@@ -78,7 +78,7 @@ def guessed_by_flow(quantity: Quantity, train: Described, hidden: Described, flo
         spread = np.where(spread > 1e-9, spread, 1.0)
         taught, has = true_values(quantity, both)
         standard = np.nan_to_num((both.descriptors[has] - middle) / spread)
-        columns = heard_best(standard, taught[has])
+        columns = received_best(standard, taught[has])
         asked = np.flatnonzero(part & inside)
         unseen = np.nan_to_num((hidden.descriptors[asked] - middle) / spread)
         pieces.append((asked, draws(standard[:, columns], taught[has], unseen[:, columns], flow)))
