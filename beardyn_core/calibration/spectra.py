@@ -25,7 +25,7 @@ _SMOOTH = 7  # bands whose scatter is put together, as few seeds tell it badly
 
 
 class Reception(NamedTuple):
-    """What is measured at once; see `beardyn_core.follow.inference.Ear`."""
+    """What is measured at once; see `beardyn_core.follow.inference.Receiver`."""
 
     axes: tuple[str, ...]
     rate: float  # [Hz]

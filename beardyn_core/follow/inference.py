@@ -28,7 +28,7 @@ _SAME_RATE = 1e-3
 _LEAST_LENGTH = 0.95  # of a stretch
 
 
-class Ear(Protocol):
+class Receiver(Protocol):
     """What is read at once: an estimator is one."""
 
     @property
@@ -94,7 +94,7 @@ def estimates_of(
     return replace(found, mountings=mountings_of(stretches, estimator)) if found.strangeness > 1.0 else found
 
 
-def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch]:
+def stretches_of(run: Run, estimator: Receiver, sensor: str = "") -> Iterator[Stretch]:
     """Cut a run into stretches of the length and sampling rate that an estimator reads.
 
     Where samples are lost, or are NaN, a new stretch begins.
@@ -123,7 +123,7 @@ def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch
             yield from _cut(*piece, int(time_ns[begin]), estimator)
 
 
-def _cut(received: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[Stretch]:
+def _cut(received: Float, angle: Float, begin_ns: int, estimator: Receiver) -> Iterator[Stretch]:
     """Cut what nothing is lost of into stretches."""
     length = round(estimator.stretch * estimator.rate) + 1
     for k in range(max(1, len(received) // length)):
@@ -145,7 +145,7 @@ def finite_axes(acceleration: Float) -> tuple[str, ...]:
     return tuple(axis for k, axis in enumerate(AXES) if not np.isnan(acceleration[:, k]).all())
 
 
-def name_unmeasured_axes(received: Float, estimator: Ear) -> str:
+def name_unmeasured_axes(received: Float, estimator: Receiver) -> str:
     """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
     for axis, values in zip(estimator.axes, received.T, strict=True):
         if len(values) and np.isnan(values).all():

@@ -39,7 +39,7 @@ from evidence.pages import REPORTS, write_section
 PAGE = REPORTS / "estimator.md"
 TITLE, NEXT = "## Compared with a neural posterior\n", "## What a known load gives\n"
 PARTS = 5  # of the hidden bearings; each is judged by what the others teach, in every way
-HEARD = 80  # descriptors that go best with the number
+KEPT = 80  # descriptors that go best with the number
 DRAWS = 1000  # of a posterior
 SEED = 1
 FLOWS = {"maf": "flow, Gaussian", "nsf": "flow, splines"}  # by the names that sbi has for them
@@ -49,7 +49,7 @@ def received_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
     """Find the descriptors that go best with a number."""
     centred = descriptors - descriptors.mean(axis=0)
     size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
-    return np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:HEARD]
+    return np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:KEPT]
 
 
 def draws(descriptors: Float, values: Float, asked: Float, flow: str) -> Float:

@@ -28,7 +28,7 @@ def test_the_descriptors_that_go_with_the_number_are_received_first() -> None:
     descriptors[:, 7] -= 3.0 * values
     chosen = neural.received_best(descriptors, values)
     assert chosen[0] == 7
-    assert len(chosen) == neural.HEARD
+    assert len(chosen) == neural.KEPT
 
 
 def test_who_errs_less_is_told() -> None:

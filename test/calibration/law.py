@@ -15,7 +15,7 @@ from beardyn_core.calibration.spectra import Reception, Ride
 from beardyn_core.calibration.twin import Beside, Values
 from beardyn_core.calibration.unknowns import BY_NAME
 
-HEARING = Reception(("y", "z"), 25_600.0, 1.0)
+RECEPTION = Reception(("y", "z"), 25_600.0, 1.0)
 MODES_HZ, DAMPING = (640.0, 1100.0, 2300.0), 0.03
 BASES = {"frequency": 1.0, "damping": 1.0, "background": 1.0, "noise": 3e-4, "end_play": 0.1}
 QUIET = 1e-4  # [m^2/s^4], of a band far from every mode
@@ -62,7 +62,7 @@ class Law(Beside):
 
 def law(rides: tuple[Ride, ...] = (), **options: Any) -> Law:
     scene: Any = SimpleNamespace(sensors=[SimpleNamespace(noise_density=BASES["noise"])])
-    return Law(scene, HEARING, 0, rides, **options)
+    return Law(scene, RECEPTION, 0, rides, **options)
 
 
 def fitter(
