@@ -70,7 +70,7 @@ step: $(VENV)/.ready-test ## set up, then time steps against an explicit referen
 light: $(VENV)/.ready-test ## set up, then cages under light loads in every shipped set: docs/evidence/light.md
 	@$(BIN)/python -m evidence.light.page $(ARGS)
 
-service: $(VENV)/.ready-test ## set up, then what sensors in service hear: docs/evidence/sensors.md
+service: $(VENV)/.ready-test ## set up, then what sensors in service measure: docs/evidence/sensors.md
 	@$(BIN)/python -m evidence.service.page $(ARGS)
 
 damping: $(VENV)/.ready-test ## set up, then damping times over their quoted range: docs/evidence/damping.md

@@ -38,7 +38,7 @@ value_topics          results as plain numbers, for any tool that plots
 clocks_apart          whether streams that are paired by stamp have one clock
 train_signals         what a train has of one axlebox, for the nodes that listen to it
 monitor_node          monitoring: vibration, shaft, load and temperature, nothing else
-load_hearing          the load of a topic, averaged over stretches, where its operator trusts it
+load_reception          the load of a topic, averaged over stretches, where its operator trusts it
 follower_node         load, end play and spall from vibration and shaft, as they change
 viewer_node           live view in rerun
 car                   the twins, loads or recorders of all axleboxes of a scene or a car in one process

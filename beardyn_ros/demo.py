@@ -133,7 +133,7 @@ def _run_nodes(nodes: _Nodes, graph: _Observer, scene: Any, recording: Path) -> 
     def ended() -> bool:
         twin, monitor = graph.latest_status("twin"), graph.latest_status("monitor")
         if monitor is not None:
-            progress.hear(monitor.value("verdict") or "waiting")
+            progress.receive(monitor.value("verdict") or "waiting")
         if twin is not None and twin.value("pace"):
             progress.show(float(twin.value("simulated_time") or 0.0), float(twin.value("pace") or 0.0))
         return graph.state() in ("finished", "stopped")

@@ -51,7 +51,7 @@ class TwinWatch:
         self._publisher_count = publisher_count
         self._run_id = ""
         self._told = False
-        self._heard_at = -math.inf
+        self._received_at = -math.inf
         self.speaks = False
         self._seen = False
         self._absent_since: float | None = time.monotonic()
@@ -77,7 +77,7 @@ class TwinWatch:
             if not self._told and run_id:
                 self._run_id = run_id
             if run_id == self._run_id:
-                self.last, self._heard_at, self.speaks = status, time.monotonic(), True
+                self.last, self._received_at, self.speaks = status, time.monotonic(), True
             else:
                 self._others[run_id] = status
                 while len(self._others) > MOST_OTHERS:
@@ -85,7 +85,7 @@ class TwinWatch:
 
     def look(self) -> None:
         """Note whether the twin speaks of its run; to be called when everything that has come is taken."""
-        self.speaks = time.monotonic() - self._heard_at < SILENT_AFTER_S
+        self.speaks = time.monotonic() - self._received_at < SILENT_AFTER_S
 
     def value(self, key: str, default: Any = None) -> Any:
         """Look up a value of the twin's last status."""
@@ -144,7 +144,7 @@ class Namesakes:
         statuses = decode_diagnostics(cdr)[1]
         return any(each.name == self._name and each.value("instance") != self.instance for each in statuses)
 
-    def hear(self, cdr: bytes) -> None:
+    def receive(self, cdr: bytes) -> None:
         """Take one diagnostics message of a node of this name."""
         if not self.is_named_in(cdr):
             return

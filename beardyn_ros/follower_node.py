@@ -48,7 +48,7 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.labels import HEALTHY
 from beardyn_ros.diagnostics import FOLLOWER, OK, WARN, diagnostic_name
 from beardyn_ros.frames import frame_of
-from beardyn_ros.load_hearing import LoadHearing
+from beardyn_ros.load_reception import LoadReception
 from beardyn_ros.node_parameters import PARAMETERS
 from beardyn_ros.parameters import ParameterValues
 from beardyn_ros.runtime import run_node, wall_timer
@@ -82,19 +82,19 @@ class FollowerNode(Node):
         self._numbers = ValueTopics(self._out, FOLLOWER, frame, self._values.values)
         self._load = self._make_load()
         self._begin()
-        hearer = Hearer(self._begin, self._hear_vibration, self._hear_shaft, self._hear_temperature)
-        further = {} if self._load_heard is None else self._load_heard.handlers
+        hearer = Hearer(self._begin, self._receive_vibration, self._receive_shaft, self._receive_temperature)
+        further = {} if self._load_received is None else self._load_received.handlers
         self._signals = TrainSignals(self, hearer, further)
         self._reported_at = 0.0
         wall_timer(self, TICK_S, self._tick)
 
     def _make_load(self) -> KnownLoad | None:
         """Read the load that is known from the parameters, or prepare to receive it."""
-        self._load_heard: LoadHearing | None = None
+        self._load_received: LoadReception | None = None
         problems, given = [], self._values.load.strip()
         try:
             if given.startswith("topic"):
-                self._load_heard = LoadHearing(given)
+                self._load_received = LoadReception(given)
         except InputError as error:
             problems += [f"node follower, parameter 'load' {each}" for each in error.problems]
         try:
@@ -116,11 +116,11 @@ class FollowerNode(Node):
 
     def _load_of(self, end_ns: int) -> KnownLoad | None:
         """Give the load that is known in the stretch that ends then."""
-        if self._load_heard is None:
+        if self._load_received is None:
             return self._load
         begin_ns = end_ns - round(1e9 * self._follower.estimator.stretch)
-        heard = self._load_heard.load_between(begin_ns, end_ns)
-        return combine_loads([each for each in (heard, self._load) if each is not None])
+        received = self._load_received.load_between(begin_ns, end_ns)
+        return combine_loads([each for each in (received, self._load) if each is not None])
 
     def _begin(self) -> None:
         try:
@@ -140,8 +140,8 @@ class FollowerNode(Node):
         except InputError as error:
             problems = [f"node follower, parameter 'estimator': {each}" for each in error.problems]
             raise InputError(problems) from None
-        if self._load_heard is not None:
-            self._load_heard.clear()
+        if self._load_received is not None:
+            self._load_received.clear()
         self._twin = self._scene_of_twin()
         self._stretches = StretchIntake(self._follower.estimator)
         self._mounting = MountingWatch(self._follower.estimator)
@@ -153,7 +153,7 @@ class FollowerNode(Node):
         self._compared_at = -math.inf
         self._comparing: Future[Residual] | None = None
         self._residual: Residual | None = None
-        self._unheard = ""  # why the vibration is not read
+        self._unread = ""  # why the vibration is not read
         self._trouble = ""  # of the parallel twin
         self._summed_up = False
         self._ended_at: float | None = None
@@ -184,13 +184,13 @@ class FollowerNode(Node):
 
     # --- what a train has --------------------------------------------------------------------------
 
-    def _hear_vibration(self, time_ns: Int, acceleration: Float) -> None:
+    def _receive_vibration(self, time_ns: Int, acceleration: Float) -> None:
         try:
             self._choose_by_axes(acceleration)
             self._stretches.push_vibration(time_ns, acceleration)
-            self._unheard = ""
+            self._unread = ""
         except InputError as error:
-            self._unheard = str(error)
+            self._unread = str(error)
 
     def _choose_by_axes(self, acceleration: Float) -> None:
         """Take the estimator of the axes that come, until a stretch has been followed.
@@ -205,10 +205,10 @@ class FollowerNode(Node):
             self._stretches = self._stretches.of(estimator)
             self._mounting = MountingWatch(estimator)
 
-    def _hear_shaft(self, time_ns: Int, angle: Float) -> None:
+    def _receive_shaft(self, time_ns: Int, angle: Float) -> None:
         self._stretches.push_shaft(time_ns, angle)
 
-    def _hear_temperature(self, _stamp_ns: int, celsius: float) -> None:
+    def _receive_temperature(self, _stamp_ns: int, celsius: float) -> None:
         self._temperature = celsius
 
     # --- what it knows -----------------------------------------------------------------------------
@@ -223,7 +223,7 @@ class FollowerNode(Node):
             self._take(row, 1e-9 * stretch.end_ns)
             self._mounting.take(stretch)
         self._look_at_mounting()
-        self._hear_twin()
+        self._receive_twin()
         if time.monotonic() - self._reported_at > REPORT_PERIOD_S:
             self._report()
         if self._signals.ended and self._worker_is_done() and not self._summed_up:
@@ -272,7 +272,7 @@ class FollowerNode(Node):
         if self._searching is None and (powers := self._mounting.due()):
             self._searching = self._worker.submit(search_mountings, powers, self._follower.estimator)
 
-    def _hear_twin(self) -> None:
+    def _receive_twin(self) -> None:
         """Publish what the parallel twin has come to, when it is done."""
         if self._comparing is None or not self._comparing.done():
             return
@@ -297,8 +297,8 @@ class FollowerNode(Node):
         troubles = filter(
             None,
             [
-                self._unheard or self._stretches.doubt,
-                "" if self._load_heard is None else self._load_heard.doubt,
+                self._unread or self._stretches.doubt,
+                "" if self._load_received is None else self._load_received.doubt,
                 self._trouble,
                 self._signals.clock_note,
             ],

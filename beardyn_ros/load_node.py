@@ -169,7 +169,7 @@ class LoadNode(Node):
                 f"{self._replay.next_ns / 1e9:.6g} s",
             )
         else:
-            self._credit.hear(credit_ns)
+            self._credit.receive(credit_ns)
 
     def _on_truth(self, cdr: bytes) -> None:
         run_id = self._next_run_id = str(decode_told(cdr).get("run_id", ""))
@@ -187,7 +187,7 @@ class LoadNode(Node):
 
     def _follow_the_next_twin(self) -> None:
         """Serve another twin as soon as the one served so far is silent: two cannot feed on one stream."""
-        silent = time.monotonic() - self._credit.heard_at > TWIN_SILENT_AFTER_S
+        silent = time.monotonic() - self._credit.received_at > TWIN_SILENT_AFTER_S
         if self._next_run_id != self._run_id and silent:
             self._follow_run()
 

@@ -67,7 +67,7 @@ class Sources:
         self._own: dict[str, bool] = {}  # whether who is followed is the node that the topic is named for
         self._known: dict[str, dict[bytes, Publisher]] = {}
         self._looked_at: dict[str, float] = {}
-        self._heard_at: dict[str, float] = {}
+        self._received_at: dict[str, float] = {}
         self._silent: set[str] = set()
         self._named: set[str] = set()  # topics that the node they are named for has published on
 
@@ -96,7 +96,7 @@ class Sources:
                 continue
             if problem := self._problem("/diagnostics", f"status {status.name}", part, source):
                 return problem
-            self._heard_at[part] = time.monotonic()
+            self._received_at[part] = time.monotonic()
         return ""
 
     def problem_of_name(self, source: bytes) -> str:
@@ -110,7 +110,7 @@ class Sources:
     def look(self) -> None:
         """Note who is silent; to be called when everything that has come is taken."""
         now = time.monotonic()
-        self._silent = {part for part, at in self._heard_at.items() if now - at > SILENT_AFTER_S}
+        self._silent = {part for part, at in self._received_at.items() if now - at > SILENT_AFTER_S}
 
     def follows(self, name: str, source: bytes) -> bool:
         """Check whether a publisher is the one that is followed; True when nobody is."""

@@ -177,7 +177,7 @@ class RecorderNode(Node):
         self._watch.take_statuses(statuses)
         for status in statuses:
             if status.name == self._watch.name and status.value("state") in END_STATES:
-                self._recording.hear(status)
+                self._recording.receive(status)
 
     def _offer_truth(self, cdr: bytes, source: bytes) -> None:
         """Take the truth of the twin that is followed; another one is kept for when that twin has gone.

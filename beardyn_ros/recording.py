@@ -191,7 +191,7 @@ class Recording:
             return self._old
         return self.current
 
-    def hear(self, status: Diagnostic) -> None:
+    def receive(self, status: Diagnostic) -> None:
         """Note the last word of a twin with the file of the run that it is about, or for the one to come.
 
         To be called before the message that carries it is added.

@@ -287,12 +287,12 @@ class Credit:
     ----------
     time_ns : int
         In the time of the load, [ns].
-    changed_at, heard_at : float
+    changed_at, received_at : float
         When it has moved, and when the twin has reported it, on the monotonic clock, [s].
     """
 
     def __init__(self) -> None:
-        self.heard_at = -math.inf
+        self.received_at = -math.inf
         self.begin(0)
 
     def begin(self, time_ns: int) -> None:
@@ -301,11 +301,11 @@ class Credit:
         self.changed_at = self._seen_at = time.monotonic()
         self._rate = 0.0
 
-    def hear(self, time_ns: int) -> None:
+    def receive(self, time_ns: int) -> None:
         """Take what the twin has reported."""
-        self.heard_at = time.monotonic()
+        self.received_at = time.monotonic()
         if time_ns != self.time_ns:
-            self.time_ns, self.changed_at = time_ns, self.heard_at
+            self.time_ns, self.changed_at = time_ns, self.received_at
 
     def look_period(self, lead: float, quick: float = QUICK_S) -> float:
         """Choose when to look again, [s]: a twin in real time keeps its lead for long.

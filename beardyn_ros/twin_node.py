@@ -207,7 +207,7 @@ class TwinNode(LifecycleNode):
         if not problem and self._namesakes.is_named_in(cdr):
             reason, problem = "foreign status", self._sources.problem_of_name(source)
         if not problem:
-            self._namesakes.hear(cdr)
+            self._namesakes.receive(cdr)
         elif self._session is not None:
             self._session.feed.gate.refuse(reason, problem, "/diagnostics")
 

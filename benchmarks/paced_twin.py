@@ -54,7 +54,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Heard:
+class Reception:
     """What a listener in another process saw of a run.
 
     Parameters
@@ -91,10 +91,10 @@ class _Listener:
         self.twin: Diagnostic | None = None
         self.arrivals: list[tuple[float, float]] = []
         intake = RawIntake(self._node)
-        intake.add(topic("/diagnostics"), self._hear)
+        intake.add(topic("/diagnostics"), self._receive)
         intake.add(topic("/clock"), self._on_clock)
 
-    def _hear(self, cdr: bytes) -> None:
+    def _receive(self, cdr: bytes) -> None:
         for status in decode_diagnostics(cdr)[1]:
             if status.name.endswith("/twin"):
                 self.twin = status
@@ -121,7 +121,7 @@ class _Listener:
         self._context.try_shutdown()
 
 
-def run_paced(scene: Scene, mode: str = "lockstep") -> Heard:
+def run_paced(scene: Scene, mode: str = "lockstep") -> Reception:
     """Run a scene at speed factor 1; ``mode``: ``lockstep`` or ``live``."""
     prepare_environment()
     with tempfile.TemporaryDirectory() as name:
@@ -143,28 +143,28 @@ def run_paced(scene: Scene, mode: str = "lockstep") -> Heard:
     assert listener.twin is not None
     offsets = [wall - simulated for wall, simulated in listener.arrivals]
     wall_s = listener.arrivals[-1][0] - listener.arrivals[0][0]
-    return Heard(listener.twin, wall_s, max(offsets) - min(offsets))
+    return Reception(listener.twin, wall_s, max(offsets) - min(offsets))
 
 
-def row(level: Level, scene: Scene, heard: Heard) -> tuple[str | float | int, ...]:
+def row(level: Level, scene: Scene, received: Reception) -> tuple[str | float | int, ...]:
     """Write the row of the table."""
 
     def number(key: str) -> float:
-        return float(heard.last.value(key) or 0.0)
+        return float(received.last.value(key) or 0.0)
 
     return (
         *level,
         scene.numerics.laminae,
         scene.numerics.steps_per_sample,
         number("simulated_time"),
-        heard.wall_s,
+        received.wall_s,
         int(number("blocks")),
         int(number("late_blocks")),
         1e3 * number("worst_lag"),
-        1e3 * heard.worst_arrival_s,
+        1e3 * received.worst_arrival_s,
         number("real_time_factor"),
         number("waited_for_load"),
-        str(heard.last.value("state")),
+        str(received.last.value("state")),
     )
 
 
@@ -176,9 +176,9 @@ def paced(seconds: float, name: str = SCENE, levels: tuple[Level, ...] = LEVELS)
         return Table("paced", "Twin node in real time", COLUMNS, rows, MISSING_ROS)
     for level in levels:
         scene = load_scene(name, tier=level.tier, effects=level.effects, duration=seconds)
-        heard = run_paced(scene)
-        rows.append(row(level, scene, heard))
-        if heard.last.value("late_blocks") == "0" and heard.last.value("state") == "finished":
+        received = run_paced(scene)
+        rows.append(row(level, scene, received))
+        if received.last.value("late_blocks") == "0" and received.last.value("state") == "finished":
             break
     else:
         note += "; no level has kept up"
@@ -196,12 +196,12 @@ def main() -> None:
     given = parser.parse_args()
     level = Level(given.tier, given.effects)
     scene = load_scene(given.scene, **level._asdict(), duration=given.seconds)
-    heard = run_paced(scene, given.mode)
+    received = run_paced(scene, given.mode)
     table = Table(
         "paced",
         f"Twin node in real time, {given.scene}, {given.mode}",
         COLUMNS,
-        [row(level, scene, heard)],
+        [row(level, scene, received)],
     )
     print("\n".join(table.lines()))
 

@@ -29,7 +29,6 @@ html_theme = "furo"
 html_title = f"beardyn {version}"
 html_copy_source = False
 
-myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 nb_execution_mode = "off"  # outputs are those that `python docs/write_notebook.py --run` has kept
 

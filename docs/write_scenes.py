@@ -42,22 +42,23 @@ A scene is a YAML file with a bearing, a lubricant, an operation, faults and sen
 cup_spall` runs a shipped one, `beardyn new cup_spall -o mine.yaml` copies it, `beardyn simulate
 mine.yaml` runs your own. This page is written by `python docs/write_scenes.py` from `config/scenes`.
 
-Railway scenes test a monitor: some have a fault that must be found, some only a *similar disturbance*,
+Railway scenes test a monitor. Some have a fault that must be found, some only a *similar disturbance*,
 some both, healthy ones nothing. The truth of a run (topic `truth`, key `excitation`) has the
 irregularity with its seed, strikes of a flat and joints passed, each with time and distance. Their
-bearings are as made, [grade G1](scatter.md); bearings under a constant load, at the end of the page,
+bearings are as made, [grade G1](scatter.md). Bearings under a constant load, at the end of the page,
 are as drawn.
 
-Scenes name no effects, or only the box that rings (but for `santos_*`, of a publication): each is
+Scenes name no effects, or only the box that rings (`santos_*`, of a publication, name all). Each is
 computed with those that it [needs](effects_auto.md) to stay within 5 % of the full model
-([choices](evidence/choices.md)). `bogie` names the tier `quasistatic`, so that its four boxes keep up:
-it misses 5 %, and states by how much. It has [several axleboxes at
+([choices](evidence/choices.md)). `bogie` names the tier `quasistatic`, so that its four boxes keep up.
+It misses 5 %, and states by how much. It has [several axleboxes at
 once](rail.md#several-axleboxes-at-once); its picture is of the first wheel.
 
-Pictures: vertical load on the journal (line: mean, band: least and greatest) and speed; red triangles
-are strikes, yellow stretches have something else to meet. Second pictures (tier `quasistatic`, `python
-docs/write_signals.py`): vertical vibration of the axlebox, its spectrum, and that of its envelope
-between 2 and 8 kHz, with dotted orders of faults of outer ring (cup), inner ring (cone) and roller.
+Pictures show the vertical load on the journal (line: mean, band: least and greatest) and the speed.
+Red triangles are strikes, joints, welds and crossings, and where a train stops or starts.
+Yellow stretches are curves and corrugation. Second pictures (tier `quasistatic`, `python
+docs/write_signals.py`) show the vertical vibration of the axlebox, its spectrum, and that of its envelope
+between 2 and 8 kHz. Dotted are the orders of faults of outer ring (cup), inner ring (cone) and roller.
 
 ## Railway scenes
 """
@@ -65,9 +66,8 @@ between 2 and 8 kHz, with dotted orders of faults of outer ring (cup), inner rin
 MEASURED = """
 ## Measured input
 
-A CSV file names its columns in the first line; a second one may give their units; lines that begin with
-`#` are comments. All mistakes are reported at once, with file, line and what is allowed: unknown or missing
-columns, other units, values that are no finite numbers, time that does not increase, gaps.
+A CSV file names its columns in the first line. A second one may give their units. Lines that begin with
+`#` are comments. All mistakes are reported at once, with file, line and what is allowed.
 
 | file | key | columns |
 |---|---|---|
@@ -234,7 +234,9 @@ def picture(scene: Scene) -> bytes:
     figure.savefig(drawn, format="png")
     plt.close(figure)
     small = io.BytesIO()
-    Image.open(drawn).convert("RGB").quantize(COLOURS).save(small, format="png", optimize=True)
+    # few pixels are red; another way to choose colours would lose them
+    few = Image.open(drawn).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    few.save(small, format="png", optimize=True)
     return small.getvalue()
 
 

@@ -12,9 +12,9 @@ step        docs/evidence/step.md: chosen time steps beside an explicit one of 0
 light       docs/evidence/light.md: cages under light loads
 structure   docs/evidence/structure.md: modes of an axlebox beside its finite elements
 measured    docs/evidence/monitor_measured.md, run_to_failure.md, spall_width.md: the monitor on measured data
-impact      docs/evidence/impact.md: what a sensor hears of a spall, beside published observations
+impact      docs/evidence/impact.md: what a sensor receives of a spall, beside published observations
 damping     docs/evidence/damping.md: what the damping of the contacts changes
-service     docs/evidence/sensors.md: what a sensor in service hears, and what the monitor says of it
+service     docs/evidence/sensors.md: what a sensor in service receives, and what the monitor says of it
 heat        docs/evidence/heat.md: torque and steady temperatures beside published ones
 ladder      docs/evidence/ladder.md: what accuracy costs
 automatic   docs/evidence/automatic.md: what `effects: auto` chooses, on trial

@@ -6,7 +6,8 @@ module        responsibility
 finding       bearings of the catalogue by dimensions, and those that fit a vibration
 making        bearings, lubricants and scenes from a handful of arguments
 simulating    simulate a scene
-reading       read a recording, let a monitor judge a run
+reading       read a recording, let a monitor judge it or measured files
+run_sources   runs as callers give them, and their bearing
 report_pages  a page for each axlebox, to read on screen and paper
 plot          load zone, spectra, waterfall, curves of stiffness and torque
 plot_sources  what plots are drawn of

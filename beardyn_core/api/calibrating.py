@@ -73,10 +73,10 @@ def calibrate(
         Recordings do not fit the scene, one has a fault, or what is to be fitted is not in the scene.
     """
     from beardyn_core.api.making import scene as make_scene
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.calibration.calibration_result import Calibration
     from beardyn_core.calibration.fitting import Fitter
-    from beardyn_core.calibration.intake import rides_heard, sensor_number, unknowns_of
+    from beardyn_core.calibration.intake import rides_received, sensor_number, unknowns_of
     from beardyn_core.calibration.twin import Beside
     from beardyn_core.calibration.writing import scene_keys, scene_text
     from beardyn_core.choice import scene_from_mapping
@@ -95,12 +95,12 @@ def calibrate(
         raise InputError(problems)
     library("cma", "a calibration", "calibrate")
     twin = make_scene(base, tier=tier)
-    heard = [heard_of(each, bearing, sensor) for each in several]
-    number = sensor_number(twin, heard[0][2], asked=bool(sensor))
+    received = [resolve_source(each, bearing, sensor) for each in several]
+    number = sensor_number(twin, received[0][2], asked=bool(sensor))
     wanted, absent = unknowns_of(twin, number, fit)
-    hearing, rides = rides_heard(twin, number, heard)
+    reception, rides = rides_received(twin, number, received)
     say = _say if progress else _nothing
-    beside = Beside(twin, hearing, number, rides)
+    beside = Beside(twin, reception, number, rides)
     bases = tuple(float(each.base_of(twin, number) or 0.0) for each in wanted)
     total = budget * len(rides)
     found = Fitter(beside, wanted, bases, budget, lambda what, run: say(f"{run}/{total} twins, {what}")).fit()
@@ -114,11 +114,11 @@ def calibrate(
             "",
             found,
             absent,
-            hearing,
+            reception,
             tuple(each.shaft_frequency for each in rides),
             sum(len(each.levels) for each in rides),
         )
-        labels = ", ".join(Path(run.label).name for run, _, _ in heard)
+        labels = ", ".join(Path(run.label).name for run, _, _ in received)
         head = f"Scene of one axlebox: {twin.name} fitted to {labels} by `beardyn calibrate`, tier {tier}."
         made = replace(made, text=scene_text(data, [head, *made.sentences]))
         if output:

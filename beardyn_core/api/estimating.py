@@ -78,7 +78,7 @@ def estimate(
     InputError
         No estimator fits the bearing, an axis is not measured, or the run is too short.
     """
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.follow.conditioning import condition_estimates
     from beardyn_core.follow.estimator import Estimator, read_estimator
     from beardyn_core.follow.estimator_choice import estimator_of_run
@@ -87,14 +87,14 @@ def estimate(
     from beardyn_core.follow.run_stretches import whole_bearing
     from beardyn_core.follow.service import Service
 
-    heard, plate, sensor = heard_of(run, bearing, sensor)
+    received, plate, sensor = resolve_source(run, bearing, sensor)
     if estimator is None:
-        estimator = estimator_of_run(heard, plate, sensor)
+        estimator = estimator_of_run(received, plate, sensor)
     elif not isinstance(estimator, Estimator):
         estimator = read_estimator(Path(estimator))
-    known = known_load_in(heard, load_kn, load_sensor)
+    known = known_load_in(received, load_kn, load_sensor)
     axles = read_axle_loads(axle_load_t, "axle_load_t")
-    found = estimates_of(heard, estimator, plate, sensor)
+    found = estimates_of(received, estimator, plate, sensor)
     if known is None:
         return found
     wheel = wheel_diameter or Service().wheel_diameter
@@ -227,11 +227,11 @@ def forecast(
 
 def _bearing_of(run: Run | Path | str, bearing: Bearing | str | None) -> Bearing:
     """Find the whole bearing of a run, or the one that is named."""
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.config import load_bearing
 
-    known: RollerBearing | NamePlate | str = bearing or heard_of(run, None, "")[1]
+    known: RollerBearing | NamePlate | str = bearing or resolve_source(run, None, "")[1]
     if isinstance(known, Bearing):
         return known
     # bearing data alone have no raceways

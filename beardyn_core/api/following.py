@@ -120,7 +120,7 @@ def follow(
 
     from beardyn_core.api.estimating import kelvin_of, known_load_in
     from beardyn_core.api.making import scene as make_scene
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.api.twin_residual import residual_beside
     from beardyn_core.follow.estimator_choice import estimator_of_run
     from beardyn_core.follow.load_checks import read_axle_loads
@@ -140,9 +140,9 @@ def follow(
             )
     stated = one_each("load_kn", load_kn, len(several))
     sensors = one_each("load_sensor", load_sensor or None, len(several))
-    heard, plate, ear = heard_of(several[0], bearing, sensor)
+    received, plate, place = resolve_source(several[0], bearing, sensor)
     if estimator is None:
-        estimator = estimator_of_run(heard, plate, ear)
+        estimator = estimator_of_run(received, plate, place)
     follower = follower_of(
         plate, estimator, service=service, law=law, lubricant=lubricant,
         axle_loads=read_axle_loads(axle_load_t, "axle_load_t"), assumptions=assumptions,
@@ -154,19 +154,19 @@ def follow(
     time = distance = 0.0
     for k, run in enumerate(several):
         if k:
-            heard, plate, ear = heard_of(run, bearing, sensor)
+            received, plate, place = resolve_source(run, bearing, sensor)
             follower.begin()
-        follower.know_load(known_load_in(heard, stated[k], sensors[k] or ()))
+        follower.know_load(known_load_in(received, stated[k], sensors[k] or ()))
         begin = distance if mileages is None else mileages[k]
         powers: list[Float] = []
-        for each in stretches_followed(heard, follower, plate, ear):
+        for each in stretches_followed(received, follower, plate, place):
             rows.append(each.descriptors)
             powers += [] if each.powers is None else [each.powers]
             steps.append(follower.take(each.descriptors, time + each.end, begin + each.distance))
         mountings.append(search_mountings(powers, follower.estimator))
         time, distance = (steps[-1].time, steps[-1].distance) if steps else (0.0, begin)
     if not steps:
-        raise InputError(f"{heard.label}: has no stretch of {follower.estimator.stretch:.2f} s to follow")
+        raise InputError(f"{received.label}: has no stretch of {follower.estimator.stretch:.2f} s to follow")
     residual = None
     if twin is not None:
         base = twin if isinstance(twin, Scene) else make_scene(twin)

@@ -50,11 +50,11 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     InputError
         With every mistake in options and files.
     """
-    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.found_speed import with_found_speed
     from beardyn_core.measured.in_memory import run_of
 
     mounted = _mounted_bearings(bearing)
-    found = with_heard_speed(_survey_files(files, options), mounted)
+    found = with_found_speed(_survey_files(files, options), mounted)
     run = run_of(found, mounted)
     for sentence in run.measured["warnings"][len(found.warnings) :]:
         warnings.warn(sentence, stacklevel=2)
@@ -86,12 +86,12 @@ def import_measured(
     InputError
         With every mistake; then nothing is written.
     """
-    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.found_speed import with_found_speed
     from beardyn_core.measured.writing import write_measured
 
     mounted = _mounted_bearings(bearing)
     made = write_measured(
-        with_heard_speed(_survey_files(files, options), mounted), recording, mounted, force=force
+        with_found_speed(_survey_files(files, options), mounted), recording, mounted, force=force
     )
     for sentence in made.warnings:
         warnings.warn(sentence, stacklevel=2)

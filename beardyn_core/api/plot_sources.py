@@ -29,34 +29,17 @@ class BearingSignal(NamedTuple):
 
 def run_from(source: Run | Path | str) -> Run:
     """Give a run, or read that of a recording or of a measured file which states its rate and unit."""
-    from beardyn_core.api.measuring import read_measured
-    from beardyn_core.record.reading import read_run
-    from beardyn_core.record.run import Run
+    from beardyn_core.api.run_sources import is_measured_file, read_source
 
-    if isinstance(source, Run):
-        return source
-    if not _is_measured_file(Path(source)):
-        return read_run(source)
     try:
-        return read_measured(source)
+        return read_source(source)
     except InputError as error:
+        if not isinstance(source, str | Path) or not is_measured_file(Path(source)):
+            raise
         call = f"bd.read_measured({str(source)!r}, unit=..., rate_Hz=..., ...)"
         raise InputError(
             [*error.problems, f"{source}: {call} reads a file that does not state them; give its run"]
         ) from None
-
-
-def _is_measured_file(path: Path) -> bool:
-    """Tell whether a file is no recording, neither by its ending nor by its first bytes."""
-    from beardyn_core.record.mcap_scanning import MAGIC
-
-    if not path.is_file() or path.suffix.lower() in (".mcap", ".yaml"):
-        return False
-    try:
-        with path.open("rb") as file:
-            return file.read(len(MAGIC)) != MAGIC
-    except OSError:
-        return False  # the reader of recordings states why
 
 
 def vibration_of(run: Run, sensor: str) -> Signal:
@@ -71,9 +54,9 @@ def vibration_of(run: Run, sensor: str) -> Signal:
 
 def bearing_signal(run: Run, bearing: RollerBearing | NamePlate | str | None, sensor: str) -> BearingSignal:
     """Give vibration and fault frequencies of a bearing: without one, of that of the run."""
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
 
-    run, plate, sensor = heard_of(run, bearing, sensor)
+    run, plate, sensor = resolve_source(run, bearing, sensor)
     return BearingSignal(run, vibration_of(run, sensor), plate.frequencies)
 
 

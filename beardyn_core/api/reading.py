@@ -1,13 +1,12 @@
-"""Read a recording, let a monitor judge a run: no kernel is needed, and no compiler imported."""
+"""Read a recording, let a monitor judge it or measured files; no compiler is imported."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-from beardyn_core.base.errors import InputError
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from beardyn_core.api.run_sources import Source
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.monitor.chain import Algorithm, MonitorSettings
@@ -37,12 +36,13 @@ def read(path: Path | str, namespace: str | None = None) -> Run:
 
 
 def monitor(
-    run: Run | Path | str,
+    run: Source,
     algorithm: Algorithm | None = None,
     *,
     bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
     settings: MonitorSettings | None = None,
+    **options: Any,
 ) -> Conclusion:
     """Run a monitor, ours or yours, over a recording or measured files.
 
@@ -51,10 +51,9 @@ def monitor(
 
     Parameters
     ----------
-    run : Run or Path
-        Recording to analyse, or measured files in the order of time. A run does as well; of measured files
-        Python takes what `read_measured` gives. Vibration of one accelerometer, shaft, load and temperature
-        are used, and nothing else.
+    run : Run, Path or sequence of Path
+        Recording to analyse, or measured files in the order of time. A run does as well. Vibration of one
+        accelerometer, shaft, load and temperature are used, and nothing else.
     algorithm : function, optional
         Your algorithm, its module may be in this folder; default the reference chain. In Python a `Chain`,
         or a function like it.
@@ -64,6 +63,8 @@ def monitor(
     sensor : str, optional
         Accelerometer to take; by default the first, or the one that measures the bearing of a measured run.
     settings : MonitorSettings, optional
+    **options
+        How measured files are to be read, ``speed_rpm``, ``unit`` and others: see `read_measured`.
 
     Returns
     -------
@@ -75,25 +76,27 @@ def monitor(
     InputError
         The run has no vibration with a shaft angle, or does not name its bearing.
     """
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.monitor.chain import REFERENCE
     from beardyn_core.study.monitored_recording import conclude, findings_of
 
-    heard, plate, sensor = heard_of(run, bearing, sensor)
-    return conclude(findings_of(heard, plate, algorithm or REFERENCE, settings, sensor))
+    record, plate, sensor = resolve_source(run, bearing, sensor, options)
+    return conclude(findings_of(record, plate, algorithm or REFERENCE, settings, sensor))
 
 
 def severity(
-    run: Run | Path | str,
+    run: Source,
     conclusion: Conclusion | None = None,
     *,
     bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
+    **options: Any,
 ) -> Severity | None:
     """Measure how wide the spall is that a monitor has found: not every fault matters.
 
     Parameters
     ----------
-    run, bearing, sensor
+    run, bearing, sensor, options
         See `monitor`.
     conclusion : Conclusion, optional
         Result of `monitor`; by default it is computed.
@@ -104,37 +107,10 @@ def severity(
         ``None`` where no part was called; ``not measurable`` with the reason where entry and exit of the
         rollers are not two clear events.
     """
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.study.measured_severity import severity_in
     from beardyn_core.study.monitored_recording import conclude, findings_of
 
-    heard, plate, sensor = heard_of(run, bearing, sensor)
-    found = conclusion or conclude(findings_of(heard, plate, sensor=sensor))
-    return severity_in(heard, found, plate, sensor)
-
-
-def heard_of(
-    run: Run | Path | str, bearing: RollerBearing | NamePlate | str | None, sensor: str
-) -> tuple[Run, RollerBearing | NamePlate, str]:
-    """Find run, bearing and accelerometer."""
-    from beardyn_core.choice import scene_from_text
-    from beardyn_core.config import load_plate
-    from beardyn_core.measured.about import mounted_in
-    from beardyn_core.record.reading import read_run
-    from beardyn_core.record.run import Run
-
-    run = run if isinstance(run, Run) else read_run(run)
-    if isinstance(bearing, str):
-        bearing = load_plate(bearing)
-    elif bearing is None and run.scene_text:
-        bearing = scene_from_text(run.scene_text, run.label).bearing
-    elif bearing is None:
-        known = mounted_in(run.measured, run.label)
-        if len(known) != 1:
-            several = (
-                f"has the bearings {', '.join(each.label for each in known)}"
-                if known
-                else "does not name its bearing"
-            )
-            raise InputError(f"{run.label}: {several}; give bearing")
-        bearing, sensor = known[0].plate, sensor or known[0].sensor
-    return run, bearing, sensor
+    record, plate, sensor = resolve_source(run, bearing, sensor, options)
+    found = conclusion or conclude(findings_of(record, plate, sensor=sensor))
+    return severity_in(record, found, plate, sensor)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from beardyn_core.base.errors import InputError
 
@@ -29,13 +29,14 @@ def report(
     algorithm: Algorithm | None = None,
     settings: MonitorSettings | None = None,
     force: bool = False,
+    **options: Any,
 ) -> tuple[str, ...]:
     """Write a page for each axlebox: the verdict, why, what was assumed and what to do next.
 
     Parameters
     ----------
     run : Run, Path or a sequence of them
-        Recordings, the latest last; a run does as well, such as `read_measured` gives of measured files.
+        Recordings or measured files, each judged by itself, the latest last; a run does as well.
     html : Path, optional
         Write a page for each bearing of the files, to read in a browser and to print: verdict, spectrum,
         waveform, assumptions, what to do next; default none. One file, with its pictures in it.
@@ -51,6 +52,8 @@ def report(
         See `monitor`.
     force : bool
         Replace pages that exist; default refuse.
+    **options
+        How measured files are to be read, ``speed_rpm``, ``unit`` and others: see `read_measured`.
 
     Returns
     -------
@@ -72,7 +75,7 @@ def report(
     problems += page_problems(page, paper, inputs, force=force)
     if problems:
         raise InputError(problems)
-    records = [_inspections_of(each, box, bearing, sensor, algorithm, settings) for each in runs]
+    records = [_inspections_of(each, box, bearing, sensor, algorithm, settings, options) for each in runs]
     return write_pages(records, html=page, pdf=paper, train=train, axlebox=axlebox, force=force)
 
 
@@ -87,13 +90,14 @@ def _inspections_of(
     sensor: str,
     algorithm: Algorithm | None,
     settings: MonitorSettings | None,
+    options: Mapping[str, Any],
 ) -> list[Inspection]:
     """Let the monitor judge every bearing of a run, of one axlebox or of all."""
+    from beardyn_core.api.run_sources import read_source
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.config import load_plate
     from beardyn_core.measured.about import USUAL_LABEL, Mounted
     from beardyn_core.monitor.chain import REFERENCE
-    from beardyn_core.record.reading import read_run
     from beardyn_core.study.inspection import inspect_boxes, inspect_run
 
     plate = load_plate(bearing) if isinstance(bearing, str) else bearing
@@ -102,7 +106,7 @@ def _inspections_of(
 
         plate = NamePlate.of(plate)
     given = () if plate is None else (Mounted(USUAL_LABEL, plate, sensor),)
-    recording = read_run(run, box) if isinstance(run, str | Path) else run
+    recording = read_source(run, options, bearing=plate, box=box)
     if box is not None and recording.box != box:
         if box not in recording.boxes:
             raise InputError(f"{recording.label}: has no axlebox {box}; it has {', '.join(recording.boxes)}")

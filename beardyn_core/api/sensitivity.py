@@ -65,7 +65,7 @@ def smallest_spalls(
     """
     from beardyn_core.api.estimating import known_load_in
     from beardyn_core.api.making import scene as make_scene
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.choice import scene_from_text
     from beardyn_core.choice.load_cases import circumstances
     from beardyn_core.follow.known_load import KnownLoad, combine_loads
@@ -75,7 +75,7 @@ def smallest_spalls(
     from beardyn_core.study.monitored_recording import HEALTHY, results_of
     from beardyn_core.study.smallest_spall import WIDTHS, LastStretch, SmallestSpalls, smallest_spalls_in
 
-    record, data, sensor = heard_of(run, bearing, sensor)
+    record, data, sensor = resolve_source(run, bearing, sensor)
     known = known_load_in(record, load_kn, ())
     if twin is None:
         if not record.scene_text:

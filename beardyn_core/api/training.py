@@ -164,7 +164,7 @@ def estimator_files(base: Path, axes: Sequence[str], *, always: bool = False) ->
 
 
 def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
-    from beardyn_core.api.reading import heard_of
+    from beardyn_core.api.run_sources import resolve_source
     from beardyn_core.bearing.any_bearing import require_tapered
     from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.roller_bearing import RollerBearing
@@ -180,7 +180,7 @@ def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
         )
     if Path(bearing).suffix != ".mcap":
         return load_bearing(bearing)
-    found = heard_of(bearing, None, "")[1]
+    found = resolve_source(bearing, None, "")[1]
     if not isinstance(found, Bearing):
         raise InputError(
             f"bearing: {bearing} has bearing data alone, which cannot be simulated; give the file of a whole "

@@ -210,7 +210,7 @@ def _log_radius_ratio(ellipticity: float) -> float:
 
 @dataclass(frozen=True)
 class SlicedEllipse:
-    """Hertz's elliptical contact as slices that do not know each other.
+    """Hertz's elliptical contact as slices that are independent.
 
     With the approach delta at its middle, a slice at x from there has the load per length
     k (delta - (x/A)^2). Over the whole ellipse that is Hertz's load at Hertz's approach, spread along its
@@ -257,9 +257,9 @@ def rib_ellipse(bearing: Bearing, load: float) -> RibEllipse:
 
 
 def rib_truncation(bearing: Bearing, load: float) -> list[str]:
-    """Say where the contact ellipse under a load [N] reaches beyond the rib face or the roller end.
+    """State where the contact ellipse under a load [N] reaches beyond the rib face or the roller end.
 
-    The Hertz contact does not know these borders: pressure and stiffness are off where they are passed.
+    The Hertz contact leaves these borders out: pressure and stiffness are off where they are passed.
     """
     ellipse, height = rib_ellipse(bearing, load), bearing.rib_contact_height
     lean = math.cos(bearing.rib_polar_angle)

@@ -1,6 +1,6 @@
 """Load of a line contact over holes in the raceway, from an elastic half-space.
 
-Next to a hole the surface sinks with its neighbours, and the ends of the contact beside it carry more than
+Next to a hole the surface sinks with its neighbours, and the ends of the contact next to it carry more than
 their length of the load: a hole of a twelfth of the line takes a twenty-fifth of the load. Here the line is a
 row of strips, each a line contact of its own width that is pressed into the half-space together with all
 others.
@@ -21,7 +21,7 @@ from beardyn_core.bearing.lamina_coupling import rectangle_influence
 
 Interval = tuple[float, float]  # along the line, from its middle [m]
 
-PRESSURE = 0.8e9  # of the sound contact [Pa]: 9 kN on a roller of HS130x230
+PRESSURE = 0.8e9  # of the intact contact [Pa]: 9 kN on a roller of HS130x230
 _GROWTH = 1.4  # of a strip over the one nearer to an end of the line or of a hole
 _NARROWEST = 1.0  # strip or hole, over the half width of the contact
 _WIDTHS = 4  # times that the widths of the strips are found from their loads
@@ -38,7 +38,7 @@ def lost_share(
 ) -> A[float, "[-]"]:
     """Compute the share of the load that a held cylinder loses where it lies over holes.
 
-    The holes are so deep that nothing presses in them, and wide in rolling direction beside the contact.
+    The holes are so deep that nothing presses in them, and wide in rolling direction next to the contact.
     Holes may overlap.
 
     Parameters
@@ -50,8 +50,8 @@ def lost_share(
     contact_modulus : float
         E', [Pa].
     pressure : float, optional
-        Largest Hertz pressure of the sound contact, [Pa]. Between 0.4 and 1.6 GPa the share of a hole of 4 mm
-        in a line of 50 mm falls from 0.041 to 0.032.
+        Largest Hertz pressure of the intact contact, [Pa]. Between 0.4 and 1.6 GPa the share of a hole of
+        4 mm in a line of 50 mm falls from 0.041 to 0.032.
 
     Notes
     -----
@@ -60,7 +60,7 @@ def lost_share(
 
     References
     ----------
-    Love (1929) for the sink beside a pressed rectangle; Johnson (1985), Contact Mechanics, section 4.2, for
+    Love (1929) for the sink next to a pressed rectangle; Johnson (1985), Contact Mechanics, section 4.2, for
     the width and the approach of a line contact.
     """
     least = _NARROWEST * _half_width(radius, contact_modulus, pressure)
@@ -76,7 +76,7 @@ def merge_holes(holes: Sequence[Interval], length: float, least: float) -> tuple
     """Merge holes of a line in ascending order; what is shorter than a least length [m] does not count.
 
     Neither a hole nor what is left between two of them, or between one and an end of the line: so narrow a
-    ridge gives way under its load, and strips of a half-space tell nothing of it.
+    ridge gives way under its load, and strips of a half-space leave it out.
     """
     half = 0.5 * length
     merged: list[Interval] = []
@@ -109,12 +109,12 @@ def _lost_share(
         open_ |= (middle > hole[0]) & (middle < hole[1])
     per_length = math.pi * contact_modulus * half_width**2 / (8.0 * radius)
     every = np.ones(len(middle), bool)
-    # the approach at which the middle of the sound line has the pressure that is asked for
+    # the approach at which the middle of the intact line has the pressure that is asked for
     matrix = _sinks(low, high, np.full(len(middle), half_width), contact_modulus)
     approach = float(np.max(matrix @ (per_length * (high - low)))) + half_width**2 / (8.0 * radius)
-    sound = _loads(low, high, every, approach, half_width, radius, contact_modulus)
+    intact = _loads(low, high, every, approach, half_width, radius, contact_modulus)
     holed = _loads(low, high, ~open_, approach, half_width, radius, contact_modulus)
-    return float(1.0 - holed.sum() / sound.sum())
+    return float(1.0 - holed.sum() / intact.sum())
 
 
 def _graded(ends: Float, smallest: float) -> Float:

@@ -1,6 +1,6 @@
 """Coupling of laminae through the half-space: the influence of one on the others, and the coupled law.
 
-A lamina under load sinks the surface beside it. With the influence matrix C of the laminae, normalised, and
+A lamina under load sinks the surface next to it. With the influence matrix C of the laminae, normalised, and
 its inverse root W = C^(-1/2), the surface depths u of the laminae store the energy of independent laminae
 at the depths e = W u::
 
@@ -13,13 +13,13 @@ a linear law it is the contact problem of the half-space, and a uniform approach
 load.
 
 A lamina that lies partly over a patch joins the others at one depth. Of a lamina the part k stands higher and
-the rest a gap g below: over a hole the part beside it, at a raised rim the part on it. Alone, at the depth d
+the rest a gap g below: over a hole the part next to it, at a raised rim the part on it. Alone, at the depth d
 of the higher part, both are to store::
 
     9/19 K (k^n d^(19/9) + (1 - k^n) (d - r g)^(19/9)) = 9/19 K D^(19/9),    r = (1 - k) / (1 - k^n),
 
 each part where it touches. The whole lamina joins the others at the depth D, so that forces stay the
-gradient of an energy. With n = 1 this is Palmgren's law for each part. Beside a hole the surface sinks away,
+gradient of an energy. With n = 1 this is Palmgren's law for each part. Next to a hole the surface sinks away,
 and a short part carries more than its length of it: n < 1. r keeps the mean gap, which counts where both
 touch. Near a sharp edge of the patch the kernels multiply the term of the patch's part by its firmness.
 """
@@ -202,7 +202,7 @@ def joint_depth(depth: Float, gap: Float, cover: Float, exponent: float) -> tupl
     Parameters
     ----------
     depth, gap : float64 arrays, shape [..., lamina]
-        Geometric penetration beside the patch; by which it is less over it, negative on a raised rim, [m].
+        Geometric penetration next to the patch; by which it is less over it, negative on a raised rim, [m].
     cover : float64 array, shape [..., lamina]
         Part of each lamina's length that the patch takes, [-].
     exponent : float

@@ -108,7 +108,7 @@ def static_rating(bearing: RollerBearing) -> float:
 
 
 def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, str]:
-    """Say why a force of three components [N] is implausible for a bearing.
+    """State why a force of three components [N] is implausible for a bearing.
 
     Returns
     -------
@@ -146,7 +146,7 @@ def load_doubts(bearing: RollerBearing, force: Sequence[float]) -> tuple[str, st
 
 
 def _tipping_thrust(bearing: RollerBearing, x: float, y: float, z: float) -> str:
-    """Say that the axial part of a force [N] is more than rollers can take, empty when it is not."""
+    """State that the axial part of a force [N] is more than rollers can take, empty when it is not."""
     across, along = math.hypot(x, z), abs(y)
     if along <= bearing.largest_thrust * across:
         return ""

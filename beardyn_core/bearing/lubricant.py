@@ -34,7 +34,7 @@ def walther_viscosity(at_40: float, at_100: float, temperature: float) -> float:
 def gold_pressure_viscosity(kinematic_viscosity: float, base_oil: str) -> float:
     """Compute the pressure-viscosity coefficient of an oil of which only the viscosity is known, [1/Pa].
 
-    The viscosity is that at the temperature wanted, [m^2/s]; the oil one of `BASE_OILS`.
+    The viscosity is that at the given temperature, [m^2/s]; the oil one of `BASE_OILS`.
 
     References
     ----------

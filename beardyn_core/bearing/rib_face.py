@@ -72,9 +72,9 @@ def _large_rib(bearing: Bearing) -> RibFace:
 
 
 def flat_rib_truncation(bearing: CylindricalBearing, load: float) -> list[str]:
-    """Say where the contact of a roller end under a load [N] reaches beyond the face of its rib.
+    """State where the contact of a roller end under a load [N] reaches beyond the face of its rib.
 
-    The Hertz contact does not know these borders: pressure and stiffness are off where they are passed.
+    The Hertz contact leaves these borders out: pressure and stiffness are off where they are passed.
     """
     found = []
     for ring, words in (("cone", "inner ring"), ("cup", "outer ring")):

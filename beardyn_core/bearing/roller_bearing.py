@@ -29,7 +29,7 @@ class RollerBearing:
     steel_factor: ClassVar[float] = 1.1
     # axial force over the radial one that catalogues allow at most
     largest_thrust: ClassVar[float] = math.inf
-    # laminae that a static answer takes when nobody says how many
+    # laminae that a static answer takes when no count is given
     usual_laminae: ClassVar[int] = 1
 
     if TYPE_CHECKING:

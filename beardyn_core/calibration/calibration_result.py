@@ -8,7 +8,7 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.calibration.fitting import Fit, Fitted, rms
-from beardyn_core.calibration.spectra import Hearing
+from beardyn_core.calibration.spectra import Reception
 from beardyn_core.scene.scene import Scene
 
 _WITHIN = 2.0  # tolerances, that a band of a good twin is off by at most
@@ -22,7 +22,7 @@ class Calibration:
     text: A[str, "of its file"]
     found: A[Fitted, "values with intervals, measured minus twin in each band before and after"]
     absent: A[tuple[str, ...], "what is not fitted as the scene has none of it, in sentences"]
-    hearing: A[Hearing, "axes, sampling rate, and the bands compared"]
+    reception: A[Reception, "axes, sampling rate, and the bands compared"]
     speeds: A[tuple[float, ...], "of the shaft at which twins ran, [Hz]"]
     stretches: A[int, "that were used"]
 

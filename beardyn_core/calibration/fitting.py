@@ -85,7 +85,7 @@ class Fitter:
     _tried: list[Tried] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self._heard = np.stack([ride.middle for ride in self.beside.rides])
+        self._received = np.stack([ride.middle for ride in self.beside.rides])
         names = [each.name for each in self.unknowns]
         self._noise = names.index(NOISE.name) if NOISE.name in names else None
         self._base_noise = self.beside.scene.sensors[self.beside.sensor].noise_density
@@ -98,15 +98,15 @@ class Fitter:
         self._begin = (scaled - self._low) / (self._high - self._low)
         self._free = list(range(len(self.unknowns)))
         self._simulated = [k for k in self._free if k != self._noise]
-        self._slope = np.zeros((self._heard.size, len(self.unknowns)))
+        self._slope = np.zeros((self._received.size, len(self.unknowns)))
         self._besides = SEEDS * (1 + _STEPS) + 2 * (1 + len(self._simulated))
 
     def fit(self) -> Fitted:
         """Fit; Ctrl-C ends it with the best so far once the search has begun."""
         base = self._seeds(self._begin)
-        self._tolerance = tolerance_of(self.beside.rides, base, self.beside.hearing)
+        self._tolerance = tolerance_of(self.beside.rides, base, self.beside.reception)
         self._scatter = (base - base.mean(axis=0)).reshape(SEEDS, -1)
-        before = self._heard - base.mean(axis=0)
+        before = self._received - base.mean(axis=0)
         reasons, twins, known = dict[int, str](), 1, None
         sensed = False
         try:
@@ -166,11 +166,11 @@ class Fitter:
         try:
             power = self.beside.power(self.values(point), 0)
         except ValidityError:  # far from the scene, a twin may end early
-            return Tried(point, np.full(self._heard.shape, np.nan), _FAILED)
+            return Tried(point, np.full(self._received.shape, np.nan), _FAILED)
         if self._noise is not None:  # no twin is needed for it
             point = point.copy()
             point[self._noise] = self._noisy(power, point)
-        return Tried(point, power, misfit(self._heard - self._levels(power, point), self._tolerance))
+        return Tried(point, power, misfit(self._received - self._levels(power, point), self._tolerance))
 
     def _noisy(self, power: Float, point: Float) -> float:
         """Find the noise that fits best, on the unit box."""
@@ -178,7 +178,7 @@ class Fitter:
         def misfit_at(noise: float) -> float:
             at = point.copy()
             at[self._noise] = noise
-            return misfit(self._heard - self._levels(power, at), self._tolerance)
+            return misfit(self._received - self._levels(power, at), self._tolerance)
 
         grid = np.linspace(0.0, 1.0, 21)
         best = int(np.argmin([misfit_at(each) for each in grid]))
@@ -187,7 +187,7 @@ class Fitter:
 
     def _difference(self, point: Float) -> Float:
         """Measured minus twin with the seed of the search, at a point that was tried, [dB]."""
-        return self._heard - self._levels(self._nearest(point).power, point)
+        return self._received - self._levels(self._nearest(point).power, point)
 
     def _nearest(self, point: Float) -> Tried:
         ran = [each for each in self._tried if each.misfit < _FAILED]
@@ -197,7 +197,7 @@ class Fitter:
         """Work out what is determined of the free unknowns by a fit to the mean of so many twins."""
         weight = weights(difference, self._tolerance).ravel()
         excess = misfit(difference, self._tolerance)
-        slope, model = self._slope[:, self._free], self.beside.hearing.model
+        slope, model = self._slope[:, self._free], self.beside.reception.model
         return identify(slope, weight, self._scatter, excess, model, difference.shape, twins)
 
     def _level_sensitivities(self, point: Float) -> Float:
@@ -266,7 +266,7 @@ class Fitter:
         """Go by least squares from the best point, by the mean of twins on several tracks."""
         found = []
         for _ in range(_STEPS):
-            difference = self._heard - self._seeds(point).mean(axis=0)
+            difference = self._received - self._seeds(point).mean(axis=0)
             found.append((misfit(difference, self._tolerance), point, difference))
             point = self._take_step(point, difference)
         _, best, after = min(found, key=lambda each: each[0])

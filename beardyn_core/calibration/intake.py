@@ -9,7 +9,7 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.bearing.roller_bearing import RollerBearing
-from beardyn_core.calibration.spectra import Hearing, Ride, heard_in, rides_of
+from beardyn_core.calibration.spectra import Reception, Ride, received_in, rides_of
 from beardyn_core.calibration.twin import operation_at
 from beardyn_core.calibration.unknowns import UNKNOWNS, Unknown
 from beardyn_core.follow.descriptors import AXES
@@ -57,12 +57,12 @@ def unknowns_of(
     return tuple(each for each in wanted if each not in lacking), absent
 
 
-def rides_heard(
-    scene: Scene, sensor: int, heard: list[tuple[Run, RollerBearing | NamePlate, str]]
-) -> tuple[Hearing, tuple[Ride, ...]]:
+def rides_received(
+    scene: Scene, sensor: int, received: list[tuple[Run, RollerBearing | NamePlate, str]]
+) -> tuple[Reception, tuple[Ride, ...]]:
     """Measure the recordings, and refuse those that are not of such an axlebox."""
     rate, problems, axes, speeds = scene.sensors[sensor].rate, list[str](), set(AXES), list[float]()
-    for run, plate, name in heard:
+    for run, plate, name in received:
         if not alike(scene.bearing, plate):
             problems.append(
                 f"{run.label}: is of {plate.name}, {sizes_text(plate)}; the scene {scene.name} has "
@@ -89,7 +89,7 @@ def rides_heard(
         problems.append("the recordings have no axis of vibration in common")
     if problems:
         raise InputError(problems)
-    for run, plate, name in heard:
+    for run, plate, name in received:
         verdict = conclude(findings_of(run, plate, sensor=name))
         if verdict.finding is not None and (verdict.finding.is_fault or verdict.verdict == HOT_BOX):
             problems.append(
@@ -97,16 +97,16 @@ def rides_heard(
                 "healthy bearings"
             )
     stretch = max(_SHORTEST, _TURNS / max(float(np.median(speeds)), 1e-3))
-    hearing = Hearing(tuple(axis for axis in AXES if axis in axes), rate, min(stretch, _LONGEST))
-    found = [each for run, _, name in heard for each in heard_in(run, hearing, name)]
+    reception = Reception(tuple(axis for axis in AXES if axis in axes), rate, min(stretch, _LONGEST))
+    found = [each for run, _, name in received for each in received_in(run, reception, name)]
     if not found:
         problems.append(
-            f"{heard[0][0].label}: has no {hearing.stretch:.2f} s of whole vibration in which the shaft "
+            f"{received[0][0].label}: has no {reception.stretch:.2f} s of whole vibration in which the shaft "
             f"turns {FEWEST_TURNS:g} times one way"
         )
     if problems:
         raise InputError(problems)
-    return hearing, rides_of(found)
+    return reception, rides_of(found)
 
 
 def _too_far(scene: Scene, label: str, frequency: float) -> list[str]:

@@ -24,8 +24,8 @@ _MODEL_TO = 5000.0  # [Hz]
 _SMOOTH = 7  # bands whose scatter is put together, as few seeds tell it badly
 
 
-class Hearing(NamedTuple):
-    """What is measured at once; see `beardyn_core.follow.inference.Ear`."""
+class Reception(NamedTuple):
+    """What is measured at once; see `beardyn_core.follow.inference.Receiver`."""
 
     axes: tuple[str, ...]
     rate: float  # [Hz]
@@ -62,31 +62,31 @@ class Ride:
         return np.asarray(np.median(self.levels, axis=0), np.float64)
 
 
-class Heard(NamedTuple):
+class StretchLevels(NamedTuple):
     """One stretch."""
 
     shaft_frequency: float  # [Hz]
     levels: Float  # shape [axis, band], [dB re 1 m/s^2]
 
 
-def heard_in(run: Run, hearing: Hearing, sensor: str = "") -> list[Heard]:
+def received_in(run: Run, reception: Reception, sensor: str = "") -> list[StretchLevels]:
     """Measure the levels of every stretch of a run."""
     return [
-        Heard(stretch.shaft_frequency, levels_of(stretch.acceleration, hearing))
-        for stretch in stretches_of(run, hearing, sensor)
+        StretchLevels(stretch.shaft_frequency, levels_of(stretch.acceleration, reception))
+        for stretch in stretches_of(run, reception, sensor)
     ]
 
 
-def levels_of(acceleration: Float, hearing: Hearing) -> Float:
-    """Measure the levels of a signal, shape [sample, axis], [m/s^2]; see `Heard`."""
+def levels_of(acceleration: Float, reception: Reception) -> Float:
+    """Measure the levels of a signal, shape [sample, axis], [m/s^2]; see `StretchLevels`."""
     signal = acceleration - acceleration.mean(axis=0)
-    bands = (band_levels(each, hearing.rate, hearing.middles, SHARE) for each in signal.T)
+    bands = (band_levels(each, reception.rate, reception.middles, SHARE) for each in signal.T)
     return np.array([list(each.values()) for each in bands])
 
 
-def rides_of(heard: list[Heard]) -> tuple[Ride, ...]:
+def rides_of(received: list[StretchLevels]) -> tuple[Ride, ...]:
     """Put stretches of one speed together; the speeds with most of them are taken."""
-    rest, rides = sorted(heard, key=lambda each: each.shaft_frequency), list[Ride]()
+    rest, rides = sorted(received, key=lambda each: each.shaft_frequency), list[Ride]()
     while rest and len(rides) < MOST_RIDES:
         groups = [
             [each for each in rest if abs(each.shaft_frequency / one.shaft_frequency - 1.0) < _SAME_SPEED]
@@ -99,13 +99,13 @@ def rides_of(heard: list[Heard]) -> tuple[Ride, ...]:
     return tuple(rides)
 
 
-def tolerance_of(rides: tuple[Ride, ...], twins: Float, hearing: Hearing) -> Float:
+def tolerance_of(rides: tuple[Ride, ...], twins: Float, reception: Reception) -> Float:
     """Put together what stretches, tracks, bearings of a lot and tiers differ by.
 
     Parameters
     ----------
     rides : tuple of Ride
-        Heard.
+        StretchLevels.
     twins : float64 array, shape [seed, ride, axis, band]
         Levels of twins on other tracks, with other bearings of the lot, [dB].
 
@@ -120,5 +120,5 @@ def tolerance_of(rides: tuple[Ride, ...], twins: Float, hearing: Hearing) -> Flo
         own = ride.levels.var(axis=0, ddof=1) / count if count > 1 else 0.0
         variance = twin.var(axis=0, ddof=1) * (1.0 + 1.0 / len(twin)) + own
         even = uniform_filter1d(variance, _SMOOTH, axis=-1, mode="nearest")
-        found.append(np.sqrt(even + hearing.model**2))
+        found.append(np.sqrt(even + reception.model**2))
     return np.stack(found)

@@ -14,7 +14,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import write_noun
 from beardyn_core.base.errors import InputError, ValidityError
-from beardyn_core.calibration.spectra import Hearing, Ride, levels_of
+from beardyn_core.calibration.spectra import Reception, Ride, levels_of
 from beardyn_core.calibration.unknowns import BY_NAME, NOISE
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.follow.descriptors import AXES
@@ -39,7 +39,7 @@ class Beside:
     """
 
     scene: A[Scene, "resolved, in the tier of the twin, healthy"]
-    hearing: Hearing
+    reception: Reception
     sensor: A[int, "number of the accelerometer in the scene"]
     rides: tuple[Ride, ...]
     runs: A[int, "of twins so far"] = 0
@@ -67,14 +67,14 @@ class Beside:
 
     def levels(self, power: Float, noise: float) -> Float:
         """Add noise of a density to powers, shape [..., band], and give levels, [dB re 1 m/s^2]."""
-        return np.asarray(10.0 * np.log10(power + noise**2 * self.hearing.widths), np.float64)
+        return np.asarray(10.0 * np.log10(power + noise**2 * self.reception.widths), np.float64)
 
     def _ride_track(self, values: Values, seed: int, shaft_frequency: float) -> Float:
         data = self._keys
         for name, value in values.items():
             if name != NOISE.name:
                 data = BY_NAME[name].write_into(data, self.sensor, value, Path())
-        duration = _SETTLING + self.hearing.stretch + _SPARE
+        duration = _SETTLING + self.reception.stretch + _SPARE
         data = {**data, "operation": operation_at(self.scene, shaft_frequency), "duration_s": duration}
         data["seed"] = self.scene.seed + seed
         if self.scene.scattered is not None:
@@ -82,12 +82,12 @@ class Beside:
         run = simulated(scene_from_mapping(data, f"scene {self.scene.name}", Path()))
         self.runs += 1
         signal = run.sensors[self.scene.sensors[self.sensor].name]
-        count = round(self.hearing.stretch * self.hearing.rate)
+        count = round(self.reception.stretch * self.reception.rate)
         late = signal.values[signal.time_ns >= round(1e9 * _SETTLING)]
         if len(late) < count:
             raise ValidityError(f"scene {self.scene.name}: the twin ended early: {run.status}")
-        heard = np.asarray(late[:count, [AXES.index(axis) for axis in self.hearing.axes]], np.float64)
-        return np.asarray(10.0 ** (0.1 * levels_of(heard, self.hearing)), np.float64)
+        received = np.asarray(late[:count, [AXES.index(axis) for axis in self.reception.axes]], np.float64)
+        return np.asarray(10.0 ** (0.1 * levels_of(received, self.reception)), np.float64)
 
 
 def operation_at(scene: Scene, shaft_frequency: float) -> dict[str, Any]:

@@ -42,8 +42,8 @@ class Unknown:
                 structure.stiffness_factor**0.5 if self.name == "frequency" else structure.damping_factor
             ) or None
         if self.name == "background":
-            heard = scene.background
-            return heard.amplitude_factor or None if heard is not None and heard.forces else None
+            received = scene.background
+            return received.amplitude_factor or None if received is not None and received.forces else None
         if self.name == "noise":
             return scene.sensors[sensor].noise_density or None
         if isinstance(scene.bearing, CylindricalBearing):

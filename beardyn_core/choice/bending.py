@@ -100,19 +100,19 @@ def rates_told(evidence: Evidence) -> Iterator[str]:
         return
     last = _last(body.modes)
     for index, sensor in enumerate(evidence.scene.sensors):
-        hears = PASSBAND * sensor.rate
-        said = f"sensor {sensor.name} at {sensor.rate / 1e3:g} kHz measures to {_kilohertz(hears)}"
-        if hears > last:
+        receives = PASSBAND * sensor.rate
+        said = f"sensor {sensor.name} at {sensor.rate / 1e3:g} kHz measures to {_kilohertz(receives)}"
+        if receives > last:
             end = f"the modes of the box end at {_kilohertz(last)}"
             yield f"{said}, {end}: beyond, its signal has no resonances"
             continue
-        beyond = band_centres(last) > hears
+        beyond = band_centres(last) > receives
         rigid = levels(evidence.scene, evidence.typical, None, last)[index, beyond]
         louder = levels(evidence.scene, evidence.typical, body, last)[index, beyond] - rigid
         if louder.size and louder.max() > VIBRATION_TOLERANCE_DB:
-            faster = [rate for rate in RATES if PASSBAND * rate > hears]
+            faster = [rate for rate in RATES if PASSBAND * rate > receives]
             remedy = f": rate_kHz {faster[0] / 1e3:g} measures it" if faster else ""
-            count = int(np.count_nonzero(body.modes.frequency[: body.modes.free_count] > hears))
+            count = int(np.count_nonzero(body.modes.frequency[: body.modes.free_count] > receives))
             yield (
                 f"{said}, and {count} modes of the box ring above, to {_kilohertz(last)} and up to "
                 f"{louder.max():.2g} dB louder than a rigid box{remedy}"

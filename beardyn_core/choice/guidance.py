@@ -161,9 +161,9 @@ def _excitation(evidence: Evidence) -> float:
     A fault takes it from a roller over the time of its edge, a pocket knocks at once. A fault on a roller
     strikes once in a while, and does not drown what the cage does in between.
     """
-    heard = [
+    received = [
         share * min(1.0 / (math.pi * evidence.band * edge_time(evidence, patch)), 1.0)
         for patch, share in zip(evidence.patches, evidence.patch_shares, strict=True)
         if patch.on != "roller"
     ]
-    return max(heard, default=0.0) * evidence.typical.largest_roller_load
+    return max(received, default=0.0) * evidence.typical.largest_roller_load

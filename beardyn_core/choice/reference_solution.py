@@ -114,14 +114,14 @@ class Evidence:
     @property
     def band(self) -> float:
         """Highest third octave asked of the vibration: what the fastest sensor measures, or less, [Hz]."""
-        heard = AUDIBLE_BAND * max(sensor.rate for sensor in self.scene.sensors) / RATES[0]
-        return min(heard, self.scene.vibration_to or heard)
+        received = AUDIBLE_BAND * max(sensor.rate for sensor in self.scene.sensors) / RATES[0]
+        return min(received, self.scene.vibration_to or received)
 
     @property
     def edge(self) -> float:
-        """Where that third octave ends, or the hearing of the fastest sensor, [Hz]."""
-        hearing = PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
-        return min(hearing, third_octave_end(self.band))
+        """Where that third octave ends, or the reception of the fastest sensor, [Hz]."""
+        reception = PASSBAND * max(sensor.rate for sensor in self.scene.sensors)
+        return min(reception, third_octave_end(self.band))
 
     @cached_property
     def losses_without_weight(self) -> Losses:

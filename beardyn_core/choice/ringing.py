@@ -76,7 +76,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     between = -(wrench @ (_journal(scene) + box) @ wrench.T) / rate[:, None, None] ** 2
     arms = [np.block([np.eye(3), -cross_matrix(sensor.position)]) for sensor in scene.sensors]
     reading = np.concatenate(arms)
-    heard = np.broadcast_to(reading @ box @ wrench.T, (rate.size, len(reading), azimuth.size))
+    received = np.broadcast_to(reading @ box @ wrench.T, (rate.size, len(reading), azimuth.size))
     axle = modes_of(scene)
     if axle is not None:
         bent = wrench @ journal_shapes(axle)
@@ -91,9 +91,9 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
         if body.modes is not None:
             seats = [body.modes.seats[seat_of(sensor, body.modes)].T for sensor in scene.sensors]
             ringing = np.einsum("sm,lm,jm->lsj", np.concatenate(seats), yielding, shapes, optimize=True)
-            heard = heard - rate[:, None, None] ** 2 * ringing
+            received = received - rate[:, None, None] ** 2 * ringing
     forces = np.linalg.inv(between + np.eye(azimuth.size) / spring[:, :, None])
-    power = (np.abs(heard @ forces) ** 2).sum(axis=-1)
+    power = (np.abs(received @ forces) ** 2).sum(axis=-1)
     mean = power.reshape(centres.size, _LINES, len(scene.sensors), 3).sum(axis=(1, 3)) / _LINES
     return np.asarray(10.0 * np.log10(mean)).T
 

@@ -4,6 +4,7 @@
 module           responsibility
 ================ ========================================================================
 main             the parser, the list of subcommands, exit codes, complaints
+command_parser   a parser that answers a mistake with a sentence
 json_output      strict JSON with a version, for every ``--json``
 files            inputs and outputs of a command: complaints at once, doubts, a folder to write
 generated_parser parsers of commands from the functions of `api` that they call

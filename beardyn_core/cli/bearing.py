@@ -437,11 +437,11 @@ def _frequency_lines(frequencies: FaultFrequencies, speed: float) -> list[str]:
 
 
 def _static_lines(solution: StaticSolution) -> list[str]:
-    move = ", ".join(f"{value * 1e6:.2f}" for value in solution.displacement + 0.0)
-    tilt = ", ".join(f"{value * 1e6:.1f}" for value in solution.tilt + 0.0)
+    move = ", ".join(f"{each:.2f}" for each in (solution.displacement * 1e6).round(2) + 0.0)  # no minus zero
+    tilt = ", ".join(f"{each:.1f}" for each in (solution.tilt * 1e6).round(1) + 0.0)
     loaded = solution.loaded_roller_count
     lines = [
-        f"  cone moves ({move}) um and tilts ({tilt}) urad about x, z",
+        f"  cone moves ({move}) µm and tilts ({tilt}) µrad about x, z",
         f"  {loaded[0]} rollers loaded inboard, {loaded[1]} outboard; "
         f"largest roller load {solution.largest_roller_load:,.1f} N",
         f"  largest Hertz pressure {solution.cup_pressure.max() * 1e-6:,.0f} MPa on the outer ring (cup), "

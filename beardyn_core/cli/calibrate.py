@@ -104,8 +104,8 @@ def json_object(found: Calibration) -> dict[str, Any]:
             for each in found.fits
         ],
         "not_fitted": found.absent,
-        "axes": found.hearing.axes,
-        "frequency_Hz": found.hearing.middles,
+        "axes": found.reception.axes,
+        "frequency_Hz": found.reception.middles,
         "shaft_frequency_Hz": found.speeds,
         "stretches": found.stretches,
         "residual_before_dB": before,

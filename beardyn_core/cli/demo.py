@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
     recording = MonitoredRecording(
         folder / RECORDING_NAME,
         scene.bearing,
-        lambda finding: progress.hear(finding.verdict),
+        lambda finding: progress.receive(finding.verdict),
         replace=args.force,
     )
 

@@ -28,7 +28,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     more = "Measured files become a recording with `beardyn import`."
     parser = add_command(subparsers, "estimate", estimating.estimate, more)
     add_parameter(parser, estimating.estimate, "run", "recording", metavar="run.mcap", type=str)
-    add_hearing(parser)
+    add_reception(parser)
     add_box(parser)
     add_load(parser, estimating.estimate, "")
     add_service(parser, "what remains, with --mileage-km", "so far; default no forecast")
@@ -36,7 +36,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.set_defaults(run=run)
 
 
-def add_hearing(parser: argparse.ArgumentParser) -> None:
+def add_reception(parser: argparse.ArgumentParser) -> None:
     """Declare what is read, and by which estimator."""
     add_parameter(parser, estimating.estimate, "estimator", metavar="FILE.npz")
     add_parameter(parser, estimating.estimate, "bearing", metavar="NAME")
@@ -124,17 +124,17 @@ def run(args: argparse.Namespace) -> int:
 
     service, law = service_of(args, args.mileage_km or 0.0)
     warm, assumptions = assumptions_of(args)
-    heard = read_run(args.recording, args.box)
+    received = read_run(args.recording, args.box)
     with in_words_of_options():
         found = estimating.estimate(
-            heard, args.estimator, bearing=args.bearing, sensor=args.sensor, load_kn=args.load_kn,
+            received, args.estimator, bearing=args.bearing, sensor=args.sensor, load_kn=args.load_kn,
             load_sensor=args.load_sensor or (), axle_load_t=args.axle_load_t,
             wheel_diameter=service.wheel_diameter,
         )  # fmt: skip
     wanted = args.mileage_km is not None or found.known_load is not None
     remains = (
         estimating.forecast(
-            found, heard, service, law, bearing=args.bearing, lubricant=args.lubricant, temperature_C=warm,
+            found, received, service, law, bearing=args.bearing, lubricant=args.lubricant, temperature_C=warm,
             assumptions=assumptions,
         )
         if wanted

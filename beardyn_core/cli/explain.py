@@ -66,7 +66,11 @@ def text(found: Explanation, verbose: bool = False) -> str:
     parts = [f"{found.scene.name}: {found.scene.purpose}", "", *_short_lines(found.current)]
     if found.automatic is not None:
         parts += ["", "`effects: auto` would choose:", *_head(found.automatic)]
-    parts += [*_heard(found), "", "--verbose: whole reasons, costs, slices, time step, and effects of both."]
+    parts += [
+        *_received(found),
+        "",
+        "--verbose: whole reasons, costs, slices, time step, and effects of both.",
+    ]
     return "\n".join(parts)
 
 
@@ -105,7 +109,7 @@ def _long_text(found: Explanation) -> str:
     else:
         parts += ["", *_lines(found.current, "as the scene has it")]
         parts += ["", *_lines(found.automatic, "what `effects: auto` would choose")]
-    parts += _heard(found)
+    parts += _received(found)
     if (found.automatic or found.current).kept:
         from beardyn_core.choice.choice_cache import folder
 
@@ -114,7 +118,7 @@ def _long_text(found: Explanation) -> str:
     return "\n".join(parts)
 
 
-def _heard(explanation: Explanation) -> list[str]:
+def _received(explanation: Explanation) -> list[str]:
     """Name what sensors measure besides, paths that are filters and no model, bands that end too early."""
     from beardyn_core.base.edge import write_noun
 

@@ -99,10 +99,10 @@ def _lacking(recording: Run, signals: list[str], output: str) -> str:
         lacking = [name for name in dict.fromkeys(signals) if not is_there(name)]
         told = f"--signals: {recording.label} has no {', no '.join(lacking)}"
     else:
-        heard = ending not in _VIBRATION_ALONE or any(
+        received = ending not in _VIBRATION_ALONE or any(
             is_there(name) for name in known if name.startswith(tables.VIBRATION)
         )
-        lacking = [] if heard else [tables.VIBRATION]
+        lacking = [] if received else [tables.VIBRATION]
         told = f"{recording.label}: has no vibration; give --signals"
     if not lacking:
         return ""

@@ -7,8 +7,8 @@ import argparse
 from beardyn_core.api import following
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.estimate import (
-    add_hearing,
     add_load,
+    add_reception,
     add_service,
     assumptions_of,
     in_words_of_options,
@@ -24,7 +24,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     more = "Prints a line for every stretch, and what remains."
     parser = add_command(subparsers, "follow", following.follow, more)
     add_parameter(parser, following.follow, "runs", "recordings", metavar="run.mcap", nargs="+", type=str)
-    add_hearing(parser)
+    add_reception(parser)
     add_box(parser)
     parser.add_argument(
         "--at-km",

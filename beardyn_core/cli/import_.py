@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from tqdm import tqdm
 
-    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.found_speed import with_found_speed
     from beardyn_core.measured.survey import survey
     from beardyn_core.measured.writing import write_measured
 
@@ -56,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
     if reading is None or bearings is None:
         raise InputError(problems)
     try:
-        measured = with_heard_speed(survey(args.files, reading), bearings)
+        measured = with_found_speed(survey(args.files, reading), bearings)
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems

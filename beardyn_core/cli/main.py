@@ -61,7 +61,9 @@ def build_parser() -> argparse.ArgumentParser:
     import argparse
     import importlib
 
-    parser = argparse.ArgumentParser(
+    from beardyn_core.cli.command_parser import CommandParser
+
+    parser = CommandParser(
         prog="beardyn",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Real-time digital twin of a railway axlebox bearing: runs of double-row tapered\n"
@@ -86,7 +88,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     _make_streams_printable()
     try:
         with interrupts.watching():
-            args = build_parser().parse_args(argv)
+            from beardyn_core.cli.command_parser import parse
+
+            args = parse(build_parser(), argv)
             _announce_on_stderr()
             code = int(args.run(args))
             sys.stdout.flush()  # a pipe or disk that refuses is reported here, not at exit

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator
+from itertools import groupby
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -56,6 +58,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="draw the envelope spectrum behind each verdict, with the lines of every part; default none",
     )
     add_force(parser, "replace the picture when it exists; default refuse")
+    parser.add_argument("--verbose", action="store_true", help="print a line for every analysis")
     add_json(parser)
     add_plates(parser, "default that of the recording")
     add_settings(parser)
@@ -127,22 +130,22 @@ def run(args: argparse.Namespace) -> int:
     inspections = inspect_files(args, algorithm, bearings, problems, recorded=recorded)
     results = {each.mounted: each.results for each in inspections}
     smallest = {each.mounted: _smallest_spalls(args, each, algorithm) for each in inspections}
-    heard = {mounted: each.findings for mounted, each in results.items()}
+    received = {mounted: each.findings for mounted, each in results.items()}
     if args.picture is not None:
-        _draw(results, args.picture, replace=args.force)
+        _draw(args, results)
     if args.json:
-        print(json_text("monitor", json_object(args, heard, smallest)))
-        return _exit_code(heard)
-    taken = [catalogue_sentence(each.entry) for each in heard if each.entry is not None]
+        print(json_text("monitor", json_object(args, received, smallest)))
+        return _exit_code(received)
+    taken = [catalogue_sentence(each.entry) for each in received if each.entry is not None]
     for sentence in dict.fromkeys(taken):  # of several axleboxes once
         print(sentence)
-    labelled = len(heard) > 1
-    for mounted, findings in heard.items():
+    labelled = len(received) > 1
+    for mounted, findings in received.items():
         if labelled:
             print(f"{mounted.label}, {mounted.plate.name}:")
-        for finding in findings:
-            print(f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}")
-    for mounted, findings in heard.items():
+        for line in _lines_of(findings, every=args.verbose):
+            print(line)
+    for mounted, findings in received.items():
         label = f"{mounted.label} " if labelled else ""
         print(f"{label}{_ending(findings)}")
         whole = conclude(findings).finding
@@ -154,7 +157,18 @@ def run(args: argparse.Namespace) -> int:
             print(f"{label}not judged, {PART_NAMES[part]}: {why}")
         for part in hidden_parts(mounted.plate, findings):
             print(f"{label}not judged: {PART_NAMES[part]}, {ON_THE_SHAFT}")
-    return _exit_code(heard)
+    return _exit_code(received)
+
+
+def _lines_of(findings: list[Finding], *, every: bool) -> Iterator[str]:
+    """Write a line for every analysis, or for the first of those that agree and one for the others."""
+    for verdict, group in groupby(findings, key=lambda finding: finding.verdict):
+        alike = list(group)
+        for finding in alike if every else alike[:1]:
+            yield f"{finding.time:8.2f} s  {finding.verdict:8} {finding.reason}"
+        if not every and len(alike) > 1:
+            more = f"{len(alike) - 1} more {'analysis' if len(alike) == 2 else 'analyses'}"
+            yield f"{alike[-1].time:8.2f} s  {verdict:8} the same in {more}"
 
 
 def _smallest_spalls(
@@ -202,11 +216,11 @@ def _known_twin(name: str) -> None:
         scene(name)
 
 
-def _exit_code(heard: dict[Mounted, list[Finding]]) -> int:
+def _exit_code(received: dict[Mounted, list[Finding]]) -> int:
     """Give the exit code of the worst bearing."""
     from beardyn_core.study.monitored_recording import EXIT_CODES, conclude, worst
 
-    return EXIT_CODES[worst(conclude(findings).verdict for findings in heard.values())]
+    return EXIT_CODES[worst(conclude(findings).verdict for findings in received.values())]
 
 
 def _picture_problems(args: argparse.Namespace) -> list[str]:
@@ -216,19 +230,24 @@ def _picture_problems(args: argparse.Namespace) -> list[str]:
     return problems + file_problems("--picture", args.picture, inputs=inputs, force=args.force, ending=".png")
 
 
-def _draw(results: dict[Mounted, BearingResults], path: Path, *, replace: bool) -> None:
+def _draw(args: argparse.Namespace, results: dict[Mounted, BearingResults]) -> None:
     """Write the picture of all bearings that have a verdict."""
     from beardyn_core.study.monitor_picture import monitor_picture
 
+    files = f"{Path(args.files[0]).name}{', ...' if len(args.files) > 1 else ''}"
+    labels = {mounted: f"{mounted.label}, " if len(results) > 1 else "" for mounted in results}
     shown = {
-        mounted.label: (each.concluded, mounted.plate.frequencies)
+        f"{files}, {labels[mounted]}bearing {mounted.plate.name}": (
+            each.concluded,
+            mounted.plate.frequencies,
+        )
         for mounted, each in results.items()
         if each.concluded is not None
     }
     if not shown:
         print("beardyn: warning: there is no analysis to draw; no picture is written", file=sys.stderr)
         return
-    with as_a_whole(path, replace=replace) as fresh:
+    with as_a_whole(args.picture, replace=args.force) as fresh:
         monitor_picture(shown, fresh)
 
 
@@ -257,7 +276,7 @@ def _confidence_text(finding: Finding) -> str:
 
 def json_object(
     args: argparse.Namespace,
-    heard: dict[Mounted, list[Finding]],
+    received: dict[Mounted, list[Finding]],
     smallest: dict[Mounted, SmallestSpalls | str | None],
 ) -> dict[str, Any]:
     """Gather what ``--json`` prints: the worst bearing, and all of them."""
@@ -265,7 +284,7 @@ def json_object(
     from beardyn_core.study.monitored_recording import NOT_DIAGNOSABLE, WAITING, Finding, conclude, worst
 
     every: list[dict[str, Any]] = []
-    for mounted, findings in heard.items():
+    for mounted, findings in received.items():
         conclusion = conclude(findings)
         spall = keyed_fields(conclusion.finding or Finding(conclusion.verdict, "", 0.0))
         every.append(

@@ -112,7 +112,7 @@ def _inspect_measured_files(
         With the problems found before, and those of the files.
     """
     from beardyn_core.cli.import_ import sensor_problems
-    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.found_speed import with_found_speed
     from beardyn_core.measured.stated_speed import uncertainty_of
     from beardyn_core.measured.survey import survey
     from beardyn_core.study.inspection import inspect_measured
@@ -126,7 +126,7 @@ def _inspect_measured_files(
     bearings = bearings or ()
     try:
         measured = survey(args.files, reading_of(args), needs_speed=True)
-        measured = with_heard_speed(measured, bearings) if not problems else measured
+        measured = with_found_speed(measured, bearings) if not problems else measured
         problems += sensor_problems(measured.sensors, bearings)
     except InputError as error:
         problems += error.problems

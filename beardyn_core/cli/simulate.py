@@ -123,7 +123,7 @@ class _Progress:
         self._simulated += step
         self._wall += block.wall_s
         if self._wall > 0.0:
-            self._bar.set_postfix_str(f"RTF {self._simulated / self._wall:.2f}", refresh=False)
+            self._bar.set_postfix_str(f"real-time factor {self._simulated / self._wall:.2f}", refresh=False)
         self._bar.update(min(step, max(self._bar.total - self._bar.n, 0.0)))
 
     def kept(self, recording: Path | None) -> str:

@@ -70,6 +70,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
+    from beardyn_core.record.bag_scanning import scan_recording
     from beardyn_core.record.reading import read_run
 
     if problems := option_problems(args):
@@ -77,6 +78,7 @@ def run(args: argparse.Namespace) -> int:
     if not (args.web or any(getattr(args, name) for name in ENDINGS)):
         from beardyn_core.record.viewer import require_display
 
+        scan_recording(args.recording)  # a file that is none comes before a screen that is none
         require_display()
     recording = read_run(args.recording, args.box)
     if recording.problem:

@@ -254,10 +254,10 @@ class SceneFile(FileModel):
         if isinstance(given["bearing"], SimulatedBearing):
             yield from _play_out_of_range(given, given["bearing"])
             yield from _not_of_this_kind(self.radial_clearance_mm, given, given["bearing"])
-        hearing = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
-        if given["vibration_to"] is not None and given["vibration_to"] > hearing:
+        reception = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
+        if given["vibration_to"] is not None and given["vibration_to"] > reception:
             yield (
-                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors measure to {hearing:g} Hz: ask "
+                f"vibration_to_Hz is {given['vibration_to']:g}; the sensors measure to {reception:g} Hz: ask "
                 f"for less, or give one rate_kHz {RATES[-1] / 1e3:g}, which measures to "
                 f"{PASSBAND * RATES[-1]:g} Hz"
             )

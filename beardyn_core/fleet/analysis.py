@@ -186,7 +186,7 @@ def _read(recording: FleetRecording) -> tuple[Run, tuple[Any, ...]]:
     """Read the signals, and which bearing was named."""
     from beardyn_core.config import load_plate
     from beardyn_core.measured.about import USUAL_LABEL, Mounted
-    from beardyn_core.measured.heard_speed import with_heard_speed
+    from beardyn_core.measured.found_speed import with_found_speed
     from beardyn_core.measured.in_memory import run_of
     from beardyn_core.measured.options import Reading
     from beardyn_core.measured.survey import survey
@@ -208,7 +208,7 @@ def _read(recording: FleetRecording) -> tuple[Run, tuple[Any, ...]]:
         return run, mounted
     if not mounted:
         raise InputError(f"{path}: nothing names its bearing; give bearing in the manifest, or --bearing")
-    measured = with_heard_speed(survey([path], Reading.of(**recording.reading), needs_speed=True), mounted)
+    measured = with_found_speed(survey([path], Reading.of(**recording.reading), needs_speed=True), mounted)
     return run_of(measured, mounted), mounted
 
 

@@ -33,11 +33,11 @@ class ConditionBelief:
     def __post_init__(self) -> None:
         self.probability = np.full(len(self.conditions), 1.0 / len(self.conditions))
 
-    def take(self, heard: Mapping[str, float]) -> None:
+    def take(self, received: Mapping[str, float]) -> None:
         """Add what one stretch says of the probability of each condition."""
         count = len(self.conditions)
         least = (1.0 - _SURE) / max(count - 1, 1)
-        said = np.array([min(max(heard[each], least), _SURE) for each in self.conditions])
+        said = np.array([min(max(received[each], least), _SURE) for each in self.conditions])
         turned = (1.0 - _TURNS) * self.probability + _TURNS / count
         power = np.log(turned) + _WEIGHT * (np.log(said) - log(1.0 / count))
         weight = np.exp(power - power.max())

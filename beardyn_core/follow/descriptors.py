@@ -97,9 +97,9 @@ def describe(stretch: Stretch, orders: FaultFrequencies, plate: NamePlate, axes:
     found |= passage_profile.profile_of(stretch, louder, passed[louder], plate)
     found |= event_order.order_of_events(stretch, louder, passed[louder], plate, axes)
     for k, axis in enumerate(axes):
-        heard = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
+        received = stretch.acceleration[:, k] - stretch.acceleration[:, k].mean()
         for name, middles, share in (("band", THIRDS, 3), ("fine", FINE, 12)):
-            levels = band_levels(heard, stretch.rate, middles, share)
+            levels = band_levels(received, stretch.rate, middles, share)
             found |= {f"{name}_{axis}_{middle:.0f}": level for middle, level in levels.items()}
     found |= _lines(stretch, orders, axes)
     return np.array([found[name] for name in names_of(axes)])

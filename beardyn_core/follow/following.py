@@ -56,7 +56,7 @@ class Followed:
     time: A[float, "end of the stretch, [s]"]
     distance: A[float, "since the first one, [m]"]
     estimates: A[Estimates, "of the filter"]
-    heard: A[Estimates, "of this stretch alone"]
+    received: A[Estimates, "of this stretch alone"]
     names: A[tuple[str, ...], "of the numbers of the covariance"]
     covariance: A[Float, "shape [number, number], on the scales of learning; see `Quantity.scaled`"]
     rate: A[tuple[float, float], "growth of the spall: median, and factor that holds 90 %, [m^2/m]; NaN"]
@@ -174,8 +174,8 @@ class Follower:
         distance : float
             That the wheel has run since the first stretch, [m].
         """
-        heard = self.estimator.estimates(descriptors[None])
-        self._strange = [*self._strange, heard.strangeness][-_LATE:]
+        received = self.estimator.estimates(descriptors[None])
+        self._strange = [*self._strange, received.strangeness][-_LATE:]
         self._carry(
             max(time - self._time, 0.0) if self.stretches else 0.0, max(distance - self._distance, 0.0)
         )
@@ -184,9 +184,9 @@ class Follower:
             chances = self.estimator.part.probabilities(self.estimator.standardise(descriptors[None]))[0]
             self.condition.take(dict(zip(self.condition.conditions, chances.tolist(), strict=True)))
         self._condition_on_load()
-        changed = self._correct(heard)
+        changed = self._correct(received)
         self.stretches += 1
-        known = self._estimates(heard)
+        known = self._estimates(received)
         service = replace(self.service, mileage=self.service.mileage + distance)
         law = self._law()
         rated = self._rate(known, service.mileage)
@@ -199,7 +199,7 @@ class Follower:
         against = () if known.known_load is None else known.known_load.doubts
         count = len(self.names)
         return Followed(
-            time, distance, known, heard, self.names, self.belief.covariance[:count, :count].copy(),
+            time, distance, known, received, self.names, self.belief.covariance[:count, :count].copy(),
             (law.rate, law.rate_spread) if self._grows else (np.nan, np.nan),
             self._surprise, changed, remains, self._health(known, remains, doubts),
             (*doubts, *against),
@@ -262,10 +262,12 @@ class Follower:
     def _spalled(self) -> bool:
         return self.condition is None or self.condition.estimate.condition != HEALTHY
 
-    def _correct(self, heard: Estimates) -> tuple[str, ...]:
+    def _correct(self, received: Estimates) -> tuple[str, ...]:
         """Correct the belief by what a stretch says; gives the numbers that have made a step."""
         told = [
-            k for k, name in enumerate(self.names) if isfinite(heard[name].value) and self._fits(heard, name)
+            k
+            for k, name in enumerate(self.names)
+            if isfinite(received[name].value) and self._fits(received, name)
         ]
         if not told:
             return ()
@@ -273,9 +275,9 @@ class Follower:
         rows, observed, variance = np.zeros((len(told), len(self.belief.mean))), [], []
         for row, k in zip(rows, told, strict=True):
             row[[k, count + k, 2 * count + k]] = 1.0
-            each = heard[self.names[k]]
+            each = received[self.names[k]]
             low, high = each.quantity.scaled(np.array(each.intervals[-1]))
-            whole = ((high - low) / (2.0 * NORMAL_90) * max(heard.strangeness, 1.0)) ** 2
+            whole = ((high - low) / (2.0 * NORMAL_90) * max(received.strangeness, 1.0)) ** 2
             observed.append(float(each.quantity.scaled(np.array(each.value))))
             variance.append(max(whole - self._common[k], _LEAST_OWN * whole))
         seen, errors = np.array(observed), np.array(variance)
@@ -290,11 +292,11 @@ class Follower:
         self._surprise = _KEPT * self._surprise + (1.0 - _KEPT) * float(np.mean(ready.misses**2))
         return tuple(self.names[k] for k in stepped)
 
-    def _fits(self, heard: Estimates, name: str) -> bool:
+    def _fits(self, received: Estimates, name: str) -> bool:
         """Say whether a number is of the part that is believed to be spalled, or of none."""
-        if not BY_NAME[name].of_fault or self.condition is None or heard.part is None:
+        if not BY_NAME[name].of_fault or self.condition is None or received.part is None:
             return True
-        return heard.part.condition == self.condition.estimate.condition
+        return received.part.condition == self.condition.estimate.condition
 
     def _find_stepped(self, told: list[int], misses: Float) -> list[int]:
         """Find the numbers that have been missed on one side often enough."""
@@ -315,28 +317,28 @@ class Follower:
         factor = min(max(float(np.exp(NORMAL_90 * spread)), 1.0), 100.0)
         return replace(self.law, rate=float(np.exp(rate)), rate_spread=factor)
 
-    def _estimates(self, heard: Estimates) -> Estimates:
+    def _estimates(self, received: Estimates) -> Estimates:
         """Give the belief in the words of an estimate."""
         part = None if self.condition is None else self.condition.estimate
         found = replace(
-            heard,
+            received,
             part=part,
             stretches=self.stretches,
             quantities=tuple(
                 # a least width stands for itself: the belief may be the narrow one of two that look alike
                 each if isfinite(each.at_least) and self._spalled else self._estimate(each.quantity)
-                for each in heard.quantities
+                for each in received.quantities
             ),
         )
-        return found if self._known is None else self._with_load(found, heard, self._known)
+        return found if self._known is None else self._with_load(found, received, self._known)
 
-    def _with_load(self, found: Estimates, heard: Estimates, load: KnownLoad) -> Estimates:
+    def _with_load(self, found: Estimates, received: Estimates, load: KnownLoad) -> Estimates:
         """Check a known load against this stretch, and give it, or what the belief makes of it."""
         wheel = self.service.wheel_diameter
         believed = found[VERTICAL] if VERTICAL in self.names else None
         others = tuple(each for each in found.quantities if each.quantity.name != VERTICAL)
-        # what the vibration says alone is in `heard`: the belief has the known load in it already
-        alone = tuple(each for each in heard.quantities if each.quantity.name == VERTICAL)
+        # what the vibration says alone is in `received`: the belief has the known load in it already
+        alone = tuple(each for each in received.quantities if each.quantity.name == VERTICAL)
         checked = condition_estimates(
             replace(found, quantities=(*alone, *others)), load, self.bearing, wheel, self.axle_loads
         )

@@ -28,7 +28,7 @@ _SAME_RATE = 1e-3
 _LEAST_LENGTH = 0.95  # of a stretch
 
 
-class Ear(Protocol):
+class Receiver(Protocol):
     """What is read at once: an estimator is one."""
 
     @property
@@ -94,7 +94,7 @@ def estimates_of(
     return replace(found, mountings=mountings_of(stretches, estimator)) if found.strangeness > 1.0 else found
 
 
-def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch]:
+def stretches_of(run: Run, estimator: Receiver, sensor: str = "") -> Iterator[Stretch]:
     """Cut a run into stretches of the length and sampling rate that an estimator reads.
 
     Where samples are lost, or are NaN, a new stretch begins.
@@ -105,31 +105,31 @@ def stretches_of(run: Run, estimator: Ear, sensor: str = "") -> Iterator[Stretch
     if not len(signal) or not len(run.shaft):
         raise InputError(f"{run.label}: has no vibration with a shaft angle to estimate from")
     inside = (signal.time_ns >= run.shaft.time_ns[0]) & (signal.time_ns <= run.shaft.time_ns[-1])
-    heard = np.asarray(signal.values, np.float64)[inside][:, [AXES.index(axis) for axis in estimator.axes]]
-    if doubt := name_unmeasured_axes(heard, estimator):
+    received = np.asarray(signal.values, np.float64)[inside][:, [AXES.index(axis) for axis in estimator.axes]]
+    if doubt := name_unmeasured_axes(received, estimator):
         raise InputError(f"{run.label}: {doubt}")
     if signal.rate < (1.0 - _SAME_RATE) * estimator.rate:
         raise InputError(
             f"{run.label}: is sampled at {signal.rate:.0f} Hz, the estimator needs {estimator.rate:.0f} Hz; "
             "what lies between is not in the signal"
         )
-    complete = np.isfinite(heard).all(axis=1)
-    time_ns, heard = signal.time_ns[inside][complete], heard[complete]
+    complete = np.isfinite(received).all(axis=1)
+    time_ns, received = signal.time_ns[inside][complete], received[complete]
     angle = np.interp(time_ns, run.shaft.time_ns, np.unwrap(run.shaft.angle))
     lost = np.flatnonzero(np.diff(time_ns) > LONGEST_STEP * 1e9 / signal.rate) + 1
     for begin, end in pairwise([0, *lost.tolist(), len(time_ns)]):
         if end - begin >= _LEAST_LENGTH * estimator.stretch * signal.rate:
-            piece = _resample(heard[begin:end], angle[begin:end], signal.rate, estimator.rate)
+            piece = _resample(received[begin:end], angle[begin:end], signal.rate, estimator.rate)
             yield from _cut(*piece, int(time_ns[begin]), estimator)
 
 
-def _cut(heard: Float, angle: Float, begin_ns: int, estimator: Ear) -> Iterator[Stretch]:
+def _cut(received: Float, angle: Float, begin_ns: int, estimator: Receiver) -> Iterator[Stretch]:
     """Cut what nothing is lost of into stretches."""
     length = round(estimator.stretch * estimator.rate) + 1
-    for k in range(max(1, len(heard) // length)):
+    for k in range(max(1, len(received) // length)):
         part = slice(k * length, (k + 1) * length)
         long_enough = len(angle[part]) >= _LEAST_LENGTH * length
-        if long_enough and (forward := turned_forward(heard[part], angle[part])) is not None:
+        if long_enough and (forward := turned_forward(received[part], angle[part])) is not None:
             end_ns = begin_ns + round(1e9 * (part.start + len(angle[part]) - 1) / estimator.rate)
             yield Stretch(estimator.rate, *forward, np.nan, end_ns)
 
@@ -145,9 +145,9 @@ def finite_axes(acceleration: Float) -> tuple[str, ...]:
     return tuple(axis for k, axis in enumerate(AXES) if not np.isnan(acceleration[:, k]).all())
 
 
-def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:
+def name_unmeasured_axes(received: Float, estimator: Receiver) -> str:
     """Say which axis of a signal, shape [sample, axis], is not measured; empty when all are."""
-    for axis, values in zip(estimator.axes, heard.T, strict=True):
+    for axis, values in zip(estimator.axes, received.T, strict=True):
         if len(values) and np.isnan(values).all():
             return (
                 f"axis {axis} is not measured; the estimator needs {', '.join(estimator.axes)}: "
@@ -156,14 +156,14 @@ def name_unmeasured_axes(heard: Float, estimator: Ear) -> str:
     return ""
 
 
-def turned_forward(heard: Float, angle: Float) -> tuple[Float, Float] | None:
+def turned_forward(received: Float, angle: Float) -> tuple[Float, Float] | None:
     """Give vibration and angle of a stretch as if the shaft turned forwards.
 
     One that turns backwards is turned round in time, so that its angle increases as well.
 
     Parameters
     ----------
-    heard : float64 array, shape [sample, axis]
+    received : float64 array, shape [sample, axis]
         [m/s^2].
     angle : float64 array, shape [sample]
         [rad].
@@ -177,15 +177,15 @@ def turned_forward(heard: Float, angle: Float) -> tuple[Float, Float] | None:
     if abs(angle[-1] - angle[0]) < FEWEST_TURNS * 2.0 * np.pi:
         return None
     if (turned >= 0.0).all():
-        return heard, angle
-    return (heard[::-1].copy(), angle[::-1].copy()) if (turned <= 0.0).all() else None
+        return received, angle
+    return (received[::-1].copy(), angle[::-1].copy()) if (turned <= 0.0).all() else None
 
 
-def _resample(heard: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
+def _resample(received: Float, angle: Float, rate: float, wanted: float) -> tuple[Float, Float]:
     """Bring vibration, shape [sample, axis], and angle to the sampling rate of the estimator."""
     if abs(rate / wanted - 1.0) < _SAME_RATE:
-        return heard, angle
+        return received, angle
     ratio = Fraction(wanted / rate).limit_denominator(1000)
-    fewer = resample_poly(heard, ratio.numerator, ratio.denominator, axis=0)
+    fewer = resample_poly(received, ratio.numerator, ratio.denominator, axis=0)
     time = np.arange(len(fewer)) * (rate / wanted)
     return fewer, np.interp(time, np.arange(len(angle)), angle)

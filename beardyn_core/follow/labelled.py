@@ -108,9 +108,9 @@ def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
     sizes = ("roller_count", "pitch_diameter", "roller_diameter", "contact_angle")
     if not all(isclose(getattr(one, name), getattr(two, name), rel_tol=_ALIKE) for name in sizes):
         raise InputError(_unlike(runs, other, "bearing", one.name, two.name))
-    heard, beside = sampling_of(runs), sampling_of(other)
+    received, beside = sampling_of(runs), sampling_of(other)
     for name, unit in (("rate", "Hz"), ("seconds", "s")):
-        first, second = getattr(heard, name), getattr(beside, name)
+        first, second = getattr(received, name), getattr(beside, name)
         if abs(second / first - 1.0) > _SAME_SAMPLING:
             raise InputError(
                 _unlike(runs, other, _SAMPLED[name], f"{first:.6g} {unit}", f"{second:.6g} {unit}")

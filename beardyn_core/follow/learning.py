@@ -392,11 +392,11 @@ def _part_of(standard: Float, conditions: NDArray[Any], names: tuple[str, ...]) 
         return None
     from sklearn.linear_model import LogisticRegression
 
-    heard = [k for k, name in enumerate(names) if name.startswith(_OF_MONITOR)]
-    learnt = LogisticRegression(max_iter=2000).fit(standard[:, heard], conditions)
+    received = [k for k, name in enumerate(names) if name.startswith(_OF_MONITOR)]
+    learnt = LogisticRegression(max_iter=2000).fit(standard[:, received], conditions)
     slope = np.zeros((len(learnt.classes_), len(names)))
     # of two conditions the library keeps the second one's power alone
-    slope[-len(learnt.coef_) :, heard], offset = learnt.coef_, np.zeros(len(slope))
+    slope[-len(learnt.coef_) :, received], offset = learnt.coef_, np.zeros(len(slope))
     offset[-len(learnt.intercept_) :] = learnt.intercept_
     return PartRule(tuple(map(str, learnt.classes_)), slope, offset, np.zeros(len(LEVELS)))
 
@@ -411,11 +411,11 @@ def _directions(standard: Float, values: Float, kept: int) -> Float:
 
     centred = standard - standard.mean(axis=0)
     size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
-    heard = np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:kept]
-    count = min(max(_DIRECTIONS), len(standard) - 1, len(heard))
-    found = PLSRegression(count, scale=False).fit(standard[:, heard], values).x_rotations_
+    received = np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:kept]
+    count = min(max(_DIRECTIONS), len(standard) - 1, len(received))
+    found = PLSRegression(count, scale=False).fit(standard[:, received], values).x_rotations_
     directions = np.zeros((standard.shape[1], count))
-    directions[heard] = found / np.std(standard[:, heard] @ found, axis=0)
+    directions[received] = found / np.std(standard[:, received] @ found, axis=0)
     return directions
 
 

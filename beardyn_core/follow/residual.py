@@ -58,14 +58,14 @@ class Residual:
         return tuple(found)
 
 
-def residual_of(estimator: Estimator, heard: Float, twin: Float) -> Residual:
+def residual_of(estimator: Estimator, received: Float, twin: Float) -> Residual:
     """Compare the middle of measured stretches, shape [stretch, descriptor], with those of a twin."""
     names = names_of(estimator.axes)
     places = [[names.index(f"band_{axis}_{middle:.0f}") for middle in THIRDS] for axis in estimator.axes]
     return Residual(
         estimator.axes,
         np.array(THIRDS),
-        np.median(heard, axis=0)[places],
+        np.median(received, axis=0)[places],
         np.median(twin, axis=0)[places],
         np.maximum(_USUAL * estimator.spread[places], _LEAST),
     )

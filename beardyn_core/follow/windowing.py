@@ -28,16 +28,16 @@ class StretchIntake:
     estimator: Estimator
     gaps: A[int, "in the vibration"] = 0
     unfit: A[int, "stretches with NaN, or in which the shaft stood, turned back or was too slow"] = 0
-    heard: A[int, "stretches that were given"] = 0
+    received: A[int, "stretches that were given"] = 0
     _times: list[Int] = field(default_factory=list)
-    _heard: list[Float] = field(default_factory=list)
+    _received: list[Float] = field(default_factory=list)
     _turn_times: list[Int] = field(default_factory=list)
     _turns: list[Float] = field(default_factory=list)
 
     @property
     def doubt(self) -> str:
         """Say why nothing has been read though whole stretches have come; empty when something has."""
-        if self.heard or not self.unfit:
+        if self.received or not self.unfit:
             return ""
         return (
             f"no stretch was usable: of {self.unfit} stretches none is without NaN and has a shaft that "
@@ -64,14 +64,14 @@ class StretchIntake:
                 f"vibration is sampled at {1e9 / period:.0f} Hz, the estimator needs "
                 f"{self.estimator.rate:.0f} Hz"
             )
-        heard = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]
-        if doubt := name_unmeasured_axes(heard, self.estimator):
+        received = acceleration[:, [AXES.index(axis) for axis in self.estimator.axes]]
+        if doubt := name_unmeasured_axes(received, self.estimator):
             raise InputError(f"vibration: {doubt}")
         if self._times and not 0.0 < time_ns[0] - self._times[-1][-1] < LONGEST_STEP * period:
             self.gaps += 1
-            self._times, self._heard = [], []
+            self._times, self._received = [], []
         self._times.append(time_ns)
-        self._heard.append(heard)
+        self._received.append(received)
 
     def push_shaft(self, time_ns: Int, angle: Float) -> None:
         """Add samples of the tachometer; an angle that wraps is unwrapped."""
@@ -88,32 +88,32 @@ class StretchIntake:
         if sum(map(len, self._times)) < length or not self._turn_times:
             self._forget()
             return None
-        times, heard = np.concatenate(self._times), np.concatenate(self._heard)
+        times, received = np.concatenate(self._times), np.concatenate(self._received)
         turn_times, turns = np.concatenate(self._turn_times), np.concatenate(self._turns)
         unknown = int(np.searchsorted(times, turn_times[0]))  # before the shaft was received
-        times, heard = times[unknown:], heard[unknown:]
-        self._keep(times, heard)
+        times, received = times[unknown:], received[unknown:]
+        self._keep(times, received)
         if len(times) < length or turn_times[-1] < times[length - 1]:
             self._forget()
             return None
-        self._keep(times[length:], heard[length:])
+        self._keep(times[length:], received[length:])
         kept = max(int(np.searchsorted(turn_times, times[length - 1])) - 1, 0)
         self._turn_times, self._turns = [turn_times[kept:]], [turns[kept:]]
         angle = np.interp(times[:length], turn_times, turns)
-        whole = np.isfinite(heard[:length]).all()
-        forward = turned_forward(heard[:length], angle) if whole else None
+        whole = np.isfinite(received[:length]).all()
+        forward = turned_forward(received[:length], angle) if whole else None
         if forward is None:
             self.unfit += 1
             return None
-        self.heard += 1
+        self.received += 1
         return Stretch(self.estimator.rate, *forward, np.nan, int(times[length - 1]))
 
-    def _keep(self, times: Int, heard: Float) -> None:
-        self._times, self._heard = ([times], [heard]) if len(times) else ([], [])
+    def _keep(self, times: Int, received: Float) -> None:
+        self._times, self._received = ([times], [received]) if len(times) else ([], [])
 
     def _forget(self) -> None:
         """Drop blocks that are too old for what the other stream may still bring."""
         longest_ns = _STRETCHES_KEPT * 1e9 * self.estimator.stretch
-        for times, values in ((self._times, self._heard), (self._turn_times, self._turns)):
+        for times, values in ((self._times, self._received), (self._turn_times, self._turns)):
             while times and times[-1][-1] - times[0][-1] > longest_ns:
                 del times[0], values[0]

@@ -38,7 +38,7 @@ telling       how files were understood, in sentences; what is true of many file
 shaft         angle of the shaft from a constant, a speed channel or tacho pulses
 stated_speed  how far the speed may be from the truth, by the way it is known
 about         what a recording says of where it comes from
-heard_speed   speed from the vibration itself, where no file says it
+found_speed   speed from the vibration itself, where no file says it
 stream        vibration and shaft of all files as parts in the order of time
 writing       the same as a recording
 in_memory     the same as a `Run`

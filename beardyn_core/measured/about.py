@@ -60,7 +60,7 @@ def about(survey: Survey, bearings: Sequence[Mounted] = ()) -> dict[str, Any]:
         ],
         "sensors": sensors,
         "speed": {
-            "from": speed.kind if survey.heard is None else "vibration",
+            "from": speed.kind if survey.received is None else "vibration",
             "channel": None if speed.channel is None else speed.channel.name,
             "constant_rad_per_s": speed.value if speed.kind == "constant" else None,
             "uncertainty": uncertainty_of(survey),

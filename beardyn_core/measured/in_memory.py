@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from beardyn_core.measured.about import Mounted, about
-from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.stream import SensorBlock, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.record import arrays
 from beardyn_core.record.encoding import ACCELERATION_AXES
@@ -36,11 +36,11 @@ class _Source(MessageSource):
 def run_of(survey: Survey, bearings: Sequence[Mounted] = ()) -> Run:
     """Read measured files as a whole into memory."""
     stream = Stream(survey)
-    heard: dict[str, list[Heard]] = {name: [] for name in survey.sensors}
+    received: dict[str, list[SensorBlock]] = {name: [] for name in survey.sensors}
     turned = []
     for part in stream:
-        if isinstance(part, Heard):
-            heard[part.sensor].append(part)
+        if isinstance(part, SensorBlock):
+            received[part.sensor].append(part)
         else:
             turned.append(part)
     sensors = {
@@ -51,7 +51,7 @@ def run_of(survey: Survey, bearings: Sequence[Mounted] = ()) -> Run:
             "m/s^2",
             np.concatenate([part.sample + np.arange(len(part.time_ns)) for part in parts]),
         )
-        for name, parts in heard.items()
+        for name, parts in received.items()
     }
     nothing = np.empty(0)
     shaft = arrays.Turning(

@@ -14,8 +14,8 @@ _COUNTED = "tacho"  # revolutions are counted
 
 def uncertainty_of(survey: Survey) -> float:
     """Compute the relative uncertainty of the speed of measured files, [-]."""
-    if survey.heard is not None:
-        return survey.heard.uncertainty
+    if survey.received is not None:
+        return survey.received.uncertainty
     return 0.0 if survey.files[0].chosen.speed.kind == _COUNTED else UNCERTAINTY
 
 

@@ -20,7 +20,7 @@ PART_S = 0.02
 
 
 @dataclass(frozen=True)
-class Heard:
+class SensorBlock:
     """A short time of one accelerometer."""
 
     sensor: str
@@ -29,7 +29,7 @@ class Heard:
     acceleration: Float  # shape [sample, 3], [m/s^2]; NaN on an axis that was not measured
 
 
-Part = Heard | Turned
+Part = SensorBlock | Turned
 
 
 @dataclass
@@ -60,7 +60,7 @@ class Stream:
         tables = [self._table(each, name, shaft) for name in each.chosen.tables]
         for part in tables[0] if len(tables) == 1 else heapq.merge(*tables, key=_begin):
             yield part
-            if isinstance(shaft, Constant) and isinstance(part, Heard):
+            if isinstance(shaft, Constant) and isinstance(part, SensorBlock):
                 turned = shaft.until(int(part.time_ns[0]), int(part.time_ns[-1]))
                 if len(turned.time_ns):
                     yield turned
@@ -82,7 +82,7 @@ class Stream:
 
         def parts(rows: Float) -> Iterator[Part]:
             time = begin_ns + np.round((done + np.arange(len(rows))) * (1e9 / rate)).astype(np.int64)
-            yield from _heard(rows, first + done, time, sensors, bool(chosen.source.flagged))
+            yield from _received(rows, first + done, time, sensors, bool(chosen.source.flagged))
             if turning is not None:
                 turned = turning.take(time, rows)
                 if len(turned.time_ns):
@@ -103,20 +103,20 @@ class Stream:
             raise InputError(chosen.source.problems)
 
 
-def _heard(
+def _received(
     rows: Float, first: int, time: Int, sensors: list[tuple[str, list[int], list[int], Float]], has_gaps: bool
-) -> Iterator[Heard]:
+) -> Iterator[SensorBlock]:
     """Give what accelerometers measured in a short time, in several parts where samples are invalid."""
     for name, axes, columns, factors in sensors:
         acceleration = np.full((len(rows), len(AXES)), np.nan)
         acceleration[:, axes] = rows[:, columns] * factors
         if not has_gaps:
-            yield Heard(name, first, time, acceleration)
+            yield SensorBlock(name, first, time, acceleration)
             continue
         good = np.isfinite(acceleration[:, axes]).all(axis=1)
         edges = np.flatnonzero(np.diff(np.concatenate(([False], good, [False]))))
         for begin, end in edges.reshape(-1, 2).tolist():
-            yield Heard(name, first + begin, time[begin:end], acceleration[begin:end])
+            yield SensorBlock(name, first + begin, time[begin:end], acceleration[begin:end])
 
 
 class _Turning:
@@ -197,8 +197,8 @@ def _columns(axes: object, names: list[str]) -> tuple[list[int], list[int], Floa
 def _shaft_of(survey: Survey) -> Constant | Measured | Pulses | None:
     chosen: Chosen = survey.files[0].chosen
     speed, reading = chosen.speed, survey.reading
-    if survey.heard is not None:
-        return Found(survey.heard)
+    if survey.received is not None:
+        return Found(survey.received)
     if speed.kind == "constant":
         return Constant(speed.value)
     if speed.channel is None:

@@ -109,7 +109,7 @@ class Survey:
     reading: Reading
     told: tuple[str, ...]
     warnings: tuple[str, ...]
-    heard: A[SpeedTrack | None, "speed found in the vibration itself"] = None
+    received: A[SpeedTrack | None, "speed found in the vibration itself"] = None
     tacho: A[Tacho | None, "what the pulses of the tachometer give"] = None
 
     @property
@@ -130,7 +130,7 @@ class Survey:
     @property
     def has_speed(self) -> bool:
         """Whether the speed of the shaft is known."""
-        return self.files[0].chosen.speed.kind != "none" or self.heard is not None
+        return self.files[0].chosen.speed.kind != "none" or self.received is not None
 
 
 @dataclass

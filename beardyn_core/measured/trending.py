@@ -11,7 +11,7 @@ import numpy as np
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.outputs import write_whole
 from beardyn_core.measured.sensor_choice import AXES
-from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.stream import SensorBlock, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.trend import Trend, TrendPoint, record_levels
 
@@ -41,16 +41,18 @@ def trend_of(survey: Survey, sensor: str = "", trend: Trend | None = None) -> It
             f"{', '.join(trend.axes)}"
         )
     columns = [AXES.index(axis) for axis in axes]
-    parts: list[Heard] = []
+    parts: list[SensorBlock] = []
     length = 0
 
     def ended() -> Iterator[TrendPoint]:
         if length >= SHORTEST_RECORD_S * rate:
-            heard = np.concatenate([part.acceleration[:, columns] for part in parts])
-            yield trend.take(record_levels(heard, rate, trend.settings), float(parts[-1].time_ns[-1]) * 1e-9)
+            received = np.concatenate([part.acceleration[:, columns] for part in parts])
+            yield trend.take(
+                record_levels(received, rate, trend.settings), float(parts[-1].time_ns[-1]) * 1e-9
+            )
 
     for part in Stream(survey):
-        if not isinstance(part, Heard) or part.sensor != sensor:
+        if not isinstance(part, SensorBlock) or part.sensor != sensor:
             continue
         gap = bool(parts) and part.sample != parts[-1].sample + len(parts[-1].time_ns)
         if gap or length >= LONGEST_RECORD_S * rate:

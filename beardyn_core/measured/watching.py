@@ -8,7 +8,7 @@ import numpy as np
 
 from beardyn_core.measured.about import Mounted, beside_others
 from beardyn_core.measured.stated_speed import uncertainty_of
-from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.stream import SensorBlock, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.chain import REFERENCE, Algorithm, MonitorResult, MonitorSettings
 from beardyn_core.monitor.streaming import Monitor, MonitorInput, measured_axes
@@ -45,7 +45,7 @@ def watch(
     for part in stream:
         for each in bearings:
             monitor = monitors[each.label]
-            if isinstance(part, Heard):
+            if isinstance(part, SensorBlock):
                 if part.sensor != (each.sensor or first):
                     continue
                 given = MonitorInput(

@@ -11,7 +11,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.base.interrupts import hold_interrupts
 from beardyn_core.base.outputs import recording_problems
 from beardyn_core.measured.about import Mounted, about
-from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.stream import SensorBlock, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.record.clouds import CloudTemplate, fill, points_of
 from beardyn_core.record.encoding import ACCELERATION_AXES, SHAFT_JOINT, VIBRATION, joint_template
@@ -68,7 +68,7 @@ def write_measured(
         for part in stream:
             stamp = int(part.time_ns[0])
             with hold_interrupts():
-                if isinstance(part, Heard):
+                if isinstance(part, SensorBlock):
                     points = points_of(VIBRATION, part.sample, part.time_ns, stamp)
                     fill(points, ACCELERATION_AXES, part.acceleration)
                     topic = vibration_topic(names.index(part.sensor), names)
@@ -78,7 +78,7 @@ def write_measured(
                     messages = shaft.encode(part.time_ns, position=turned, velocity=turning)
                     for time, cdr in zip(part.time_ns.tolist(), messages, strict=True):
                         writer.add("shaft", time, cdr)
-            if progress is not None and isinstance(part, Heard):
+            if progress is not None and isinstance(part, SensorBlock):
                 progress(float(part.time_ns[-1]) * 1e-9)
         status = ""
     except InputError as error:

@@ -13,7 +13,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.monitor.chain.chain import REFERENCE
 from beardyn_core.monitor.chain.competing_orders import is_related
-from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, live_axes, unheard
+from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, live_axes, unmeasured
 from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.chain.fault_lines import (
     CONE,
@@ -146,7 +146,7 @@ class BearingSearch:
         self, stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
     ) -> MonitorResult:
         """Compare the bearings with one stretch; orders and count of a monitored bearing are not used."""
-        if why := unheard(stretch, settings):
+        if why := unmeasured(stretch, settings):
             self._refusals.append(why)
             return MonitorResult(NOT_DIAGNOSABLE, why, stretch.end_ns)
         stretch, _ = live_axes(stretch)

@@ -231,12 +231,12 @@ def events_of(acceleration: Float, rate: float, passed: Float, spacing: float) -
     lines, frequency = np.fft.rfft(acceleration, axis=0), np.fft.rfftfreq(count, 1.0 / rate)
     high = _HIGHEST_SHARE * rate
     inside = (frequency > _LOWEST) & (frequency < high)
-    heard = np.fft.irfft(lines * inside[:, None], count, axis=0)
+    received = np.fft.irfft(lines * inside[:, None], count, axis=0)
     first, last = int(passed[0]) + 1, int(passed[-1]) - 1
     if last - first < _LEAST_PASSAGES:
         return None
     place = (passed % 1.0 * _PROFILE).astype(int)
-    power = np.bincount(place, weights=np.sum(heard**2, axis=1), minlength=_PROFILE)
+    power = np.bincount(place, weights=np.sum(received**2, axis=1), minlength=_PROFILE)
     loudest = float(power.argmax()) / _PROFILE
     period = float(np.median(np.diff(np.interp(np.arange(first, last), passed, np.arange(count)))))
 
@@ -246,7 +246,7 @@ def events_of(acceleration: Float, rate: float, passed: Float, spacing: float) -
         ramp = np.sin(0.5 * pi * np.arange(max(2, length // 8)) / max(2, length // 8)) ** 2
         window = np.ones(length)
         window[: len(ramp)], window[-len(ramp) :] = ramp, ramp[::-1]
-        parts = [heard[s : s + length] * window[:, None] for s in starts if s >= 0 and s + length <= count]
+        parts = [received[s : s + length] * window[:, None] for s in starts if s >= 0 and s + length <= count]
         spectra = (np.abs(np.fft.rfft(part, _SPECTRUM, axis=0)) ** 2 for part in parts)
         return np.asarray(np.mean([np.log(each + 1e-12) for each in spectra], axis=0))
 

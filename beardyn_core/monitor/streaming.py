@@ -368,13 +368,13 @@ class Monitor:
             )
         self._analysed_ns = ended_ns
         kept = fast_length(len(legs.samples))
-        heard, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
+        received, angle = acceleration[begin + legs.samples[-kept:]], legs.angle[-kept:]
         load_time, load = self._load.joined()
         window_ns = time_ns[begin + legs.samples.min()]  # what is kept reaches further back
         load = load[(window_ns <= load_time) & (load_time <= last)]
         stretch = chain.Stretch(
             rate=self.rate,
-            acceleration=heard,
+            acceleration=received,
             shaft_angle=angle,
             load=float(load.mean()) if len(load) else np.nan,
             end_ns=last,

@@ -2,7 +2,7 @@
 
 A contact is one file, its functions in the order of a step: prepare, stiffen, push, settle.
 
-Arguments mean the same in all kernels; a function's own words tell what is special there:
+Arguments mean the same in all kernels; a function's own docstring has what is special there:
 
 - ``lanes``, ``block``, ``p``: the lane width, the block of rollers, and the parameters of the tier.
 - Parameters of an effect bear its name (``rib``: `RibParams`) and are ``None`` where it is absent; ``cage``,

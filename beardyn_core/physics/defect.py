@@ -1,9 +1,9 @@
 """Patches, wear and size errors: their tables, the gaps they make, their growth between blocks.
 
 Far from every patch a contact costs one distance a patch. Near one, each lamina becomes two springs, its
-sound and its damaged part, the damaged one with the gap from the path of the roller over the patch. Near a
-sharp edge it is softer than a sound one; what it presses with is the slope of its energy over the depth, and
-what it leans with that over the arc.
+intact and its damaged part, the damaged one with the gap from the path of the roller over the patch. Near a
+sharp edge it is softer than an intact one; what it presses with is the slope of its energy over the depth,
+and what it leans with that over the arc.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class SurfaceParams(NamedTuple):
 
 
 class DamageParams(NamedTuple):
-    """Springs of a contact near a patch: sound parts of all laminae, then their damaged parts."""
+    """Springs of a contact near a patch: intact parts of all laminae, then their damaged parts."""
 
     laminae: Any  # the lamina table twice over [row of the table, 2 x lamina]
     springs: Any  # work space [1, spring x SPRING_FIELDS, lane]
@@ -147,7 +147,7 @@ def _write_patch(surface: SurfaceParams, index: int, patch: Patch, scene: Scene,
 
 
 def damage_params(laminae: Float, width: int) -> DamageParams:
-    """Double the lamina table (sound and damaged springs) and make work space for the springs."""
+    """Double the lamina table (intact and damaged springs) and make work space for the springs."""
     springs = np.zeros((1, layout.SPRING_FIELDS * 2 * laminae.shape[1], width))
     return DamageParams(for_springs(laminae), springs)
 
@@ -169,11 +169,11 @@ def roller_oversize(scene: Scene) -> Float:
 
 _LAST = layout.PATCH_POINTS - 2.0
 _SPRINGS = 0  # the work space has one page
-# of a contact, by which softness counts beside a gap where several patches meet [m]
+# of a contact, by which softness counts next to a gap where several patches meet [m]
 _USUAL_DEPTH = 5e-6
 # of a patch that counts as a whole where several meet [m]
 _FULL_SINK = 1e-6
-# Fields of the sound spring of a lamina in which the sums of a surface stand until its share is known: sinks,
+# Fields of the intact spring of a lamina that hold the sums of a surface until its share is known: sinks,
 # their squares, and what counts of them
 _OF_RING = (layout.SPRING_GAP, layout.SPRING_SHARE, layout.SPRING_FIRMNESS)
 _OF_ROLLER = (layout.SPRING_RING_SLOPE, layout.SPRING_RING_SOFTENING, layout.SPRING_ROLLER_SLOPE)
@@ -192,14 +192,14 @@ def patch_arc(azimuth, patch, surface):
 
 @inline
 def patch_nearness(lanes, block, azimuth, patch, surface):
-    """Tell how far a roller is inside the reach of a patch; not positive where it does not feel it, [m]."""
+    """Measure how far a roller is inside the reach of a patch; not positive beyond it, [m]."""
     inside = surface.places[patch, layout.PLACE_REACH] - magnitude(patch_arc(azimuth, patch, surface))
     return lanes.load(surface.present, block, patch) * inside
 
 
 @inline
 def any_near(lanes, block, azimuth, surface):
-    """Tell whether any lane is within the reach of any patch of a surface."""
+    """Check whether any lane is within the reach of any patch of a surface."""
     if surface is None:
         return False
     nearest = lanes.constant(0.0)
@@ -210,7 +210,7 @@ def any_near(lanes, block, azimuth, surface):
 
 @inline
 def find_damage(lanes, block, azimuths, count, surfaces, damage):
-    """Tell whether a contact is near a patch, and then work out the gaps of its springs.
+    """Check whether a contact is near a patch, and then work out the gaps of its springs.
 
     ``count``: of laminae; ``surfaces``: `SurfaceParams` of ring and roller, or ``None``.
 
@@ -237,31 +237,31 @@ def find_damage(lanes, block, azimuths, count, surfaces, damage):
     )
     one = lanes.constant(1.0)
     for k in range(count):
-        sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
-        on_ring, of_ring = _share_of_surface(lanes, springs, sound, _OF_RING)
-        on_roller, of_roller = _share_of_surface(lanes, springs, sound, _OF_ROLLER)
+        intact, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+        on_ring, of_ring = _share_of_surface(lanes, springs, intact, _OF_RING)
+        on_roller, of_roller = _share_of_surface(lanes, springs, intact, _OF_ROLLER)
         share = (on_ring * of_ring + on_roller * of_roller) / at_least(on_ring + on_roller, 1e-30)
         weight = 1.0 / at_least(share, 1e-12)
-        for field in range(sound, sound + layout.SPRING_FIELDS):
+        for field in range(intact, intact + layout.SPRING_FIELDS):
             lanes.store(springs, _SPRINGS, field, zero)
-        lanes.store(springs, _SPRINGS, sound + layout.SPRING_SHARE, 1.0 - share)
+        lanes.store(springs, _SPRINGS, intact + layout.SPRING_SHARE, 1.0 - share)
         lanes.store(springs, _SPRINGS, damaged + layout.SPRING_SHARE, share)
         for field in (layout.SPRING_GAP, layout.SPRING_RING_SLOPE, layout.SPRING_ROLLER_SLOPE):
             _scale(lanes, springs, damaged + field, weight)
         firmness = 1.0 / (1.0 + weight * lanes.load(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS))
         lanes.store(springs, _SPRINGS, damaged + layout.SPRING_FIRMNESS, firmness)
-        lanes.store(springs, _SPRINGS, sound + layout.SPRING_FIRMNESS, one)
+        lanes.store(springs, _SPRINGS, intact + layout.SPRING_FIRMNESS, one)
         for field in (layout.SPRING_RING_SOFTENING, layout.SPRING_ROLLER_SOFTENING):
             _scale(lanes, springs, damaged + field, _ENERGY * weight * firmness)
     return True
 
 
 @inline
-def _share_of_surface(lanes, springs, sound, fields):
+def _share_of_surface(lanes, springs, intact, fields):
     """Take the sum of the sinks of a surface [m], and the share of the lamina that its patches take [-]."""
-    first = lanes.load(springs, _SPRINGS, sound + fields[0])
-    second = lanes.load(springs, _SPRINGS, sound + fields[1])
-    counted = lanes.load(springs, _SPRINGS, sound + fields[2])
+    first = lanes.load(springs, _SPRINGS, intact + fields[0])
+    second = lanes.load(springs, _SPRINGS, intact + fields[1])
+    counted = lanes.load(springs, _SPRINGS, intact + fields[2])
     return first, at_most(counted * (first / at_least(second, 1e-30)), 1.0)
 
 
@@ -271,7 +271,7 @@ def add_patches(lanes, block, azimuth, count, slope_field, fields, surface, spri
 
     With the cover c, the part of it that counts k, the gap g, the softness s and the sink w of
     `saturated_sink`, the fields of the damaged spring take in the sums of ``c g`` (gap), ``k s`` (firmness),
-    ``c dg/dtheta`` (slope) and ``k ds/dtheta`` (softening); the ``fields`` of the sound one those of
+    ``c dg/dtheta`` (slope) and ``k ds/dtheta`` (softening); the ``fields`` of the intact one those of
     ``c w``, ``c w^2`` and ``k w``.
     """
     if surface is None:
@@ -287,7 +287,7 @@ def add_patches(lanes, block, azimuth, count, slope_field, fields, surface, spri
             climb = scale * surface.places[patch, layout.PLACE_RADIUS] * present
             climb = where_greater(arc, 0.0, climb, -climb)
             for k in range(count):
-                sound, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
+                intact, damaged = layout.SPRING_FIELDS * k, layout.SPRING_FIELDS * (count + k)
                 begin = layout.PATCH_POINTS * (patch * count + k)
                 low = lanes.gather(surface.paths, cell + begin)
                 high = lanes.gather(surface.paths, cell + (begin + 1))
@@ -302,9 +302,9 @@ def add_patches(lanes, block, azimuth, count, slope_field, fields, surface, spri
                 sink = saturated_sink(gap, softness)
                 square = sink * sink * cover
                 square = square + _shared_squares(lanes, block, azimuth, patch, k, count, sink, surface)
-                _increase(lanes, springs, sound + fields[0], cover * sink)
-                _increase(lanes, springs, sound + fields[1], square)
-                _increase(lanes, springs, sound + fields[2], counted * sink)
+                _increase(lanes, springs, intact + fields[0], cover * sink)
+                _increase(lanes, springs, intact + fields[1], square)
+                _increase(lanes, springs, intact + fields[2], counted * sink)
                 _increase(lanes, springs, damaged + layout.SPRING_GAP, cover * gap)
                 _increase(lanes, springs, damaged + layout.SPRING_FIRMNESS, counted * softness)
                 _increase(lanes, springs, damaged + slope_field, cover * climb * (high - low))

@@ -231,7 +231,7 @@ def inlet_shear(contact, inlet):
     """Shear the oil at ambient viscosity in the parabolic gap around a contact, over slip and load, [s/m].
 
     eta l times the integral of dx/h from the far inlet to Reynolds' exit, h + x^2/2R: all the friction of
-    rigid surfaces, and small beside that of the flats where they are pressed.
+    rigid surfaces, and small compared with that of the flats where they are pressed.
 
     References
     ----------

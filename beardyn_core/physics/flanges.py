@@ -89,7 +89,7 @@ def _flange(
 ) -> Flange:
     normal_axial, normal_radial = math.cos(face.lean), math.sin(face.lean)
     centre_radial, centre_axial = face.sphere_place[0], face.side * face.sphere_place[1]
-    law = face.contact  # exact whatever the options say: the ellipse is nearly a circle, where the fit is off
+    law = face.contact  # exact whatever the options are: the ellipse is nearly a circle, where the fit is off
     nominal = centre_radial * normal_axial - centre_axial * normal_radial
     shape = RibParams(
         stiffness=law.factor,

@@ -1,4 +1,4 @@
-"""Raceway laminae that sink with each other: the surface beside a loaded lamina follows it.
+"""Raceway laminae that sink with each other: the surface next to a loaded lamina follows it.
 
 The law and its energy are in `beardyn_core.bearing.lamina_coupling`; here its minimisation takes a fixed
 number of passes from a fixed start, so that a force depends on the present state alone.
@@ -229,8 +229,8 @@ def _own_tangent(lanes, coupling, lamina):
 def joint_depth(lanes, depth, lamina, count, damage, exponent):
     """Work out the depth at which a lamina joins the others, [m].
 
-    ``depth``: of its sound part [m]; ``damage``: springs of the contact from
-    `find_damage`. The share of the sound part becomes the slope of the joint depth, with which the lamina
+    ``depth``: of its intact part [m]; ``damage``: springs of the contact from
+    `find_damage`. The share of the intact part becomes the slope of the joint depth, with which the lamina
     presses; that of the damaged part how far it gives way with the gap, and its slopes take in what its
     firmness loses with the azimuth; ``exponent``: of the part that stands
     higher [-].
@@ -238,7 +238,7 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     if damage is None:
         return depth
     springs = damage.springs
-    sound = layout.SPRING_FIELDS * lamina + layout.SPRING_SHARE
+    intact = layout.SPRING_FIELDS * lamina + layout.SPRING_SHARE
     damaged = layout.SPRING_FIELDS * (count + lamina)
     cover = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_SHARE)
     gap = lanes.load(springs, _SPRINGS, damaged + layout.SPRING_GAP)
@@ -262,7 +262,7 @@ def joint_depth(lanes, depth, lamina, count, damage, exponent):
     with_gap = where_greater(0.0 * gap, gap, 1.0 - with_gap, with_gap)
     partly = where_greater(cover, 0.0, energy, 0.0 * energy)
     share = where_greater(partly, _NO_ENERGY, force * joint / pressed, 1.0)
-    lanes.store(springs, _SPRINGS, sound, share)
+    lanes.store(springs, _SPRINGS, intact, share)
     lanes.store(
         springs, _SPRINGS, damaged + layout.SPRING_SHARE, where_greater(partly, _NO_ENERGY, with_gap, cover)
     )

@@ -1,6 +1,6 @@
 """Laminae of a raceway contact: what each presses and rubs with, and the sums over all of them.
 
-A sound lamina is one spring, near a patch it is two: its sound and its damaged part. Laminae that are
+An intact lamina is one spring, near a patch it is two: its intact and its damaged part. Laminae that are
 coupled are prepared all at once. What leaves the loop are sums weighted by powers of the abscissa.
 """
 
@@ -73,7 +73,7 @@ class Raceway(NamedTuple):
 
 @inline
 def lamina_sums(raceway, line, slip, log2_speed, near, damage):
-    """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is sound.
+    """Sum the laminae of one raceway contact to `LaminaSums`; far from every patch a damaged one is intact.
 
     ``log2_speed`` (2 numbers): from `film.log2_entrainment`; ``near``: whether any roller of the block is
     near a patch, from `defect.find_damage`.
@@ -92,7 +92,7 @@ def lamina_sums(raceway, line, slip, log2_speed, near, damage):
 
 @inline
 def _sound_sums(raceway, line, slip, log2_speed):
-    """Sum a sound contact: a block of rollers of which none touches costs one bound."""
+    """Sum an intact contact: a block of rollers of which none touches costs one bound."""
     if may_touch(raceway.lanes, line.approach, raceway.reach):
         return _spring_sums(raceway, line, slip, log2_speed, None)
     zero = raceway.lanes.constant(0.0)
@@ -105,7 +105,7 @@ def _sound_sums(raceway, line, slip, log2_speed):
 
 @inline
 def may_touch(lanes, approach, reach):
-    """Tell whether any lane may penetrate within a reach of the middle; a NaN may, too."""
+    """Check whether any lane may penetrate within a reach of the middle; a NaN may, too."""
     slope = magnitude(approach[1]) + reach * (magnitude(approach[2]) + reach * magnitude(approach[3]))
     zero = lanes.constant(0.0)
     return any_positive(where_greater(zero, approach[0] + reach * slope, zero, 1.0))
@@ -259,7 +259,7 @@ def released_power(released, rate):
 
 @inline
 def _deepest_so_far(deepest, share, depth, damage):
-    """Take the larger penetration of springs near a patch; a sound contact is measured at its middle, [m]."""
+    """Take the larger penetration of springs near a patch; of an intact contact that at its middle, [m]."""
     if damage is None:
         return deepest
     return at_least(deepest, where_greater(share + 0.0 * depth, SMALLEST_SHARE, depth, 0.0 * depth))

@@ -14,7 +14,7 @@ from beardyn_core.scene.patch import Patch
 PATH_CELLS = 256
 # kinds whose floor falls away from their edge as a wall
 SHARP_KINDS = ("spall", "rectangular", "elliptic", "brinelling")
-# of the sound contact, over which the softness is taken, [Pa]: 2 to 21 kN a roller of HS130x230 on its cup
+# of the intact contact, over which the softness is taken, [Pa]: 2 to 21 kN a roller of HS130x230 on its cup
 EDGE_PRESSURES = (0.3e9, 0.5e9, 0.7e9, 1.0e9)
 
 
@@ -41,7 +41,7 @@ def rim_of(arc: Float, half_width: float, height: float, width: float) -> Float:
 
 
 def sharp(patch: Patch) -> bool:
-    """Tell whether a patch has edges that give way under a roller; the slopes of a rim have not."""
+    """Check whether a patch has edges that give way under a roller; the slopes of a rim have not."""
     return patch.kind in SHARP_KINDS and patch.rim_height == 0.0
 
 
@@ -94,7 +94,7 @@ def roller_path(patch: Patch, size: tuple[float, float, float], radius: float, r
 
 
 def contact_half_width(pressure: float, radius: float, bearing: RollerBearing) -> float:
-    """Work out half of the width of a sound line contact of a largest pressure [Pa], [m]."""
+    """Work out half of the width of an intact line contact of a largest pressure [Pa], [m]."""
     return 4.0 * radius * pressure / bearing.material.contact_modulus
 
 
@@ -104,23 +104,23 @@ def edge_sink(inside: Float, half_width: float, radius: float) -> Float:
     Parameters
     ----------
     inside : float64 array
-        How far the middle of the roller is beyond the edge, [m]; negative on the sound side.
+        How far the middle of the roller is beyond the edge, [m]; negative on the intact side.
     half_width : float
-        b of the sound contact under the same load, [m].
+        b of the intact contact under the same load, [m].
     radius : float
         Of a cylinder on a plane in place of roller and ring, [m].
 
     Returns
     -------
     float64 array
-        [m], shape of `inside`; zero where the edge is beyond the sound contact.
+        [m], shape of `inside`; zero where the edge is beyond the intact contact.
 
     Notes
     -----
     The edge is as stiff as the rest of the half-space. The contact lies from the edge, at c from the middle
     of the roller, to c + 2 l. Its pressure (E / 2 R) sqrt((l - x) / (l + x)) (2 l + c + x), x from the middle
     of the contact, falls to zero at the far end, with singular pressure at the edge; its load is that of the
-    sound contact, 3 l^2 + 2 c l = b^2. The approach at x = 0 less that of the sound contact is
+    intact contact, 3 l^2 + 2 c l = b^2. The approach at x = 0 less that of the intact contact is
     ((c + l)^2 + b^2 ln(b / l) + (l^2 - b^2) / 2) / 2 R.
 
     References
@@ -147,8 +147,8 @@ def edge_softness(
     """Work out how much softer a contact is near sharp edges, at the arcs of a `path`, [PATH_CELLS + 1], [-].
 
     A roller with its middle over or near an edge sinks deeper under load than a rigid one, about in
-    proportion: by y times the penetration e that a sound contact has under the same load. The sink is the
-    path and y e, and the contact is a spring of 1 / (1 + s) of the sound stiffness from the path on, with
+    proportion: by y times the penetration e that an intact contact has under the same load. The sink is the
+    path and y e, and the contact is a spring of 1 / (1 + s) of the intact stiffness from the path on, with
     s = (1 + y)^(10/9) - 1. For s = 0 its edges are rigid; other kinds and rims have it everywhere.
 
     ``size``: width, depth and rim height [m]; ``radius``: of a cylinder on a plane [m]; ``reach``: of the
@@ -158,9 +158,9 @@ def edge_softness(
     -----
     y is the mean over `EDGE_PRESSURES` of the sink beyond the path over e. The sink is that at the nearer
     edge alone, see `edge_sink`, and at most the greatest depth of the path and that of the floor below: over
-    the middle of a slot both edges bear, and the sink is that of the rigid roller whatever the load. Beside
+    the middle of a slot both edges bear, and the sink is that of the rigid roller whatever the load. Next to
     strips of a half-space, slots of 0.3 to 6 mm and 2 to 20 kN a roller, the force on a held roller is right
-    to 11 % of that of a sound contact, and the sink to a fifth and a tenth of e (`evidence/impact/edges.py`).
+    to 11 % of that of an intact contact, the sink to a fifth and a tenth of e (`evidence/impact/edges.py`).
     Neglects that floor and edge bear together; an edge is as stiff as the rest of the half-space.
     """
     if not sharp(patch) or size[1] <= 0.0:

@@ -54,7 +54,7 @@ def absent_point(zero):
 
 @inline
 def is_pressed(contact):
-    """Tell whether a point contact of any roller of the block is pressed; a NaN is, too."""
+    """Check whether a point contact of any roller of the block is pressed; a NaN is, too."""
     return any_positive(where_greater(_NOTHING, contact.elastic, 0.0, 1.0))
 
 

@@ -205,7 +205,7 @@ def settle_raceway(ring, contact, change, here, p):
 
 @inline
 def _output(ring, contact, wrench, normal, here, p):
-    """Write what the last step of a stretch says of the contact; other steps are not read."""
+    """Write what the last step of a stretch gives of the contact; other steps are not read."""
     if not here.shown:
         return
     lanes, line, slip = here.lanes, contact.line, contact.slip

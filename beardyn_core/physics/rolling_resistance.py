@@ -162,7 +162,7 @@ def rolling_params(
 
 
 def oil_supply(film: LineFilm | None) -> OilSupply:
-    """Say how much oil the contacts find; enough where no film is modelled."""
+    """State how much oil the contacts find; enough where no film is modelled."""
     if film is None:
         return FLOODED
     return OilSupply(film.formula, film.oil_layer, film.constant_share)

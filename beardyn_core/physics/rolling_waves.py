@@ -27,7 +27,7 @@ class RollingWaveParams(NamedTuple):
     """Gaps of waviness over the angle that all rollers turn by together, or ``None``.
 
     Tables [point, block, lane] of one turn and two points more [m]: what a step needs of all rollers stands
-    in two rows beside each other, while a table of the surface has it in a place of its own for each roller.
+    in two rows next to each other, while a table of the surface has it in a place of its own for each roller.
     """
 
     cup: Any  # over the turn of the cages
@@ -72,7 +72,7 @@ def highest_wave(faults: FaultParams) -> float:
 def highest_points(faults: FaultParams, patches: Sequence[Patch]) -> float:
     """Bound how much nearer waves and rims bring cup and cone to each other over a roller, [m].
 
-    A roller has its own on both sides. Beside a soft edge on the other ring a rim counts up to twice.
+    A roller has its own on both sides. Next to a soft edge on the other ring a rim counts up to twice.
     """
     waves = faults.cup_waves, faults.cone_waves, faults.roller_waves, faults.roller_waves
     rims = sum(2.0 * patch.rim_height * (2.0 if patch.on == "roller" else 1.0) for patch in patches)
@@ -122,7 +122,7 @@ def place_in(angle, table):
 
 @inline
 def fetch_waves(lanes, block, ahead, waves):
-    """Ask for what the tables have of a block some steps `ahead`, at places of `wave_places`.
+    """Prefetch what the tables have of a block some steps `ahead`, at places of `wave_places`.
 
     No near cache holds them.
     """

@@ -1,4 +1,4 @@
-"""Slow warming beside the fast motion: temperatures advanced every 0.2 s, and what they change."""
+"""Slow warming next to the fast motion: temperatures advanced every 0.2 s, and what they change."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def film_temperature(temperature: Float) -> float:
 
 
 def blocks_between(thermal: Thermal) -> int:
-    """Say how many blocks of 20 ms pass from one temperature to the next: fewer where heating is hastened."""
+    """Count the blocks of 20 ms from one temperature to the next: fewer where heating is accelerated."""
     return max(1, round(_LONGEST / max(1.0, thermal.time_scale)))
 
 

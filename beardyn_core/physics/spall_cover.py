@@ -1,6 +1,6 @@
 """Share of each lamina that counts as lost over a patch, so that a contact loses what a half-space loses.
 
-A lamina is a spring of its own and loses its whole part over a hole; on a half-space the ends beside a hole
+A lamina is a spring of its own and loses its whole part over a hole; on a half-space the ends next to a hole
 take over a part of it. What counts is a smaller share of a larger gap: share times gap stays, which decides
 where the floor still presses, and a roller over a deep hole loses what `bearing.holed_line` finds.
 """
@@ -109,7 +109,7 @@ def _interval(patch: Patch) -> tuple[float, float]:
 
 
 def _meet(one: Patch, other: Patch, bearing: RollerBearing) -> bool:
-    """Tell whether a roller at the middle of a patch is over the other as well."""
+    """Check whether a roller at the middle of a patch is over the other as well."""
     if (one.row, one.roller) != (other.row, other.roller):
         return False
     repeats = bearing.roller_count if "brinelling" in (one.kind, other.kind) else 1
@@ -135,18 +135,18 @@ def _lost_by_law(
     load = math.pi * PRESSURE * half_width / 2.0 * bearing.effective_length
     factor = line_contact_factor(bearing.material, bearing.effective_length)
     depth = np.full((1, count), (load / factor) ** 0.9)
-    sound = float(coupled_law(depth, factor / count, root)[0].sum())
+    intact = float(coupled_law(depth, factor / count, root)[0].sum())
 
     def lost(cover: Float) -> float:
         joint, share = joint_depth(depth, np.full((1, count), _DEEP), cover[None, :], exponent)
         carried = coupled_law(joint, factor / count, root)[0] * share
-        return 1.0 - float(carried.sum()) / sound
+        return 1.0 - float(carried.sum()) / intact
 
     return lost
 
 
 def _fitted(law: Callable[[Float], float], before: Float, cover: Float, wanted: float) -> Float:
-    """Scale a cover so that a contact loses what is wanted, as far as a share of the cover can."""
+    """Scale a cover so that a contact loses what it should, as far as a share of the cover can."""
 
     def miss(factor: float) -> float:
         return law(np.minimum(before + factor * cover, 1.0)) - wanted

@@ -1,4 +1,4 @@
-"""What holds the box or both rings: parameters, forces and energy; the box may hang beside the centre.
+"""What holds the box or both rings: parameters, forces and energy; the box may hang next to the centre.
 
 The springs act at seats that give way when the box bends: as much as the bearing centre would have to move
 for the same stretch, which `structure` and `kinematic_bending` write into the work space.
@@ -127,7 +127,7 @@ def tilt_restraint(mounting: Mounting, parameters: MountingParams) -> Float:
         return np.zeros(2)
     stiffness = parameters.stiffness
     if parameters.coupling is not None:
-        # the bearing centre stays where it is, so its springs beside it restrain the tilt too
+        # the bearing centre stays where it is, so its springs next to it restrain the tilt too
         stiffness = np.diag(parameters.coupling.stiffness)
     return np.asarray(stiffness)[[3, 5]]
 

@@ -124,7 +124,7 @@ def _judge(
     ) -> MonitorResult:
         result = REFERENCE(stretch, orders, count, settings)
         if isfinite(result.threshold):
-            in_band.update(_heard_in_band(stretch, orders, count, settings))
+            in_band.update(_received_in_band(stretch, orders, count, settings))
         return result
 
     monitor = Monitor(orders, roller_count, settings=_ONCE, algorithm=both)
@@ -149,7 +149,7 @@ def _of_result(result: MonitorResult) -> dict[str, float]:
     }
 
 
-def _heard_in_band(
+def _received_in_band(
     stretch: Stretch, orders: FaultFrequencies, roller_count: int, settings: MonitorSettings
 ) -> dict[str, float]:
     """Look for the lines of faults in the band of the largest spectral kurtosis."""

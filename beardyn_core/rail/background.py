@@ -57,8 +57,8 @@ def _lines(
     turning = np.minimum(np.abs(speed) / (2.0 * pi), 1.0)  # nothing meshes at rest
     for order, amplitude in orders:
         phase = random.uniform(0.0, 2.0 * pi)
-        heard = order * np.abs(speed) * step < 0.8 * pi
-        force += np.where(heard, turning * amplitude * np.cos(order * angle + phase), 0.0)
+        received = order * np.abs(speed) * step < 0.8 * pi
+        force += np.where(received, turning * amplitude * np.cos(order * angle + phase), 0.0)
     return force
 
 

@@ -79,8 +79,8 @@ class McapScan:
         if start != MAGIC[: len(start)] or not start:
             what = "is empty" if not start else "is not an MCAP file"
             raise InputError(
-                f"{self.path}: the file {what}; give a recording made by beardyn or rosbag2 (beardyn import "
-                "makes one of measured files)"
+                f"{self.path}: the file {what}; give a recording made by beardyn or rosbag2; of a measured "
+                "file `beardyn import` makes one, and `beardyn monitor` takes it as it is"
             )
         self.attachments: dict[str, bytes] = {}
         self.metadata: dict[str, dict[str, str]] = {}

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.factors import SYMBOLS
+from beardyn_core.choice.rule import shorten_summary
 from beardyn_core.record.arrays import decoding_checked
 from beardyn_core.record.bag_scanning import BagScan
 from beardyn_core.record.mcap_scanning import McapScan
@@ -259,7 +260,7 @@ def _lines(r: Report) -> list[str]:
     if r.scene is not None:
         lines.append(f"scene    {r.scene}, bearing {r.bearing}")
         if r.chosen is not None:
-            lines.append(f"effects  {r.chosen}")
+            lines.append(f"accuracy {shorten_summary(r.chosen)}")
         faults = [defect_from(fault).described() for fault in r.faults]
         lines.append(f"faults   {'; '.join(faults) or 'none'}")
     if r.sensor_rates_Hz:

@@ -64,10 +64,10 @@ def log_estimates(stream: rr.RecordingStream, steps: Told) -> None:
 def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
     """Draw measured third octaves next to those of the twin and its tolerance, an axis below the other."""
     middles = np.array(told["frequency_Hz"], float)
-    heard, twin, tolerance = (
+    received, twin, tolerance = (
         np.array(told[f"{name}_dB"], float) for name in ("measured", "twin", "tolerance")
     )
-    every = np.concatenate([heard, twin])
+    every = np.concatenate([received, twin])
     if not np.isfinite(every).any():
         return
     low = _LEVEL_STEP * math.floor(np.nanmin(every) / _LEVEL_STEP)
@@ -97,7 +97,7 @@ def log_residual(stream: rr.RecordingStream, told: Mapping[str, Any]) -> None:
             (twin[k] - tolerance[k], _TOLERANCE),
             (twin[k] + tolerance[k], _TOLERANCE),
             (twin[k], _TWIN),
-            (heard[k], _HEARD),
+            (received[k], _HEARD),
         ):
             known = np.isfinite(levels)
             strips.append(np.stack((across[known], down(levels[known])), axis=1))

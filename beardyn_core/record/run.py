@@ -344,7 +344,7 @@ class Run:
             raise InputError(f"{self.label}: has no sensor {sensor!r}; it has {', '.join(self.sensors)}")
         vibration = self.sensors[sensor] if sensor else self.vibration
         shaft, load, temperature = self.shaft, self.load, self.temperature
-        heard = measured_axes(vibration.values)
+        received = measured_axes(vibration.values)
         box = temperature.components.index("axlebox") if len(temperature) else 0
         used = [0, 0, 0]
         for begin in range(0, len(vibration), MONITOR_PART):
@@ -356,7 +356,7 @@ class Run:
             turned, carried, warmed = (slice(*pair) for pair in zip(used, until, strict=True))
             used = until
             yield MonitorInput(
-                vibration.time_ns[part], heard[part],
+                vibration.time_ns[part], received[part],
                 shaft.time_ns[turned], shaft.angle[turned],
                 load.time_ns[carried], load.wrench[carried, 2],
                 temperature.time_ns[warmed], temperature.values[warmed, box] if len(temperature) else _NONE,

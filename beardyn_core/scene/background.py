@@ -155,8 +155,8 @@ class Background:
     def __repr__(self) -> str:
         """Give the name and what there is, in one line."""
         parts = ("roughness", "drive", "other_bearing", "knocks", "pickup")
-        heard = ", ".join(part for part in parts if getattr(self, part) is not None)
-        return f"Background {self.name}: {heard or 'nothing'}"
+        received = ", ".join(part for part in parts if getattr(self, part) is not None)
+        return f"Background {self.name}: {received or 'nothing'}"
 
     @property
     def forces(self) -> bool:

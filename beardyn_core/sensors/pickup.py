@@ -45,6 +45,8 @@ class PickupStream:
             carrier = 2.0 * pi * ((line.carrier * turns) % 1.0)
             for side, phase in zip((-line.side, line.side), phases, strict=True):
                 per_sample = line.carrier * 2.0 * pi * self._pickup.switching / self._rate + side * step
-                heard = np.abs(per_sample) < 0.8 * pi
-                voltage += np.where(heard, line.amplitude * np.cos(carrier + side * angle[:-1] + phase), 0.0)
+                received = np.abs(per_sample) < 0.8 * pi
+                voltage += np.where(
+                    received, line.amplitude * np.cos(carrier + side * angle[:-1] + phase), 0.0
+                )
         return voltage

@@ -140,10 +140,11 @@ class RunSummary:
 
     def __repr__(self) -> str:
         """Give scene, length, torque, force and end of the run in one line."""
-        fx, fy, fz = (each * 1e-3 for each in self.mean_force)
+        fx, fy, fz = (round(each * 1e-3, 2) + 0.0 for each in self.mean_force)  # + 0.0: no minus zero
         return (
-            f"RunSummary of {self.scene}: {self.duration:.2f} s, tier {self.tier}, torque "
-            f"{self.shaft_torque:.4g} N m, force on the cup {fx:.4g}, {fy:.4g}, {fz:.4g} kN; {self.status}"
+            f"RunSummary of {self.scene}: {self.duration:.2f} s, tier {self.tier}, torque on the shaft "
+            f"{self.shaft_torque:.4g} N m, force on the cup {fx:.2f}, {fy:.2f}, {fz:.2f} kN, largest "
+            f"roller load {self.largest_roller_load * 1e-3:.2f} kN; {self.status}"
         )
 
     @property

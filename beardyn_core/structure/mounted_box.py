@@ -113,10 +113,18 @@ def require_cup(modes: Modes, bearing: RollerBearing) -> None:
     """Raise `InputError` where modes were made with another cup than that of the bearing."""
     differences = ", ".join(modes.cup.differences(bearing))
     if differences:
+        fitting = ", ".join(_shipped_boxes(bearing)) or "none"
         raise InputError(
-            f"the box {modes.name} was made with the cup of {modes.cup.bearing}: {differences}; take a table "
-            f"made with this bearing: `beardyn structure BOX --bearing {bearing.name} -o box.csv` fits a box"
+            f"the box {modes.name} was made with the cup of {modes.cup.bearing}: {differences}; shipped "
+            f"boxes with the cup of {bearing.name}: {fitting}; effects auto take a box that does not bend, "
+            f"and `beardyn structure BOX --bearing {bearing.name} -o box.csv` fits one that does"
         )
+
+
+def _shipped_boxes(bearing: RollerBearing) -> list[str]:
+    """List the shipped boxes that were made with the cup of a bearing."""
+    tables = sorted((config_folder() / "structures").glob("*.csv"))
+    return [each.stem for each in tables if not any(read_table(each).cup.differences(bearing))]
 
 
 def mounting_of(modes: Modes, mounting: Mounting, bearing: RollerBearing) -> Mounting:

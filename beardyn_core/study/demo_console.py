@@ -47,7 +47,7 @@ class Progress:
         self._terminal = sys.stdout.isatty()
         self._open = False
 
-    def hear(self, verdict: str) -> None:
+    def receive(self, verdict: str) -> None:
         """Keep the latest verdict of the monitor."""
         self._monitor = {
             "waiting": "no verdict yet",
@@ -62,8 +62,8 @@ class Progress:
             return
         self._said = simulated
         line = (
-            f"simulated {simulated:6.2f} of {self._duration:.2f} s   RTF {real_time_factor:5.2f}   "
-            f"monitor: {self._monitor}"
+            f"simulated {simulated:6.2f} of {self._duration:.2f} s   "
+            f"real-time factor {real_time_factor:5.2f}   monitor: {self._monitor}"
         )
         if self._terminal:
             print(f"\r{line}\033[K", end="", flush=True)

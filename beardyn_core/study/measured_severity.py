@@ -28,5 +28,5 @@ def severity_in(
     if not len(legs.samples):
         return None
     plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
-    heard = measured_axes(signal.values)[legs.samples]
-    return severity_near(heard, signal.rate, legs.angle, finding.verdict, finding.found_order, plate)
+    received = measured_axes(signal.values)[legs.samples]
+    return severity_near(received, signal.rate, legs.angle, finding.verdict, finding.found_order, plate)

@@ -33,6 +33,10 @@ SPALL_FIELDS = ("stage", "stage_reason", "spall_width", "spall_width_low", "spal
 _AS_FOUND = ("confidence", "signal_to_background", "threshold", "shaft_frequency", "rms", "kurtosis", "crest")
 _TEXTS = ("stage", "stage_reason")
 _PARTS = ("not_judged", "also_fits")
+_SPEED_MISSING = (
+    "; a monitor needs the speed of the shaft: speed_rpm, speed_kmh with wheel_diameter_mm, speed_channel, "
+    "tacho_channel, or speed_range_rpm to find it in the vibration"
+)
 _LATEST = 25  # findings of a verdict of which one stands for the size of the spall
 _SIZED = 3  # one of so many of them must have a width, at least
 # from the best to the worst
@@ -344,7 +348,8 @@ def results_of(
         When there is no vibration or no shaft in the recording, or no such sensor.
     """
     if not len(run.vibration) or not len(run.shaft):
-        raise InputError(f"{run.label}: has no vibration with a shaft angle to judge")
+        missing = _SPEED_MISSING if run.measured and len(run.vibration) else ""
+        raise InputError(f"{run.label}: has no vibration with a shaft angle to judge{missing}")
     settings = settings or MonitorSettings(speed_uncertainty=recorded_uncertainty(run.measured))
     plate = bearing if isinstance(bearing, NamePlate) else NamePlate.of(bearing)
     monitor = Monitor(

@@ -120,8 +120,8 @@ def smallest_spalls_in(
             angle, faulty = _vibration(scene, (_spall(part, width, scene),), sensor)
             spall = _in_band((faulty - healthy)[:, list(axes)], rate, stretch.rate)
             added = _over_angle(spall, angle, stretch.shaft_angle)
-            heard = replace(stretch, acceleration=stretch.acceleration + added)
-            if algorithm(heard, orders, roller_count, settings).verdict != part:
+            received = replace(stretch, acceleration=stretch.acceleration + added)
+            if algorithm(received, orders, roller_count, settings).verdict != part:
                 missed = width
                 break
             named = width

@@ -5,23 +5,33 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from evidence.damping.study import EFFECTS, SPANS_HZ, SPEEDS_RPM, TIMES_US, Heard, Inlet, hear, inlet, scenes
+from evidence.damping.study import (
+    EFFECTS,
+    SPANS_HZ,
+    SPEEDS_RPM,
+    TIMES_US,
+    Inlet,
+    Measurement,
+    inlet,
+    receive,
+    scenes,
+)
 from evidence.pages import REPORTS, write_page
 
 PAGE = REPORTS / "damping.md"
 
 
-def row(heard: Heard) -> tuple[str, ...]:
+def row(received: Measurement) -> tuple[str, ...]:
     """List the cells of a run."""
     return (
-        f"`{heard.scene}`",
-        f"{heard.time_us:g}",
-        *(f"{level:.2f}" for level in heard.levels),
-        f"{heard.peak:.0f}",
-        f"{heard.kurtosis:.1f}",
-        f"{heard.share:.1%}",
-        f"{heard.residual:.1e}",
-        heard.says,
+        f"`{received.scene}`",
+        f"{received.time_us:g}",
+        *(f"{level:.2f}" for level in received.levels),
+        f"{received.peak:.0f}",
+        f"{received.kurtosis:.1f}",
+        f"{received.share:.1%}",
+        f"{received.residual:.1e}",
+        received.says,
     )
 
 
@@ -37,7 +47,7 @@ def film_row(film: Inlet) -> tuple[str, ...]:
     )
 
 
-def ratios(found: Sequence[Heard]) -> str:
+def ratios(found: Sequence[Measurement]) -> str:
     """Say by how much levels fall from the least to the most damping."""
     first, last = found[0], found[-1]
     middle, high = (first.levels[k] / last.levels[k] for k in (1, 2))
@@ -46,13 +56,13 @@ def ratios(found: Sequence[Heard]) -> str:
 
 def main() -> int:
     """Run and write."""
-    runs = [[hear(scene, duration, time) for time in TIMES_US] for scene, duration in scenes()]
+    runs = [[receive(scene, duration, time) for time in TIMES_US] for scene, duration in scenes()]
     values = {
         "films": [film_row(inlet(speed)) for speed in SPEEDS_RPM],
         "effects": EFFECTS,
         "bands": " | ".join(f"{low:g}-{high:g} Hz" for low, high in SPANS_HZ),
         "dashes": "--:|" * len(SPANS_HZ),
-        "runs": [row(heard) for found in runs for heard in found],
+        "runs": [row(received) for found in runs for received in found],
         "ratios": ", ".join(map(ratios, runs)),
     }
     write_page(__file__, PAGE, values)

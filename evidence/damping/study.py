@@ -31,7 +31,7 @@ SPEEDS_RPM = (150.0, 500.0, 1165.0, 2500.0)
 
 
 @dataclass(frozen=True)
-class Heard:
+class Measurement:
     """What the axlebox does at one damping time."""
 
     scene: A[str, "of the run"]
@@ -58,7 +58,7 @@ def scenes() -> list[tuple[Scene, float]]:
     return [(track, 1.2), (spalled(1e-4, 6e-3), 0.8), (spalled(2e-4, 1e-2), 0.8)]
 
 
-def hear(scene: Scene, duration: float, time_us: float) -> Heard:
+def receive(scene: Scene, duration: float, time_us: float) -> Measurement:
     """Run a scene at one damping time, without sensor noise."""
     effects = replace(scene.effects, contact_damping=ContactDamping(1e-6 * time_us))
     quiet = tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors)
@@ -79,7 +79,7 @@ def hear(scene: Scene, duration: float, time_us: float) -> Heard:
     signal = signal - signal.mean()
     share = audit.losses[1] / audit.dissipated if audit is not None and audit.losses else math.nan
     residual = math.nan if audit is None else audit.residual
-    return Heard(
+    return Measurement(
         scene.name, time_us, levels(signal), float(np.abs(signal).max()), float(stats.kurtosis(signal) + 3.0),
         share, residual, says or describe(status),
     )  # fmt: skip

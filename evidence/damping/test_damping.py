@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from evidence.damping.study import TIMES_US, hear, inlet, spalled
+from evidence.damping.study import TIMES_US, inlet, receive, spalled
 
 
 # the ends of the range; what lies between is slow
@@ -14,9 +14,9 @@ from evidence.damping.study import TIMES_US, hear, inlet, spalled
 )
 def test_a_deep_spall_runs_to_its_end_over_the_quoted_range(time_us: float) -> None:
     """At 25 us it ended with a roller beyond the edge of its rib: damping pulled rollers down from edges."""
-    heard = hear(spalled(2e-4, 1e-2), 0.6, time_us)
-    assert heard.says == "fine"
-    assert heard.residual < 1e-2
+    received = receive(spalled(2e-4, 1e-2), 0.6, time_us)
+    assert received.says == "fine"
+    assert received.residual < 1e-2
 
 
 def test_the_film_alone_damps_within_the_quoted_range() -> None:

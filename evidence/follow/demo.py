@@ -87,7 +87,9 @@ def draw(found: Following, path: Path) -> None:
                 time_s, scale * ends[:, 0], scale * ends[:, 1], color="tab:blue", alpha=shade, lw=0
             )
         axis.plot(time_s, [scale * each.estimates[name].value for each in found.steps], "o-", ms=3)
-        axis.plot(time_s, [scale * each.heard[name].value for each in found.steps], "x", color="gray", ms=4)
+        axis.plot(
+            time_s, [scale * each.received[name].value for each in found.steps], "x", color="gray", ms=4
+        )
         axis.plot(time_s, [scale * TRUTH[name]] * len(time_s), color="black", ls="--", lw=1)
         axis.set_ylabel(f"{LABELS[name]}\n[{quantity.shown}]")
     axes[0].set_title(

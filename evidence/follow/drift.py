@@ -106,7 +106,7 @@ DRIFTS = {
 }
 
 
-def heard_of(piece: Piece, estimator: Estimator) -> Float:
+def received_of(piece: Piece, estimator: Estimator) -> Float:
     """Simulate a piece and describe its stretches, shape [stretch, descriptor]."""
     operation: dict[str, Any] = write_noun(bd.scene(SCENE))["operation"]
     operation["lateral_force_kN"] = piece.keys.get("lateral_kN", 0.0)
@@ -122,10 +122,10 @@ def heard_of(piece: Piece, estimator: Estimator) -> Float:
 
 
 def digest_of(pieces: Sequence[Piece], estimator: Estimator) -> str:
-    """Give what the descriptors of a drift depend on: simulator, pieces, how an estimator hears."""
-    heard = (estimator.axes, estimator.rate, estimator.stretch, estimator.plate, names_of(estimator.axes))
+    """Give what the descriptors of a drift depend on: simulator, pieces, how an estimator receives."""
+    received = (estimator.axes, estimator.rate, estimator.stretch, estimator.plate, names_of(estimator.axes))
     scene = scene_text(bd.scene(SCENE))
-    digest = hashlib.sha256(repr((simulator_digest(), tuple(pieces), heard, scene)).encode())
+    digest = hashlib.sha256(repr((simulator_digest(), tuple(pieces), received, scene)).encode())
     digest.update(Path(__file__).read_bytes())
     return digest.hexdigest()[:12]
 
@@ -135,7 +135,7 @@ def rows_of(name: str, pieces: Sequence[Piece], estimator: Estimator, kept: Path
     path = None if kept is None else kept / f"{name.replace(' ', '_')}-{digest_of(pieces, estimator)}.npz"
     names = [f"piece_{k}" for k in range(len(pieces))]
     found = kept_arrays(
-        path, lambda: {each: heard_of(piece, estimator) for each, piece in zip(names, pieces, strict=True)}
+        path, lambda: {each: received_of(piece, estimator) for each, piece in zip(names, pieces, strict=True)}
     )
     return [found[each] for each in names]
 
@@ -144,12 +144,12 @@ def followed(pieces: Sequence[Piece], rows: Sequence[Float], estimator: Estimato
     """Follow a drift: the steps of every piece."""
     follower = follower_of(load_bearing(BEARING), estimator)
     found = []
-    for piece, heard in zip(pieces, rows, strict=True):
+    for piece, received in zip(pieces, rows, strict=True):
         if piece.anew:
             follower.begin()
         steps = [
             follower.take(row, piece.time + estimator.stretch * (k + 1), piece.mileage + 80.0 * (k + 1))
-            for k, row in enumerate(heard)
+            for k, row in enumerate(received)
         ]
         found.append(steps)
     return found
@@ -227,7 +227,7 @@ def main(argv: list[str] | None = None) -> int:
     """Simulate, follow, print and write."""
     parser = argparse.ArgumentParser(prog="python -m evidence.follow.drift", description=__doc__)
     parser.add_argument(
-        "--keep", metavar="DIR", type=Path, help="keep what was heard here, and take it from here"
+        "--keep", metavar="DIR", type=Path, help="keep what was received here, and take it from here"
     )
     args = parser.parse_args(argv)
     estimator = shipped_estimator()

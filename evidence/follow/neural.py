@@ -39,17 +39,17 @@ from evidence.pages import REPORTS, write_section
 PAGE = REPORTS / "estimator.md"
 TITLE, NEXT = "## Compared with a neural posterior\n", "## What a known load gives\n"
 PARTS = 5  # of the hidden bearings; each is judged by what the others teach, in every way
-HEARD = 80  # descriptors that go best with the number
+KEPT = 80  # descriptors that go best with the number
 DRAWS = 1000  # of a posterior
 SEED = 1
 FLOWS = {"maf": "flow, Gaussian", "nsf": "flow, splines"}  # by the names that sbi has for them
 
 
-def heard_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
+def received_best(descriptors: Float, values: Float) -> NDArray[np.int64]:
     """Find the descriptors that go best with a number."""
     centred = descriptors - descriptors.mean(axis=0)
     size = np.maximum(np.linalg.norm(centred, axis=0), 1e-9)
-    return np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:HEARD]
+    return np.argsort(-np.abs(centred.T @ (values - values.mean())) / size)[:KEPT]
 
 
 def draws(descriptors: Float, values: Float, asked: Float, flow: str) -> Float:
@@ -78,7 +78,7 @@ def guessed_by_flow(quantity: Quantity, train: Described, hidden: Described, flo
         spread = np.where(spread > 1e-9, spread, 1.0)
         taught, has = true_values(quantity, both)
         standard = np.nan_to_num((both.descriptors[has] - middle) / spread)
-        columns = heard_best(standard, taught[has])
+        columns = received_best(standard, taught[has])
         asked = np.flatnonzero(part & inside)
         unseen = np.nan_to_num((hidden.descriptors[asked] - middle) / spread)
         pieces.append((asked, draws(standard[:, columns], taught[has], unseen[:, columns], flow)))

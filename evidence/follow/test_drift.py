@@ -43,7 +43,7 @@ def test_the_lag_is_counted_from_the_step_until_the_truth_stays_inside(pieces: l
     assert "| never |" in missed
 
 
-def test_what_is_kept_is_of_its_pieces_and_of_how_it_is_heard(pieces: list[Piece]) -> None:
+def test_what_is_kept_is_of_its_pieces_and_of_how_it_is_received(pieces: list[Piece]) -> None:
     estimator = drift.shipped_estimator()
     kept = drift.digest_of(pieces, estimator)
     assert drift.digest_of(pieces, estimator) == kept
@@ -73,10 +73,10 @@ def test_drifts_lie_within_what_was_learnt_from_and_go_forwards() -> None:
 
 def test_a_recording_that_begins_anew_forgets_the_load_of_the_one_before() -> None:
     estimator = drift.shipped_estimator()
-    heard = np.repeat(estimator.middle[None], 6, axis=0)
+    received = np.repeat(estimator.middle[None], 6, axis=0)
     widths = []
     for anew in (False, True):
         several = [Piece(6, {}, {}), Piece(1, {}, {}, 1e6, 10.0, anew)]
-        last = drift.followed(several, [heard, heard[:1]], estimator)[1][0]
+        last = drift.followed(several, [received, received[:1]], estimator)[1][0]
         widths.append(np.ptp(last.estimates["lateral_load"].intervals[-1]))
     assert widths[1] > widths[0]

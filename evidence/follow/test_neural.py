@@ -21,14 +21,14 @@ def test_no_bearing_is_taught_and_judged() -> None:
         assert not set(bearings[part]) & set(bearings[~part])
 
 
-def test_the_descriptors_that_go_with_the_number_are_heard_first() -> None:
+def test_the_descriptors_that_go_with_the_number_are_received_first() -> None:
     random = np.random.default_rng(1)
     values = random.normal(size=200)
     descriptors = random.normal(size=(200, 300))
     descriptors[:, 7] -= 3.0 * values
-    chosen = neural.heard_best(descriptors, values)
+    chosen = neural.received_best(descriptors, values)
     assert chosen[0] == 7
-    assert len(chosen) == neural.HEARD
+    assert len(chosen) == neural.KEPT
 
 
 def test_who_errs_less_is_told() -> None:
@@ -63,7 +63,7 @@ def test_a_flow_finds_a_posterior_whose_form_is_known() -> None:
     pytest.importorskip("sbi")
     random = np.random.default_rng(1)
     values = random.normal(size=400)
-    heard = np.stack([values + 0.5 * random.normal(size=400), random.normal(size=400)], axis=1)
-    found = neural.draws(heard, values, np.array([[1.0, 0.0], [-1.0, 0.0]]), "maf")
+    received = np.stack([values + 0.5 * random.normal(size=400), random.normal(size=400)], axis=1)
+    found = neural.draws(received, values, np.array([[1.0, 0.0], [-1.0, 0.0]]), "maf")
     assert found.mean(axis=0) == pytest.approx([0.8, -0.8], abs=0.25)  # 1 / (1 + 0.5^2)
     assert found.std(axis=0) == pytest.approx([0.45, 0.45], abs=0.15)  # 0.5 / sqrt(1 + 0.5^2)

@@ -149,6 +149,8 @@ def draw(target: Path) -> None:
             axis.plot(SPEEDS_RPM, [each.contacts[supply] for each in points], "o-", ms=3, label=supply)
         axis.plot(SPEEDS_RPM, [each.catalogue for each in points], "k--", label="SKF")
         axis.set(title=f"{temperature:g} °C", xlabel="speed [rpm]", yscale="log")
+        axis.set_yticks((2.0, 5.0, 10.0, 20.0, 40.0), ("2", "5", "10", "20", "40"))
+        axis.set_yticks((), minor=True)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("torque of raceways and ribs [N m]")
     axes[0].legend(fontsize=8)

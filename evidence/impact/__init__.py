@@ -1,4 +1,4 @@
-"""What a sensor hears when rollers pass a spall: one crossing, trends over width, speed and load.
+"""What a sensor receives when rollers pass a spall: one crossing, trends over width, speed and load.
 
 ========= =====================================================================
 module    responsibility

@@ -108,5 +108,5 @@ def strike(law: str, width: float, load: float, speed: float) -> float:
     force = held_force(law, width, load)[1]
     silent = np.full(math.ceil(2e-3 * rolling / STEP), force[-1])
     band = butter(2, BAND, "bandpass", fs=rolling / STEP, output="sos")
-    heard = sosfiltfilt(band, np.concatenate([silent, force, silent]))
-    return float(np.abs(heard).max())
+    received = sosfiltfilt(band, np.concatenate([silent, force, silent]))
+    return float(np.abs(received).max())

@@ -10,7 +10,7 @@ from beardyn_core.config import load_bearing
 from evidence.impact.cases import BEARING, GROWING, LOADED, SPEED_RANGE, Case, over_range
 from evidence.impact.edges import sound_depth
 from evidence.impact.elastic import cup_radius
-from evidence.impact.study import heard, loudness
+from evidence.impact.study import loudness, received
 from evidence.pages import render
 
 HEAVIEST = 1e4  # load of the roller in the middle of the load zone under 80 kN, about [N]
@@ -20,7 +20,9 @@ CLEARLY = 1.05  # times the kurtosis of a healthy bearing
 def loud_row(name: str, cases: tuple[Case, ...], sound: tuple[Case, ...]) -> tuple[str, ...]:
     """List the levels of a case over `SPEED_RANGE`."""
     found = loudness(cases)
-    ratio = min(heard(one).kurtosis / heard(other).kurtosis for one, other in zip(cases, sound, strict=True))
+    ratio = min(
+        received(one).kurtosis / received(other).kurtosis for one, other in zip(cases, sound, strict=True)
+    )
     return (
         name,
         f"{1e3 * cases[0].width:g}",
@@ -45,7 +47,7 @@ def loud() -> str:
         width
         for width, case in zip(widths, GROWING["twice as long, a tenth as deep"], strict=True)
         if all(
-            heard(one).kurtosis > CLEARLY * heard(other).kurtosis
+            received(one).kurtosis > CLEARLY * received(other).kurtosis
             for one, other in zip(over_range(case), sound, strict=True)
         )
     ]

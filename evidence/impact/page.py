@@ -37,7 +37,7 @@ from evidence.impact.crossing import crossing, ring_down
 from evidence.impact.edges import LAWS, sinks, strike
 from evidence.impact.loud import listed, loud
 from evidence.impact.published import published
-from evidence.impact.study import RATE, SPANS_KHZ, heard, run
+from evidence.impact.study import RATE, SPANS_KHZ, received, run
 from evidence.pages import PICTURES, REPORTS, save_small, write_page
 
 PAGE = REPORTS / "impact.md"
@@ -68,9 +68,9 @@ def crossing_row(case: Case) -> tuple[str, ...]:
     )
 
 
-def heard_row(case: Case) -> tuple[str, ...]:
-    """List what is heard in one run."""
-    found = heard(case)
+def received_row(case: Case) -> tuple[str, ...]:
+    """List what is received in one run."""
+    found = received(case)
     assert found.status == "fine", found.status
     return (
         name(case),
@@ -93,7 +93,7 @@ def cases_of_crossings() -> Iterator[Case]:
         yield from across(speed)
 
 
-def cases_heard() -> list[Case]:
+def cases_received() -> list[Case]:
     """List the cases of the second table, each speed together."""
     found: list[Case] = []
     for speed in BOTH:
@@ -107,7 +107,7 @@ def cases_heard() -> list[Case]:
 
 def shares_row(part: str, speed: float) -> tuple[str, ...]:
     """List the shares of the power of a spall on one part."""
-    shares = heard(Case(speed=speed, on=part)).shares
+    shares = received(Case(speed=speed, on=part)).shares
     return (part, f"{speed:g}", *(f"{share:.0%}" for share in shares))
 
 
@@ -128,7 +128,7 @@ def strike_rows() -> Iterator[tuple[str, ...]]:
 def damping_row(time: float) -> tuple[str, ...]:
     """List what one time of contact damping changes."""
     case = Case(10e-3, length=WHOLE, damping=time)
-    found, one = heard(case), crossing(case)
+    found, one = received(case), crossing(case)
     return (
         f"{1e6 * time:g}",
         f"{found.peak:.0f}",
@@ -140,7 +140,7 @@ def damping_row(time: float) -> tuple[str, ...]:
 
 def above(*cases: Case) -> str:
     """Write the part of the power above 5 kHz of some cases."""
-    return listed([100.0 * sum(heard(case).shares[2:]) for case in cases], ".0f") + " %"
+    return listed([100.0 * sum(received(case).shares[2:]) for case in cases], ".0f") + " %"
 
 
 def _save(figure: Any, target: Path) -> None:
@@ -163,11 +163,13 @@ def draw() -> None:
         axis.plot(1e3 * found.time, found.motion, "C0", lw=0.7)
         edge = 0.5e3 * case.width / found.speed
         axis.axvspan(-edge, edge, color="0.8")
+        long = "as long as the roller" if case.length == WHOLE else f"{1e3 * case.length:g} mm long"
+        title = f"spall {1e3 * case.width:g} mm wide, {long}; grey: a roller is over the spall"
+        axis.set_title(title, fontsize="medium")
         axis.set(ylabel="seat [m/s$^2$]", xlim=(-edge - 1.0, edge + 4.0))
         forces = axis.twinx()
         forces.plot(1e3 * found.time, 1e-3 * found.force, "C1", lw=0.9)
         forces.set_ylabel("force [kN]", color="C1")
-    axes[0].set_title("grey: the contact is over the spall")
     axes[1].set_xlabel("time [ms]")
     _save(figure, CROSSING)
     figure, axes = plt.subplots(1, 2, figsize=(7.0, 2.9), sharey=True, layout="constrained")
@@ -180,7 +182,13 @@ def draw() -> None:
             density = (np.abs(np.fft.rfft(pieces, axis=1)) ** 2).mean(axis=0) * 2.0
             density /= RATE * float(np.sum(window**2))
             frequency = 1e-3 * np.fft.rfftfreq(count, 1.0 / RATE)
-            axis.semilogy(frequency, np.sqrt(density), colour, lw=0.9, label=name(case))
+            axis.semilogy(
+                frequency,
+                np.sqrt(density),
+                colour,
+                lw=0.9,
+                label=name(case).replace("cup", "spall on the cup, mm:"),
+            )
         axis.set(xlabel="frequency [kHz]", title=f"{speed:g} km/h", xlim=(0, 20), ylim=(1e-4, 3.0))
         axis.grid(True, alpha=0.3)
     axes[0].set_ylabel("m/s$^2$/Hz$^{1/2}$")
@@ -191,12 +199,12 @@ def draw() -> None:
 def main() -> int:
     """Run and write."""
     for case in every():
-        found = heard(case)
+        found = received(case)
         if case.on == "cup" and case.width > 0.0:
             crossing(case)
         print(name(case), case.speed, case.load, f"{found.peak:.1f} {found.rms:.2f}", flush=True)
     for case in ranged():
-        print(name(case), case.speed, case.load, f"{heard(case).peak:.1f}", flush=True)
+        print(name(case), case.speed, case.load, f"{received(case).peak:.1f}", flush=True)
     draw()
     write_page(__file__, PAGE, values())
     print(f"{PAGE} written")
@@ -206,7 +214,9 @@ def main() -> int:
 def values() -> dict[str, Any]:
     """Work out the numbers of the page."""
     rings = [ring_down(Case(speed=speed)) for speed in BOTH]
-    silent = [heard(replace(healthy(200.0), shortest_wave=each)).levels[3] for each in (SHORTEST_WAVE, 1e-3)]
+    silent = [
+        received(replace(healthy(200.0), shortest_wave=each)).levels[3] for each in (SHORTEST_WAVE, 1e-3)
+    ]
     return {
         "effects": EFFECTS,
         "noise": every()[0].scene().sensors[0].noise_density,
@@ -217,23 +227,23 @@ def values() -> dict[str, Any]:
         "speeds": listed(SPEEDS, "g"),
         "bands": " | ".join(f"{low:g}-{high:g} kHz" for low, high in SPANS_KHZ),
         "dashes": "--:|" * len(SPANS_KHZ),
-        "heard": [heard_row(case) for case in cases_heard()],
+        "received": [received_row(case) for case in cases_received()],
         "shares": [shares_row(part, speed) for speed in BOTH for part in PARTS],
         "loud": loud(),
         "published": published(),
         "narrow": ", ".join(
-            listed([heard(case).peak for case in over_width(speed)[:2]], ".0f") for speed in BOTH
+            listed([received(case).peak for case in over_width(speed)[:2]], ".0f") for speed in BOTH
         ),
         "strikes": list(strike_rows()),
         "sinks": list(sink_rows()),
         "damped": [damping_row(time) for time in TIMES],
         "high": above(*(Case(speed=speed) for speed in BOTH)),
         "whole": above(*(Case(speed=speed, length=WHOLE) for speed in BOTH)),
-        "sound": listed([heard(healthy(speed)).kurtosis for speed in SPEEDS], ".1f"),
-        "ringing": listed([heard(healthy(speed)).ringing for speed in SPEEDS], ".1f"),
+        "sound": listed([received(healthy(speed)).kurtosis for speed in SPEEDS], ".1f"),
+        "ringing": listed([received(healthy(speed)).ringing for speed in SPEEDS], ".1f"),
         "left_out": [
             (what, f"{found.kurtosis:.1f}", f"{found.ringing:.1f}", f"{found.ringing_rms:.2f}")
-            for what, found in ((what, heard(case)) for what, case in LEFT_OUT.items())
+            for what, found in ((what, received(case)) for what, case in LEFT_OUT.items())
         ],
         "silent": "{:.1f} m/s^2 instead of {:.1f}".format(*silent),
     }

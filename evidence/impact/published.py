@@ -16,7 +16,7 @@ from evidence.impact.cases import (
     over_width,
 )
 from evidence.impact.crossing import crossing
-from evidence.impact.study import Heard, heard, loudness
+from evidence.impact.study import Measurement, loudness, received
 from evidence.pages import render
 
 
@@ -34,22 +34,24 @@ def _over(name: str) -> list[float]:
     return [loudness(over_range(case)).rms for case in GROWING[name]]
 
 
-def _all(cases: list[Case]) -> list[Heard]:
-    return [heard(case) for case in cases]
+def _all(cases: list[Case]) -> list[Measurement]:
+    return [received(case) for case in cases]
 
 
 def published() -> str:
     """Write the section of published observations."""
     wide = [case for speed in BOTH for case in over_width(speed) if case.width >= 4e-3]
     whole = [case for speed in BOTH for case in across(speed)]
-    areas = {speed: [heard(case).rms for case in over_area(speed)] for speed in BOTH}
-    parts = {part: [heard(Case(speed=speed, on=part)).line for speed in BOTH] for part in ("cup", "roller")}
+    areas = {speed: [received(case).rms for case in over_area(speed)] for speed in BOTH}
+    parts = {
+        part: [received(Case(speed=speed, on=part)).line for speed in BOTH] for part in ("cup", "roller")
+    }
     lost = [1e3 * (case.width - crossing(case).spacing) for case in wide]
     bursts = {speed: [1e3 * crossing(case).burst for case in over_width(speed)] for speed in BOTH}
-    levels = [heard(case).rms for case in OVER_SPEED]
+    levels = [received(case).rms for case in OVER_SPEED]
     spalled = _all(wide)
     speeds = [case.speed for case in over_range(Case())]
-    freight, sound = heard(Case(speed=90.0)), heard(healthy(90.0))
+    freight, sound = received(Case(speed=90.0)), received(healthy(90.0))
     slow = [each.rms for each in spalled[:4]]
     values = {
         "lost": _span(lost, ".1f"),
@@ -71,13 +73,13 @@ def published() -> str:
         "spalled_raw": freight.raw,
         "sound_raw": sound.raw,
         "kurtosis_slow": sound.kurtosis,
-        "kurtosis_fast": heard(healthy(200.0)).kurtosis,
+        "kurtosis_fast": received(healthy(200.0)).kurtosis,
         "kurtosis_spalled": _span([each.kurtosis for each in spalled], ".0f"),
         "kurtosis_by_width": " and ".join(
-            f"{', '.join(f'{heard(case).kurtosis:.0f}' for case in over_width(speed))} at {speed:g} km/h"
+            f"{', '.join(f'{received(case).kurtosis:.0f}' for case in over_width(speed))} at {speed:g} km/h"
             for speed in BOTH
         ),
-        "peak_power": _power([heard(case).peak for case in OVER_SPEED]),
+        "peak_power": _power([received(case).peak for case in OVER_SPEED]),
         "rms_power": _power(levels),
         "levels": ", ".join(f"{level:.1f}" for level in levels),
         "cup_slow": parts["cup"][0],

@@ -72,12 +72,12 @@ def run(case: Case) -> Run:
         steps = twin.step_signals
         motion.append(steps[:, SIGNAL_CHANNELS + VERTICAL].copy())
         force.append(steps[:, SIGNAL_FORCE + VERTICAL].copy())
-    heard = np.concatenate(signal)
-    angle = np.asarray(speed * np.arange(len(heard)) / RATE, np.float64)
+    received = np.concatenate(signal)
+    angle = np.asarray(speed * np.arange(len(received)) / RATE, np.float64)
     moved = np.concatenate(motion)
     azimuths = _azimuths(np.concatenate(orbit), np.concatenate(times), len(moved), case.steps * int(RATES[0]))
     return Run(
-        case, heard - heard.mean(), angle, moved,
+        case, received - received.mean(), angle, moved,
         np.concatenate(force), azimuths, describe(status),
     )  # fmt: skip
 
@@ -90,7 +90,7 @@ def _azimuths(angles: Float, times_ns: Int, count: int, rate: int) -> Float:
 
 
 @dataclass(frozen=True)
-class Heard:
+class Measurement:
     """What is measured of the vertical acceleration of the sensor in one run."""
 
     peak: A[float, "largest, median over tenths of the run, [m/s^2]"]
@@ -116,7 +116,7 @@ class Heard:
 
 
 @cache
-def heard(case: Case) -> Heard:
+def received(case: Case) -> Measurement:
     """Measure one run."""
     made = run(case)
     signal = made.signal
@@ -133,7 +133,7 @@ def heard(case: Case) -> Heard:
     name, times = FAULTS[case.on]
     order = times * getattr(fault_frequencies(case.scene().bearing), name)
     fault = order * stretch.shaft_frequency
-    return Heard(
+    return Measurement(
         float(np.median([np.abs(part).max() for part in np.array_split(signal, 10)])), levels,
         float(stats.kurtosis(signal) + 3.0), float(stats.kurtosis(rings) + 3.0), float(rings.std()),
         (chosen.low, chosen.high), math.isfinite(chosen.kurtosis), over_noise(envelope, fault),
@@ -154,7 +154,7 @@ class Loudness:
 
 def loudness(cases: Sequence[Case]) -> Loudness:
     """Take the levels of cases that differ by their speed."""
-    found = [heard(case) for case in cases]
+    found = [received(case) for case in cases]
 
     def mean(values: list[float]) -> float:
         return float(np.exp(np.mean(np.log(values))))

@@ -13,15 +13,15 @@ from evidence.impact.cases import BEARING, BOTH, GROWING, Case, across, every, h
 from evidence.impact.crossing import BURST, crossing
 from evidence.impact.edges import LAWS, load_of, sinks, sound_depth, strike
 from evidence.impact.elastic import PLACE, approach, cup_radius, sink
-from evidence.impact.page import cases_heard, cases_of_crossings
-from evidence.impact.study import RATE, heard, over_noise
+from evidence.impact.page import cases_of_crossings, cases_received
+from evidence.impact.study import RATE, over_noise, received
 from test.examples import fast_ones
 
 
 def test_every_case_of_the_page_is_run_once() -> None:
     cases = every()
     assert len(cases) == len(set(cases))
-    assert {*cases_heard(), *cases_of_crossings()} <= set(cases)
+    assert {*cases_received(), *cases_of_crossings()} <= set(cases)
     assert len(ranged()) == len(set(ranged()))
 
 
@@ -88,29 +88,29 @@ def test_narrow_spalls_strike_a_held_roller_as_elastic_edges_do_and_less_than_ri
 @pytest.mark.slow
 @pytest.mark.parametrize("speed", BOTH)
 def test_spalls_of_every_width_from_3_mm_are_more_impulsive_than_a_sound_bearing(speed: float) -> None:
-    sound = heard(healthy(speed)).kurtosis
+    sound = received(healthy(speed)).kurtosis
     for case in over_width(speed):
-        assert heard(case).status == "fine"
+        assert received(case).status == "fine"
         if case.width >= 3e-3:
-            assert heard(case).kurtosis > sound
+            assert received(case).kurtosis > sound
 
 
 @pytest.mark.slow
 def test_a_spall_of_3_mm_is_as_loud_as_one_of_2_mm_or_louder_at_90_km_h() -> None:
-    two, three = (heard(Case(width, 90.0)).peak for width in (2e-3, 3e-3))
+    two, three = (received(Case(width, 90.0)).peak for width in (2e-3, 3e-3))
     assert two <= three
 
 
 @pytest.mark.slow
 def test_a_spall_that_grows_in_both_directions_gets_louder_all_the_way() -> None:
-    levels = [heard(replace(case, speed=120.0)).rms for case in GROWING["twice as long, a tenth as deep"]]
+    levels = [received(replace(case, speed=120.0)).rms for case in GROWING["twice as long, a tenth as deep"]]
     assert levels == sorted(levels)
     assert levels[-1] > 4.0 * levels[0]
 
 
 @pytest.mark.slow
 def test_a_deep_spall_over_the_whole_contact_gets_louder_from_1_to_6_mm() -> None:
-    levels = [heard(replace(case, speed=170.0)).rms for case in GROWING["whole contact, deep"]]
+    levels = [received(replace(case, speed=170.0)).rms for case in GROWING["whole contact, deep"]]
     assert 1.4 * levels[0] < levels[1] < levels[-1]
 
 
@@ -118,7 +118,7 @@ def test_a_deep_spall_over_the_whole_contact_gets_louder_from_1_to_6_mm() -> Non
 def test_a_roller_that_is_unloaded_altogether_strikes_harder_than_it_left() -> None:
     case = across(200.0)[1]
     found = crossing(case)
-    assert heard(case).status == "fine"
+    assert received(case).status == "fine"
     assert found.louder > 2.0
     assert found.spacing == pytest.approx(case.width, rel=0.25)
     assert found.power.max() * BURST > np.median(found.power)
@@ -126,7 +126,7 @@ def test_a_roller_that_is_unloaded_altogether_strikes_harder_than_it_left() -> N
 
 @pytest.mark.slow
 def test_a_spall_is_more_impulsive_than_a_sound_bearing() -> None:
-    spalled, sound = heard(Case()), heard(healthy(200.0))
+    spalled, sound = received(Case()), received(healthy(200.0))
     assert spalled.kurtosis > 2.0 * sound.kurtosis
     assert spalled.ringing > 2.0 * sound.ringing
     assert spalled.line > sound.line + 10.0

@@ -84,7 +84,9 @@ def draw(points: list[Point], minimum: float, target: Path) -> None:
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("slip of the cages [%]")
     axes[0].legend(fontsize=8)
-    axes[-1].text(minimum, axes[-1].get_ylim()[1], " 0.02 C", va="top", fontsize=8, color="0.4")
+    axes[-1].annotate(
+        "0.02 C", (minimum, 0.97), xycoords=("data", "axes fraction"), ha="right", va="top", fontsize=8
+    )
     figure.savefig(target, dpi=110)
     plt.close(figure)
     save_small(target, target, COLOURS)

@@ -85,7 +85,7 @@ class Answer:
 
 
 def analyse(
-    heard: Listening,
+    received: Listening,
     first: int,
     revolutions: float,
     orders: FaultFrequencies,
@@ -94,11 +94,11 @@ def analyse(
     uncertainty: float,
 ) -> list[Any]:
     """Analyse a stretch from a sample on, the stated speed off by an error: verdict and grounds."""
-    seconds = min(revolutions / heard.shaft_frequency, LONGEST_S)
-    samples = min(len(heard.acceleration) - first, round(seconds * heard.rate))
-    turns_a_sample = heard.shaft_frequency * (1.0 + error) / heard.rate
+    seconds = min(revolutions / received.shaft_frequency, LONGEST_S)
+    samples = min(len(received.acceleration) - first, round(seconds * received.rate))
+    turns_a_sample = received.shaft_frequency * (1.0 + error) / received.rate
     turned = np.asarray(2.0 * np.pi * turns_a_sample * np.arange(samples), np.float64)
-    stretch = Stretch(heard.rate, heard.acceleration[first : first + samples], turned, np.nan, 0)
+    stretch = Stretch(received.rate, received.acceleration[first : first + samples], turned, np.nan, 0)
     result = REFERENCE(stretch, orders, count, MonitorSettings(speed_uncertainty=uncertainty))
     return [result.verdict, None if result.grounds is None else list(result.grounds)]
 
@@ -106,7 +106,7 @@ def analyse(
 def answers(record: Record) -> list[list[Any]]:
     """Analyse a record with right and wrong inputs; each is a list of the fields of `Answer`."""
     found = []
-    for heard in listenings(record):
+    for received in listenings(record):
         if record.group == MFPT:
             machine, bearing = MFPT, record.name.rpartition("_")[0]
         elif record.group == HIT:
@@ -116,28 +116,30 @@ def answers(record: Record) -> list[list[Any]]:
             machine = "CWRU"
             bearing = f"{record.part} {record.diameter} {record.clock}"
         # a healthy bearing at the other end stays the same, whatever is faulty
-        bearing = bearing if heard.part else "healthy"
-        name = f"{machine} {heard.end} {bearing}"
-        loud = bool(record.part) and not heard.part
-        for inputs, answer in _each(heard):
-            found.append([machine, name, inputs, heard.part, loud, *answer])
+        bearing = bearing if received.part else "healthy"
+        name = f"{machine} {received.end} {bearing}"
+        loud = bool(record.part) and not received.part
+        for inputs, answer in _each(received):
+            found.append([machine, name, inputs, received.part, loud, *answer])
     return found
 
 
-def _each(heard: Listening) -> Iterator[tuple[str, list[Any]]]:
-    own = (heard.plate.frequencies, heard.plate.roller_count)
-    last = max(0, len(heard.acceleration) - round(REVOLUTIONS / heard.shaft_frequency * heard.rate))
+def _each(received: Listening) -> Iterator[tuple[str, list[Any]]]:
+    own = (received.plate.frequencies, received.plate.roller_count)
+    last = max(0, len(received.acceleration) - round(REVOLUTIONS / received.shaft_frequency * received.rate))
     for first in sorted({0, last // 2, last}):
-        yield "right", analyse(heard, first, REVOLUTIONS, *own, 0.0, UNCERTAINTY)
-    yield "right", analyse(heard, 0, SHORT, *own, 0.0, UNCERTAINTY)
-    yield "right", analyse(heard, 0, REVOLUTIONS, *own, 0.0, 0.0)
+        yield "right", analyse(received, first, REVOLUTIONS, *own, 0.0, UNCERTAINTY)
+    yield "right", analyse(received, 0, SHORT, *own, 0.0, UNCERTAINTY)
+    yield "right", analyse(received, 0, REVOLUTIONS, *own, 0.0, 0.0)
     for error in ERRORS:
-        yield "speed", analyse(heard, 0, REVOLUTIONS, *own, error / 100.0, UNCERTAINTY)
-    others = set(OTHERS) - {heard.plate.name}
-    if not heard.part and heard.record.part:  # by the data of the bearing at the other end its fault is right
+        yield "speed", analyse(received, 0, REVOLUTIONS, *own, error / 100.0, UNCERTAINTY)
+    others = set(OTHERS) - {received.plate.name}
+    if (
+        not received.part and received.record.part
+    ):  # by the data of the bearing at the other end its fault is right
         others -= set(PLATES.values())
     for name in sorted(others):
-        yield "bearing", analyse(heard, 0, REVOLUTIONS, *orders_of(name), 0.0, UNCERTAINTY)
+        yield "bearing", analyse(received, 0, REVOLUTIONS, *orders_of(name), 0.0, UNCERTAINTY)
 
 
 def weights_of(several: Sequence[Answer]) -> Float:

@@ -216,8 +216,8 @@ depth times the stiffness of the contact, whatever it carries. The depth of MFPT
 
 def write(cwru: Path, mfpt: Path, pronostia: Path) -> str:
     """Write the page."""
-    heard = {record: next(listenings(record)) for record in records(cwru, mfpt)}
-    sound_records = [one for record in heard if record.group == CWRU_SOUND for one in listenings(record)]
+    received = {record: next(listenings(record)) for record in records(cwru, mfpt)}
+    sound_records = [one for record in received if record.group == CWRU_SOUND for one in listenings(record)]
     sound = {one.end: level(one.acceleration, one.rate) for one in sound_records}
     rows = [
         (f"CWRU, motor, {end}", one.shaft_frequency, sound[end]) for one in sound_records for end in [one.end]
@@ -245,7 +245,7 @@ def write(cwru: Path, mfpt: Path, pronostia: Path) -> str:
     for size in (7, 14, 21):
         each = [
             (level(one.acceleration, one.rate).rms / sound[one.end].rms, kurtosis(one.acceleration))
-            for record, one in heard.items()
+            for record, one in received.items()
             if record.group in (CWRU_12_DRIVE, CWRU_12_FAN)
             and record.part == "cup"
             and record.diameter == size
@@ -258,7 +258,7 @@ def write(cwru: Path, mfpt: Path, pronostia: Path) -> str:
             f"{1e3 * case.width:.2f} x {1e3 * case.length:.0f} | {mine:.1f} | {ours(case).kurtosis:.1f} | "
             f"{'yes' if ratios.min() <= mine <= ratios.max() else 'no'} | {ratio(size, waves=False):.1f} |\n"
         )
-    rigs = [(one, _load_of(one)) for record, one in heard.items() if record.group == MFPT]
+    rigs = [(one, _load_of(one)) for record, one in received.items() if record.group == MFPT]
     text += LOADED.format(
         grown=middles[-1] / middles[0], our_growth=ratio(21) / ratio(7), mfpt=MFPT_SHAFT,
         low=min(load for _, load in rigs), high=max(load for _, load in rigs),

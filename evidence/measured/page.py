@@ -13,7 +13,7 @@ from pathlib import Path
 from beardyn_core.monitor.chain import MonitorSettings
 from evidence.measured.cases import CWRU_12_DRIVE, SETS, Record, listenings, records
 from evidence.measured.grades import MEANINGS
-from evidence.measured.run import METHODS, Heard, outcomes, verdicts_of
+from evidence.measured.run import METHODS, Measurement, outcomes, verdicts_of
 from evidence.pages import REPORTS, render
 from evidence.runner import KeptResults
 
@@ -37,30 +37,30 @@ BEFORE_GRADES = {"Y1": (9, 0, 0), "Y2": (28, 2, 5), "P1": (1, 0, 0), "P2": (0, 1
 BEFORE_BESIDE, BEFORE_SOUND = (188, 2042), (0, 20)  # analyses with an alarm, and all
 
 
-def hear(
+def receive(
     chosen: Sequence[Record], results: Path | None, tell: Callable[[str], object] = lambda sentence: None
-) -> list[Heard]:
-    """Let every method hear every bearing, except what is in the results already; keep them as they come."""
-    kept, heard = KeptResults(results), []
+) -> list[Measurement]:
+    """Let every method judge every bearing, but those in the results already; keep them as they come."""
+    kept, received = KeptResults(results), []
     for record in chosen:
         tell(f"{record.group} {record.name}")
         for listening in listenings(record):
             for method, algorithm in METHODS.items():
                 key = " | ".join((record.group, record.name, listening.end, method))
                 verdicts = kept.get(key, partial(verdicts_of, listening, algorithm))
-                heard.append(Heard(record, listening.end, listening.part, method, verdicts))
-    return heard
+                received.append(Measurement(record, listening.end, listening.part, method, verdicts))
+    return received
 
 
-def text(heard: Sequence[Heard], absent: str) -> str:
+def text(received: Sequence[Measurement], absent: str) -> str:
     """Write the page."""
-    faulty = [each for each in heard if each.part]
-    beside = [each for each in heard if not each.part and each.record.part]
-    sound = [each for each in heard if not each.record.part]
+    faulty = [each for each in received if each.part]
+    beside = [each for each in received if not each.part and each.record.part]
+    sound = [each for each in received if not each.record.part]
     judged = [each for each in faulty if each.record.group != CWRU_12_DRIVE]
     before = [counts for (group, _), counts in BEFORE.items() if group != CWRU_12_DRIVE]
     values = {
-        "count": len({each.record.path for each in heard}),
+        "count": len({each.record.path for each in received}),
         "absent": absent,
         "bound": MonitorSettings().least_strikes,
         "parts": list(_part_rows(faulty)),
@@ -72,13 +72,14 @@ def text(heard: Sequence[Heard], absent: str) -> str:
             ("in a healthy machine", *_alarms(sound, BEFORE_SOUND)),
         ],
         "records": [
-            _row(record, list(group_of)) for record, group_of in groupby(heard, key=lambda each: each.record)
+            _row(record, list(group_of))
+            for record, group_of in groupby(received, key=lambda each: each.record)
         ],
     }
     return render(__file__, values)
 
 
-def _part_rows(faulty: Sequence[Heard]) -> Iterator[tuple[str, ...]]:
+def _part_rows(faulty: Sequence[Measurement]) -> Iterator[tuple[str, ...]]:
     for group in SETS:
         for part in PARTS:
             here = [each for each in faulty if (each.record.group, each.part) == (group, part)]
@@ -86,7 +87,7 @@ def _part_rows(faulty: Sequence[Heard]) -> Iterator[tuple[str, ...]]:
                 yield group, part, *_counts(here, BEFORE.get((group, part)))
 
 
-def _grade_rows(faulty: Sequence[Heard]) -> Iterator[tuple[str, ...]]:
+def _grade_rows(faulty: Sequence[Measurement]) -> Iterator[tuple[str, ...]]:
     for grade, meaning in MEANINGS.items():
         here = [each for each in faulty if each.record.grade == grade]
         if here:
@@ -94,11 +95,11 @@ def _grade_rows(faulty: Sequence[Heard]) -> Iterator[tuple[str, ...]]:
             yield grade, meaning, str(number), *_counts(here, BEFORE_GRADES.get(grade))
 
 
-def _counts(heard: Sequence[Heard], before: tuple[int, ...] | None) -> list[str]:
+def _counts(received: Sequence[Measurement], before: tuple[int, ...] | None) -> list[str]:
     """List right/wrong/missed of each method, with what was before in the second place."""
     cells = []
     for method in METHODS:
-        found = outcomes([each for each in heard if each.method == method])
+        found = outcomes([each for each in received if each.method == method])
         cells.append(f"{found['right']}/{found['wrong']}/{found['missed']}")
     cells.insert(1, "/".join(map(str, before)) if before else "-")
     return cells
@@ -108,24 +109,24 @@ def _sum(counts: Sequence[tuple[int, ...]]) -> tuple[int, ...]:
     return tuple(sum(column) for column in zip(*counts, strict=True))
 
 
-def _alarms(heard: Sequence[Heard], before: tuple[int, int]) -> list[str]:
+def _alarms(received: Sequence[Measurement], before: tuple[int, int]) -> list[str]:
     cells = []
     for method in METHODS:
-        here = [each for each in heard if each.method == method]
+        here = [each for each in received if each.method == method]
         cells.append(_share(sum(each.alarms for each in here), sum(each.analyses for each in here)))
     cells.insert(1, _share(*before))
     return cells
 
 
 def _share(alarms: int, analyses: int) -> str:
-    return f"{alarms} of {analyses}, {100.0 * alarms / analyses:.2g} %" if analyses else "none heard"
+    return f"{alarms} of {analyses}, {100.0 * alarms / analyses:.2g} %" if analyses else "none received"
 
 
-def _row(record: Record, heard: Sequence[Heard]) -> list[str]:
+def _row(record: Record, received: Sequence[Measurement]) -> list[str]:
     """List the cells of a record."""
 
     def said(part_known: bool, method: str) -> str:
-        here = [each for each in heard if bool(each.part) == part_known and each.method == method]
+        here = [each for each in received if bool(each.part) == part_known and each.method == method]
         return ", ".join(
             f"{each.verdict} {each.verdicts.get(each.verdict, 0)}/{each.analyses}" for each in here
         )
@@ -169,8 +170,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     found = records(args.cwru, args.mfpt)
     if not found:
         parser.error("there is no known record below the folders")
-    heard = hear(found, args.results, lambda sentence: print(sentence, file=sys.stderr))
-    args.output.write_text(text(heard, absent_of(found)), encoding="utf-8")
+    received = receive(found, args.results, lambda sentence: print(sentence, file=sys.stderr))
+    args.output.write_text(text(received, absent_of(found)), encoding="utf-8")
     return 0
 
 

@@ -44,7 +44,7 @@ METHODS: dict[str, Algorithm] = {
 
 
 @dataclass(frozen=True)
-class Heard:
+class Measurement:
     """What one monitor says of one bearing in one record."""
 
     record: Record
@@ -79,19 +79,21 @@ class Heard:
 
 
 def verdicts_of(
-    heard: Listening, algorithm: Algorithm, settings: MonitorSettings | None = None
+    received: Listening, algorithm: Algorithm, settings: MonitorSettings | None = None
 ) -> dict[str, int]:
     """Feed a record to a monitor block by block, as a train would, and count its verdicts."""
     settings = settings or MonitorSettings(interval=INTERVAL)
-    monitor = Monitor(heard.plate.frequencies, heard.plate.roller_count, heard.rate, settings, algorithm)
-    count = len(heard.acceleration)
-    time_ns = np.round(np.arange(count) * (1e9 / heard.rate)).astype(np.int64)
-    angle = np.asarray(2.0 * np.pi * heard.shaft_frequency * np.arange(count) / heard.rate, np.float64)
-    block = int(SECONDS * heard.rate)
+    monitor = Monitor(
+        received.plate.frequencies, received.plate.roller_count, received.rate, settings, algorithm
+    )
+    count = len(received.acceleration)
+    time_ns = np.round(np.arange(count) * (1e9 / received.rate)).astype(np.int64)
+    angle = np.asarray(2.0 * np.pi * received.shaft_frequency * np.arange(count) / received.rate, np.float64)
+    block = int(SECONDS * received.rate)
     found: dict[str, int] = {}
     for first in range(0, count, block):
         here = slice(first, first + block)
-        monitor.push_vibration(time_ns[here], heard.acceleration[here])
+        monitor.push_vibration(time_ns[here], received.acceleration[here])
         monitor.push_shaft(time_ns[here], angle[here])
         result = monitor.update()
         if result is not None:
@@ -103,16 +105,16 @@ def run(
     records: Iterable[Record],
     methods: Mapping[str, Algorithm],
     tell: Callable[[str], object] = lambda sentence: None,
-) -> Iterator[Heard]:
-    """Let every method hear every bearing of every record."""
+) -> Iterator[Measurement]:
+    """Let every method receive every bearing of every record."""
     for record in records:
         tell(f"{record.group} {record.name}")
         for listening in listenings(record):
             for method, algorithm in methods.items():
                 counts = verdicts_of(listening, algorithm)
-                yield Heard(record, listening.end, listening.part, method, counts)
+                yield Measurement(record, listening.end, listening.part, method, counts)
 
 
-def outcomes(heard: Sequence[Heard]) -> Counter[str]:
+def outcomes(received: Sequence[Measurement]) -> Counter[str]:
     """Count the outcomes of faulty bearings."""
-    return Counter(each.outcome for each in heard if each.part)
+    return Counter(each.outcome for each in received if each.part)

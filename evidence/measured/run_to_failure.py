@@ -1,4 +1,4 @@
-"""When the trend alarms in the runs to failure of PRONOSTIA, and how steadily what it hears then grows.
+"""When the trend alarms in the runs to failure of PRONOSTIA, and how steadily what it receives then grows.
 
 ``python -m evidence.measured.run_to_failure --pronostia DIR`` writes docs/evidence/run_to_failure.md. DIR has
 ``Learning_set`` and ``Full_Test_Set`` with a folder of ``acc_*.csv`` for each run.

@@ -185,8 +185,8 @@ def standings(
         "squared envelope, autogram's band",
         of(by_angle(stretch.squared_envelope(autogram_band(stretch, settings)), stretch, settings)),
     )
-    for name, heard in (("coherence", stretch), ("coherence, whitened", white)):
-        every = carriers(heard, highest, settings)
+    for name, received in (("coherence", stretch), ("coherence, whitened", white)):
+        every = carriers(received, highest, settings)
         yield name, standing(together(every), orders, settings)
         starts = range(0, len(every) - TOGETHER + 1, STRIDE)
         bands = [standing(together(every[k : k + TOGETHER]), orders, settings) for k in starts]
@@ -194,7 +194,7 @@ def standings(
     yield from aimed(stretch, orders, settings)
 
 
-def heard_by_all(listening: Listening) -> list[dict[str, Standing]]:
+def received_by_all(listening: Listening) -> list[dict[str, Standing]]:
     """Analyse the beginning of a record in every spectrum."""
     found: list[dict[str, Standing]] = []
 
@@ -219,7 +219,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if record.group == CWRU_12_DRIVE and record.grade in GRADES:
             print(record.name, file=sys.stderr)
             for listening in listenings(record):
-                for analysis in heard_by_all(listening):
+                for analysis in received_by_all(listening):
                     for name, each in analysis.items():
                         outcome = _outcome(listening.part, each.called)
                         counts.setdefault(name, Counter())[outcome] += 1

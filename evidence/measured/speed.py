@@ -1,4 +1,4 @@
-"""How often the speed heard in a vibration is in its interval: ``python -m evidence.measured.speed``.
+"""How often the speed found in a vibration is in its interval: ``python -m evidence.measured.speed``.
 
 The interval was fitted on records of CWRU; those of MFPT had no part in it. The speed is sought from three
 quarters of the stated one to four thirds, so that its place in the range tells nothing.
@@ -57,16 +57,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--mfpt", type=Path, metavar="FOLDER", help="with the .mat files of MFPT")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="every Nth record; default all")
     args = parser.parse_args(arguments)
-    heard = []
+    received = []
     print("| record | certain | error % | half of the interval % |\n|---|---|--:|--:|")
     for record in records(args.cwru, args.mfpt)[:: args.every]:
         told = told_of(next(listenings(record)))
-        heard.append(told)
+        received.append(told)
         numbers = f"{100.0 * told.error:.2f} | {100.0 * told.half:.2f}" if told.certain else " | "
         print(f"| {record.name} | {'yes' if told.certain else 'no'} | {numbers} |", flush=True)
-    certain = [each for each in heard if each.certain]
+    certain = [each for each in received if each.certain]
     covered = sum(each.covered for each in certain)
-    print(f"\ncertain: {len(certain)} of {len(heard)}; covered: {covered} of {len(certain)}")
+    print(f"\ncertain: {len(certain)} of {len(received)}; covered: {covered} of {len(certain)}")
     return 0
 
 

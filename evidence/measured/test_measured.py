@@ -25,8 +25,8 @@ from evidence.measured.cases import (
     records,
 )
 from evidence.measured.grades import GRADES, MEANINGS
-from evidence.measured.page import hear, main, text
-from evidence.measured.run import Heard, verdicts_of
+from evidence.measured.page import main, receive, text
+from evidence.measured.run import Measurement, verdicts_of
 
 RPM = 1797
 
@@ -112,10 +112,10 @@ def test_the_page_tells_what_every_method_says(
     assert f"59 of {CWRU_12_DRIVE}, 45 of {CWRU_12_FAN}" in written
     before = page.read_bytes()
 
-    def heard_twice(*_: object) -> None:
+    def received_twice(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("evidence.measured.page.verdicts_of", heard_twice)
+    monkeypatch.setattr("evidence.measured.page.verdicts_of", received_twice)
     assert main(arguments) == 0
     assert page.read_bytes() == before
 
@@ -124,13 +124,13 @@ def test_a_part_that_is_called_in_place_of_the_faulty_one_is_wrong(folders: tupl
     record = records(folders[0])[0]
     said = {"healthy": 2, "cup": 3, "waiting": 9}
     right, wrong, missed = (
-        Heard(record, DRIVE, part, "ours", counts)
+        Measurement(record, DRIVE, part, "ours", counts)
         for part, counts in (("cup", said), ("cone", said), ("cup", {"healthy": 3, "cup": 2}))
     )
     assert (right.outcome, wrong.outcome, missed.outcome) == ("right", "wrong", "missed")
     assert (right.analyses, right.alarms, right.verdict) == (5, 3, "cup")
     # of two the later, as the product does
-    assert Heard(record, DRIVE, "cup", "ours", {"healthy": 1, "cup": 1}).verdict == "cup"
+    assert Measurement(record, DRIVE, "cup", "ours", {"healthy": 1, "cup": 1}).verdict == "cup"
     for order in (("healthy", "cup"), ("cup", "healthy")):
         assert conclude(Finding(name, "", float(at)) for at, name in enumerate(order)).verdict == order[1]
 
@@ -148,9 +148,9 @@ def test_the_page_in_the_repository_is_of_this_form() -> None:
 def test_the_monitor_names_the_part_that_is_struck_and_leaves_the_other_end_alone(
     folders: tuple[Path, Path],
 ) -> None:
-    heard = hear([record for record in records(*folders) if record.name == "130"], None)
-    said = {(each.end, each.method): each.verdict for each in heard}
+    received = receive([record for record in records(*folders) if record.name == "130"], None)
+    said = {(each.end, each.method): each.verdict for each in received}
     assert said[DRIVE, "ours"] == "cup"
     assert said[FAN, "ours"] == "healthy"
-    faulty = next(iter(listenings(heard[0].record)))
+    faulty = next(iter(listenings(received[0].record)))
     assert verdicts_of(faulty, REFERENCE) == {"cup": 4}

@@ -13,7 +13,7 @@ from evidence.measured.spectra import standings
 RATE, SHAFT, SECONDS = 12_000.0, 30.0, 2.0
 
 
-def heard(strike: float) -> Stretch:
+def received(strike: float) -> Stretch:
     """Strikes at BPFO of a 6205 that ring at 3 kHz, in noise of 1 m/s²."""
     random = np.random.default_rng(1)
     time = np.arange(int(SECONDS * RATE)) / RATE
@@ -28,15 +28,15 @@ def heard(strike: float) -> Stretch:
 
 def test_each_finds_a_clear_fault_and_none_in_noise() -> None:
     orders, settings = load_plate("6205").frequencies, MonitorSettings()
-    found = {name: each.called for name, each in standings(heard(6.0), orders, settings)}
+    found = {name: each.called for name, each in standings(received(6.0), orders, settings)}
     assert len(found) == 8
     assert set(found.values()) == {"cup"}
-    assert {each.called for _, each in standings(heard(0.0), orders, settings)} == {""}
+    assert {each.called for _, each in standings(received(0.0), orders, settings)} == {""}
 
 
 def test_blind_deconvolution_finds_the_ringing_of_strikes_and_order_in_noise_too() -> None:
     orders, settings = load_plate("6205").frequencies, MonitorSettings()
-    struck, noise = heard(1.0), heard(0.0)
+    struck, noise = received(1.0), received(0.0)
 
     def share(signal: Float, stretch: Stretch) -> float:
         power = signal**2

@@ -27,8 +27,8 @@ def hit_sm(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_records_of_hit_sm_are_read_with_their_part_and_speed(hit_sm: Path) -> None:
     healthy, faulty = sorted(records(hit_sm=hit_sm), key=lambda each: each.part)
     assert (healthy.group, healthy.part, faulty.part) == (HIT, "", "cup")
-    (heard,) = listenings(faulty)
-    assert (heard.plate.name, heard.rate, heard.shaft_frequency) == ("6205", 51.2e3, 20.0)
+    (received,) = listenings(faulty)
+    assert (received.plate.name, received.rate, received.shaft_frequency) == ("6205", 51.2e3, 20.0)
 
 
 def test_a_clear_fault_is_never_healthy_and_never_another_part_whatever_is_stated(hit_sm: Path) -> None:

@@ -18,10 +18,14 @@ _SHARES = (1.0, 0.5, 0.25)
 
 
 def lines_of() -> dict[str, tuple[str, ...]]:
-    """Give the features with the lines of one hearing only, and those of both."""
+    """Give the features with the lines of one reception only, and those of both."""
     whitened = tuple(name for name in NAMES if not name.startswith(_BAND))
     measured = tuple(name for name in NAMES if not name.startswith(_WHITENED))
-    return {"whitened, as the monitor hears": whitened, "as measured, in one band": measured, "both": NAMES}
+    return {
+        "whitened, as the monitor receives": whitened,
+        "as measured, in one band": measured,
+        "both": NAMES,
+    }
 
 
 def causes(runs: LabelledSet) -> dict[str, Any]:

@@ -67,10 +67,10 @@ def tried(number: int, seed: int, speed: str) -> Tried:
     """
     began = time.process_time()
     drawn = case(number, seed, speed)
-    with warnings.catch_warnings(record=True) as heard:
+    with warnings.catch_warnings(record=True) as received:
         warnings.simplefilter("always")
         found = judged(drawn.scene)
-    numeric = [each for each in heard if issubclass(each.category, RuntimeWarning)]
+    numeric = [each for each in received if issubclass(each.category, RuntimeWarning)]
     kernel = drawn.kernel
     return Tried(
         number=number,
@@ -141,6 +141,6 @@ def _warm(scene: Scene) -> None:
     warm_once(scene, f"{scene.tier}: {numba.typeof(TIERS[scene.tier].parameters(scene, parameters))}")
 
 
-def _place(heard: warnings.WarningMessage) -> str:
-    name = re.sub(r"^.*/(beardyn_core|numpy|scipy)/", r"\1/", str(heard.filename))
-    return f"{name}:{heard.lineno}"
+def _place(received: warnings.WarningMessage) -> str:
+    name = re.sub(r"^.*/(beardyn_core|numpy|scipy)/", r"\1/", str(received.filename))
+    return f"{name}:{received.lineno}"

@@ -47,8 +47,8 @@ def fuzz(folder: Path, messages: int, seed: int, nodes: Sequence[str] = NODES) -
     with Graph(folder) as graph:
         _start(graph, path, nodes)
         names = [entry.name for entry in TOPICS]
-        heard = [name for name in names if name != "/diagnostics"]
-        graph.listen(*heard)
+        received = [name for name in names if name != "/diagnostics"]
+        graph.listen(*received)
         graph.out.publisher("load/consumed")  # the load listens to it, once it is there
         graph.connected(*[name for name in names if name != "load/consumed"])
         graph.fake_load(duration=duration)

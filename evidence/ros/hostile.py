@@ -37,17 +37,17 @@ class Hostile:
     Parameters
     ----------
     seed : int
-    heard : callable
-        ``heard(name)`` gives true messages of a topic so far, to be bent.
+    received : callable
+        ``received(name)`` gives true messages of a topic so far, to be bent.
     """
 
-    def __init__(self, seed: int, heard: Callable[[str], Sequence[bytes]]) -> None:
+    def __init__(self, seed: int, received: Callable[[str], Sequence[bytes]]) -> None:
         self._random = random.Random(seed)
-        self._heard = heard
+        self._received = received
 
     def message(self, entry: Topic) -> bytes:
         """Make one message of a topic."""
-        true = self._heard(entry.name)
+        true = self._received(entry.name)
         ways: list[Callable[[Topic], bytes]] = [self._noise]
         if true:
             ways += [self._bent, self._cut, self._another_time, self._another_time, self._repeated]
@@ -63,7 +63,7 @@ class Hostile:
     # --- of any type -------------------------------------------------------------------------------
 
     def _true(self, entry: Topic) -> bytes:
-        return self._random.choice(self._heard(entry.name)[-50:])
+        return self._random.choice(self._received(entry.name)[-50:])
 
     def _noise(self, entry: Topic) -> bytes:
         # the middleware drops what is longer than a type of fixed length: on one side or on the other
@@ -91,7 +91,7 @@ class Hostile:
 
     def _numbers(self, entry: Topic) -> bytes:
         """Bend the numbers of a stamped message."""
-        if not self._heard(entry.name):
+        if not self._received(entry.name):
             return self._noise(entry)
         cdr = bytearray(self._true(entry))
         for _ in range(3):
@@ -111,7 +111,7 @@ class Hostile:
 
     def _cloud(self, entry: Topic) -> bytes:
         """Make a cloud of random columns, or the true columns with random numbers."""
-        true, pick = self._heard(entry.name), self._random.choice
+        true, pick = self._received(entry.name), self._random.choice
         if true and self._random.random() < 0.5:
             from beardyn_core.record.cloud_layout import cloud_points
 
@@ -149,7 +149,7 @@ class Hostile:
 
     def _changed_object(self, entry: Topic, run_id: str | None) -> str:
         """Change values of a true text in place, down to any depth."""
-        if not self._heard(entry.name):
+        if not self._received(entry.name):
             return "{}"
         found = json.loads(decode_string(self._true(entry)))
         place: Any = found

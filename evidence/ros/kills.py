@@ -54,13 +54,13 @@ def killed_recorders(graph: Graph, folder: Path, times: int, seed: int = 1) -> I
         graph.until(partial(_is_filled, path), f"file {number}")
         graph.until(partial(_is_past, time.monotonic() + moments.uniform(0.0, 2.0)), "a moment")
         graph.processes.signal("recorder", signal.SIGKILL)
-        heard = _last_sample(graph)
+        received = _last_sample(graph)
         vibration = read_run(path).vibration
         step = 1.0 / vibration.rate
         yield Kill(
             number,
             len(vibration) * step,
-            (heard - int(vibration.sample[-1])) * step,
+            (received - int(vibration.sample[-1])) * step,
             int((vibration.sample[1:] - vibration.sample[:-1] != 1).sum()),
         )
         path.unlink()
@@ -76,7 +76,7 @@ def _is_past(moment: float) -> bool:
 
 
 def _last_sample(graph: Graph) -> int:
-    """Return the running index of the last sample that the listener has heard."""
+    """Return the running index of the last sample that the listener has received."""
     from beardyn_core.record.clouds import cloud_to_arrays
 
     return int(cloud_to_arrays(graph.messages["vibration"][-1])["sample"][-1])

@@ -89,12 +89,12 @@ def leavings(joins: int, plain: bool, folder: Path) -> Leavings:
     for _, pipe in watchers:
         os.read(pipe, 1)
     comer, comings = _fork(come_and_go, domain, plain)
-    heard = dict.fromkeys((pipe for _, pipe in watchers), time.monotonic())
+    received = dict.fromkeys((pipe for _, pipe in watchers), time.monotonic())
     stopped, rest = 0, b""
     found: list[float] = []
     try:
         while len(found) < joins:
-            ready = select.select([comings, *heard], [], [], 1.0)[0]
+            ready = select.select([comings, *received], [], [], 1.0)[0]
             for pipe in ready:
                 told = os.read(pipe, 4096)
                 if pipe == comings:
@@ -102,14 +102,14 @@ def leavings(joins: int, plain: bool, folder: Path) -> Leavings:
                     *lines, rest = (rest + told).split(b"\n")
                     found += [float(line) for line in lines]
                 else:
-                    heard[pipe] = time.monotonic()
+                    received[pipe] = time.monotonic()
             for place, (watcher, pipe) in enumerate(watchers):
-                if time.monotonic() - heard[pipe] > STOPPED_AFTER_S:
+                if time.monotonic() - received[pipe] > STOPPED_AFTER_S:
                     stopped += 1
                     _end(watcher, pipe)
-                    del heard[pipe]
+                    del received[pipe]
                     watchers[place] = _fork(watch, domain)
-                    heard[watchers[place][1]] = time.monotonic()
+                    received[watchers[place][1]] = time.monotonic()
     finally:
         for process, pipe in (*watchers, (comer, comings)):
             _end(process, pipe)

@@ -1,4 +1,4 @@
-"""What a sensor on an axlebox in service hears, and what the monitor says of it.
+"""What a sensor on an axlebox in service receives, and what the monitor says of it.
 
 ============== =====================================================
 module         responsibility

@@ -14,8 +14,8 @@ from evidence.service.study import (
     PARTS,
     SPANS_HZ,
     TIERS,
-    Heard,
-    hear,
+    Measurement,
+    receive,
     services,
     with_parts,
     with_roughness,
@@ -43,13 +43,13 @@ def _backgrounds() -> Iterator[tuple[str, ...]]:
         yield f"`{name}`", parts, background.description
 
 
-def _table(first: str, found: list[tuple[str, Heard]]) -> str:
+def _table(first: str, found: list[tuple[str, Measurement]]) -> str:
     head = (first, *(f"{low:g}-{high:g} Hz" for low, high in SPANS_HZ), "peak", "kurtosis", "monitor")
     rows = []
-    for name, heard in found:
-        said = ", ".join(f"{verdict} {count}" for verdict, count in sorted(heard.verdicts.items()))
-        levels = (f"{level:.3g}" for level in heard.levels)
-        rows.append((name, *levels, f"{heard.peak:.0f}", f"{heard.kurtosis:.2f}", said))
+    for name, received in found:
+        said = ", ".join(f"{verdict} {count}" for verdict, count in sorted(received.verdicts.items()))
+        levels = (f"{level:.3g}" for level in received.levels)
+        rows.append((name, *levels, f"{received.peak:.0f}", f"{received.kurtosis:.2f}", said))
     return markdown(head, rows, f"l{'r' * (len(SPANS_HZ) + 2)}l")
 
 
@@ -58,8 +58,8 @@ def _lines() -> str:
     head = ("rail", "wheel", *(f"{low * 2**0.5:g} Hz" for low, _ in OCTAVES_HZ))
     rows = []
     for rail, wheel in LINES:
-        heard = hear(with_roughness(scene, rail, wheel))
-        rows.append((f"`{rail}`", f"`{wheel}`", *(f"{level:.2g}" for level in heard.octaves)))
+        received = receive(with_roughness(scene, rail, wheel))
+        rows.append((f"`{rail}`", f"`{wheel}`", *(f"{level:.2g}" for level in received.octaves)))
     return markdown(head, rows, f"ll{'r' * len(OCTAVES_HZ)}")
 
 
@@ -67,14 +67,14 @@ def main() -> int:
     """Run and write."""
     scene = load_scene("service_high_speed", tier="quasistatic")
     choices: list[tuple[str, ...]] = [(), *((part,) for part in PARTS), PARTS]
-    parts = [(", ".join(each) or "none", hear(with_parts(scene, *each))) for each in choices]
+    parts = [(", ".join(each) or "none", receive(with_parts(scene, *each))) for each in choices]
     values = {
         "kinds": list(_kinds()),
         "backgrounds": list(_backgrounds()),
         "parts": _table("background", parts),
         "lines": _lines(),
         "tiers": {
-            tier: _table("scene", [(f"`{each.name}`", hear(each)) for each in services(tier)])
+            tier: _table("scene", [(f"`{each.name}`", receive(each)) for each in services(tier)])
             for tier in TIERS
         },
     }

@@ -34,7 +34,7 @@ _SETTLED_S = 0.25
 
 
 @dataclass(frozen=True)
-class Heard:
+class Measurement:
     """What one run came to."""
 
     name: str
@@ -52,7 +52,7 @@ def service_names() -> tuple[str, ...]:
     return tuple(name for name in shipped_names("scenes") if name.startswith("service_"))
 
 
-def hear(scene: Scene, duration: float | None = None) -> Heard:
+def receive(scene: Scene, duration: float | None = None) -> Measurement:
     """Run a scene and let the shipped monitor listen to its first sensor."""
     monitor = Monitor(fault_frequencies(scene.bearing), scene.bearing.roller_count)
     read, verdicts = [], Counter[str]()
@@ -64,7 +64,7 @@ def hear(scene: Scene, duration: float | None = None) -> Heard:
     rate = scene.sensors[0].rate
     signal = np.concatenate(read)[round(_SETTLED_S * rate) :]
     signal = signal - signal.mean()
-    return Heard(
+    return Measurement(
         scene.name,
         scene.tier,
         "; ".join(scene.fault_sentences),

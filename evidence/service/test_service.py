@@ -7,7 +7,7 @@ import pytest
 
 from beardyn_core.choice import load_scene
 from beardyn_core.run import blocks
-from evidence.service.study import PARTS, SPANS_HZ, hear, levels, service_names, with_parts
+from evidence.service.study import PARTS, SPANS_HZ, levels, receive, service_names, with_parts
 from test.examples import fast_ones
 
 
@@ -16,11 +16,11 @@ def test_the_monitor_says_what_is_so(name: str) -> None:
     """Every analysis of 3 s."""
     scene = load_scene(name, tier="quasistatic")
     truth = scene.defects[0].on if scene.defects else "healthy"
-    assert set(hear(scene, 3.0).verdicts) == {truth}
+    assert set(receive(scene, 3.0).verdicts) == {truth}
 
 
 @pytest.mark.parametrize("part", fast_ones(PARTS, 0))
-def test_every_part_of_a_background_is_heard(part: str) -> None:
+def test_every_part_of_a_background_is_received(part: str) -> None:
     """The same run with it reads otherwise, by more than the noise of the sensor in some band."""
     scene = load_scene("service_high_speed", tier="quasistatic")
     without, with_it = (

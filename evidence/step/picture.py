@@ -32,7 +32,7 @@ def step_picture(data: dict[str, Any], path: Path) -> None:
     frequency = 1e-3 * np.array(data["lines_Hz"])
     for column, point in enumerate(points):
         _column(panels[0, column], panels[1, column], frequency, point)
-    panels[0, 0].set_ylabel("dB re 1 um/s$^2$ in 50 Hz, all axes")
+    panels[0, 0].set_ylabel("dB re 1 µm/s$^2$ in 50 Hz, all axes")
     panels[1, 0].set_ylabel("difference, dB")
     figure.savefig(path, dpi=DPI, format="png")
 

@@ -65,14 +65,14 @@ def scene_of(table: Path | str, highest: float | None = None) -> Scene:
     )
 
 
-class Heard(NamedTuple):
-    """What is heard of a run, and what it has kept of energy and momentum."""
+class Measurement(NamedTuple):
+    """What is received of a run, and what it has kept of energy and momentum."""
 
     levels: A[Float, "shape [band], third octaves of the sensor, [dB]"]
     measures: Measures
 
 
-def heard(scene: Scene) -> Heard:
+def received(scene: Scene) -> Measurement:
     """Run a scene, with a watch over energy and momentum."""
     twin, watch, parts = Twin(scene), Watch(scene), []
     twin.start(load_history(scene.operation, scene.mounting, DURATION, scene.seed))
@@ -82,7 +82,7 @@ def heard(scene: Scene) -> Heard:
         watch.see(twin, block, before)
         if block.start_ns >= SETTLED * 1e9:
             parts.append(block.vibration[0].acceleration)
-    return Heard(third_octave_levels(np.concatenate(parts), scene.sensors[0].rate), watch.measures())
+    return Measurement(third_octave_levels(np.concatenate(parts), scene.sensors[0].rate), watch.measures())
 
 
 def kept() -> list[Kept]:
@@ -91,7 +91,7 @@ def kept() -> list[Kept]:
     zone, top = load_zone(len(modes.reads)), unit(modes, "axlebox_top", 2)
     yields, answer = modes.yielding(zone, zone), np.abs(modes.response(top, zone, FINE))
     found = []
-    runs = all_of(heard, [scene_of(BOX, highest) for highest in HIGHEST], workers=core_count())
+    runs = all_of(received, [scene_of(BOX, highest) for highest in HIGHEST], workers=core_count())
     for highest, (levels, measures) in zip(HIGHEST, runs, strict=True):
         fewer = modes.below(highest)
         assert measures.energy_residual is not None
@@ -115,12 +115,12 @@ def kept() -> list[Kept]:
 def chance() -> Float:
     """Run with all modes and the end play a nanometre wider, third octaves [dB]: what luck alone changes."""
     scene = scene_of(BOX)
-    return heard(replace(scene, end_play=scene.end_play + _NUDGE)).levels
+    return received(replace(scene, end_play=scene.end_play + _NUDGE)).levels
 
 
 def rigid() -> Float:
     """Run in the same box without modes, third octaves [dB]."""
-    return heard(without(scene_of(BOX))).levels
+    return received(without(scene_of(BOX))).levels
 
 
 def without(scene: Scene) -> Scene:

@@ -55,7 +55,7 @@ def carried(scene: Scene) -> tuple[float, float, float]:
     )
 
 
-def heard(scene: Scene) -> tuple[np.ndarray, float]:
+def received(scene: Scene) -> tuple[np.ndarray, float]:
     """Compute third octaves [dB] of the vertical acceleration over 1.1 s, and its kurtosis."""
     began = [block.vibration[0].acceleration[:, 2] for block in start(scene, 1.2).blocks()]
     signal = np.concatenate(began)[2560:]
@@ -74,7 +74,9 @@ def main() -> int:
     print(f"\n| against full, dB at Hz | {' | '.join(map(str, BANDS_HZ))} | kurtosis (full) |")
     print("|---|" + "--:|" * (len(BANDS_HZ) + 1))
     spalled = [(tier, kind) for kind in ("rigid", "modes") for tier in STEPS]
-    sound = dict(zip(spalled, all_of(heard, [scene_of("cup_spall", *each) for each in spalled]), strict=True))
+    sound = dict(
+        zip(spalled, all_of(received, [scene_of("cup_spall", *each) for each in spalled]), strict=True)
+    )
     for kind in ("rigid", "modes"):
         whole, pulses = sound["full", kind]
         for tier in ("quasistatic", "lumped"):

@@ -47,8 +47,8 @@ class Judged:
     called: A[list[tuple[str, float]], "verdict of each, and its score over the threshold, [dB]"]
 
 
-def hear(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
-    """Simulate a run once and let every monitor hear it, with an analysis every ``interval`` [s]."""
+def receive(scene: Scene, cell: Cell, interval: float) -> list[Judged]:
+    """Simulate a run once and let every monitor judge it, with an analysis every ``interval`` [s]."""
     signals = [MonitorInput.of_block(block) for block in blocks(scene)]
     orders, count = fault_frequencies(scene.bearing), scene.bearing.roller_count
     judged = []
@@ -126,7 +126,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="JSON")
     parser.add_argument("--trial", default="default", help="default `default`")
-    parser.add_argument("--every", type=int, default=EVERY, metavar="N", help=f"runs heard, default {EVERY}")
+    parser.add_argument(
+        "--every", type=int, default=EVERY, metavar="N", help=f"runs received, default {EVERY}"
+    )
     parser.add_argument("--force", action="store_true", help="overwrite FILE")
     args = parser.parse_args()
     if args.output.exists() and not args.force:
@@ -135,7 +137,7 @@ def main() -> int:
     cells = [cell for cell in trial.cells() if not cell.checks][:: args.every]
     judged: list[Judged] = []
     for number, cell in enumerate(cells, start=1):
-        judged += hear(trial_scene(trial, cell), cell, trial.interval)
+        judged += receive(trial_scene(trial, cell), cell, trial.interval)
         said = ", ".join(f"{each.method} {each.verdict}" for each in judged[-len(METHODS) :])
         print(f"{number} of {len(cells)}: {cell.key}: {said}", flush=True)
         write_json(args.output, [asdict(each) for each in judged])

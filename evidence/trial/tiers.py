@@ -35,7 +35,7 @@ BESIDE, LINE, GUARD = 0.3, 0.01, 0.05  # of the frequency of a line: noise aroun
 
 
 @dataclass(frozen=True, eq=False)
-class Heard:
+class Measurement:
     """What is measured of the vertical reading of a run."""
 
     levels: A[Float, "third octaves, [dB]"]
@@ -64,7 +64,7 @@ def scene_of(trial: Trial, tier: str, speed: float, spalled: bool) -> Scene:
     return trial_scene(trial, replace(cell, tier=tier, checks=False))
 
 
-def hear(scene: Scene, speed: float) -> Heard:
+def receive(scene: Scene, speed: float) -> Measurement:
     """Run a scene at a speed [km/h]."""
     parts = [block.vibration[0].acceleration[:, 2] for block in blocks(scene, DURATION)]
     signal = np.concatenate(parts)[int(SETTLED * RATE) :]
@@ -78,7 +78,7 @@ def hear(scene: Scene, speed: float) -> Heard:
         spectrum /= len(envelope) ** 2
         lines.append(10.0 * math.log10(spectrum[off < LINE].max()))
         noises.append(10.0 * math.log10(np.median(spectrum[(off < BESIDE) & (off > GUARD)])))
-    return Heard(third_octave_levels(signal[:, None]), tuple(lines), tuple(noises))
+    return Measurement(third_octave_levels(signal[:, None]), tuple(lines), tuple(noises))
 
 
 def added(spalled: Float, sound: Float) -> Float:
@@ -95,7 +95,7 @@ def main() -> int:
     print(f"|--:|---|{'--:|' * len(at)}")
     for speed in SPEEDS:
         sound, spalled = (
-            [hear(scene_of(trial, tier, speed, there), speed) for tier in TIERS] for there in (False, True)
+            [receive(scene_of(trial, tier, speed, there), speed) for tier in TIERS] for there in (False, True)
         )
         alone = [added(one.levels, other.levels) for one, other in zip(spalled, sound, strict=True)]
         rows = {
@@ -105,8 +105,8 @@ def main() -> int:
         }
         for name, row in rows.items():
             print(f"| {speed:g} | {name} | {' | '.join(f'{row[i]:+.1f}' for i in at)} |", flush=True)
-        for tier, heard in zip(TIERS, spalled, strict=True):
-            cells = zip(ENVELOPES, heard.lines, heard.noises, strict=True)
+        for tier, received in zip(TIERS, spalled, strict=True):
+            cells = zip(ENVELOPES, received.lines, received.noises, strict=True)
             texts = [
                 f"{1e-3 * a:g}-{1e-3 * b:g} kHz {line:.0f} / {noise:.0f}" for (a, b), line, noise in cells
             ]

@@ -49,7 +49,7 @@ def scene_of(trial: Trial, speed: float, width: float) -> Scene:
     return replace(scene, defects=(replace(spall, width=width, length=length, depth=depth),))
 
 
-def heard(scene: Scene) -> Stretch:
+def received(scene: Scene) -> Stretch:
     """Run a scene and take the whole of it."""
     done = list(blocks(scene, scene.duration))
     turned = np.unwrap(np.concatenate([each.shaft_angle for each in done]))
@@ -79,7 +79,7 @@ def main() -> int:
             scene = scene_of(trial, speed, width)
             bearing = scene.bearing
             way = math.pi * raceway_diameter("cone", bearing) / bearing.roller_count
-            orders, stretch = fault_frequencies(bearing), heard(scene)
+            orders, stretch = fault_frequencies(bearing), received(scene)
             verdict = REFERENCE(stretch, orders, bearing.roller_count, settings).verdict
             levels = " | ".join(f"{each:.0f}" for each in harmonics(stretch, orders.bpfi, settings))
             sectors = int(struck_sectors(stretch, settings).sum())

@@ -1,4 +1,4 @@
-"""What one accelerometer hears of a worn pocket: ``python -m evidence.trial.worn_pockets``.
+"""What one accelerometer receives of a worn pocket: ``python -m evidence.trial.worn_pockets``.
 
 The same bearings of the trial `cage` sound, with a pocket worn, and sound but made less well (grade G3):
 where the roller of that pocket passes the middle of the load zone, how far the lines of FTF stand out in the
@@ -154,7 +154,7 @@ def show(scene: Scene, pocket: WornPocket) -> Shown:
 
 def measured(found: Sequence[Record], revolutions: float) -> tuple[Counter[str], Counter[str]]:
     """Count bearings by their faulty part, and those whose lines of FTF pass the alarm in the beginning."""
-    heard: Counter[str] = Counter()
+    received: Counter[str] = Counter()
     passing: Counter[str] = Counter()
     for record in found:
         for each in listenings(record):
@@ -164,13 +164,13 @@ def measured(found: Sequence[Record], revolutions: float) -> tuple[Counter[str],
                 stretch = Stretch(each.rate, each.acceleration[:end], angle, math.nan, 0)
                 (lines,) = cage_lines(stretch, each.plate.frequencies.ftf, MonitorSettings()).candidates
                 part = each.part or "none"
-                heard[part] += 1
+                received[part] += 1
                 passing[part] += lines.score >= lines.threshold
-    return heard, passing
+    return received, passing
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run and print, or hear the measured records and print."""
+    """Run and print, or receive the measured records and print."""
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--cwru", type=Path, metavar="FOLDER", help="with the .mat files of CWRU")
     parser.add_argument("--mfpt", type=Path, metavar="FOLDER", help="with the .mat files of MFPT")
@@ -178,8 +178,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if folders.cwru or folders.mfpt:
         found = records(folders.cwru, folders.mfpt)
         for revolutions in REVOLUTIONS[1:]:
-            heard, passing = measured(found, revolutions)
-            for part, count in heard.items():
+            received, passing = measured(found, revolutions)
+            for part, count in received.items():
                 print(f"over {revolutions:g} revolutions, faulty part {part}: {passing[part]} of {count}")
         return 0
     over = " | ".join(f"over {each:g} dB" for each in REVOLUTIONS)

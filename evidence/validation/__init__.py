@@ -24,7 +24,7 @@ trends           how skew and tilt change with load, speed and temperature
 cage_whirl       the path of a cage's centre
 whirl            how cage whirl changes with speed and load
 skid             cage slip at light load
-spalls           impacts of spalls as a ringing axlebox hears them
+spalls           impacts of spalls as a ringing axlebox receives them
 rail             standard deviation of track irregularities
 wheelset         modes of a wheelset, levels of axlebox vibration
 every            all of them, in the order of the page

@@ -60,7 +60,7 @@ def draw_whirl(path: Path) -> None:
         panel.axhline(play, color="grey", linestyle=":", label="radial play")
         panel.grid(alpha=0.3)
         panel.legend(fontsize="small")
-    axes[0].set_ylabel("um")
+    axes[0].set_ylabel("orbit of the cage, µm")
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
 
@@ -79,7 +79,7 @@ def draw_skid(path: Path) -> None:
     panel.set_ylabel("cage slip, %")
     panel.set_ylim(-2.0, 100.0)
     panel.grid(alpha=0.3)
-    panel.legend(fontsize="small")
+    panel.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
 

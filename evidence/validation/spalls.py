@@ -1,4 +1,4 @@
-"""Impacts of spalls as a ringing axlebox hears them.
+"""Impacts of spalls as a ringing axlebox receives them.
 
 References and tolerances were chosen before the runs of `evidence.impact.cases`. Seen before that: about
 thirty single crossings at 90 and 200 km/h, from which the way between the events was known to follow the
@@ -28,7 +28,7 @@ from evidence.impact.cases import (
     over_width,
 )
 from evidence.impact.crossing import crossing
-from evidence.impact.study import heard, run
+from evidence.impact.study import received, run
 from evidence.measured.levels import INCH, ours_over_load, ratio
 from evidence.validation.anchor import HOLDS_FROM, Anchor, Finding, Trend, rises
 
@@ -107,12 +107,12 @@ def way_per_width(speed: float) -> float:
 
 def sound_kurtosis(speed: float) -> float:
     """Return the kurtosis of a healthy bearing at a speed [km/h]."""
-    return heard(healthy(speed)).kurtosis
+    return received(healthy(speed)).kurtosis
 
 
 def sound_ringing(speed: float, shortest_wave: float = SHORTEST_WAVE) -> float:
     """Return the kurtosis of a healthy bearing from 5 to 16 kHz at a speed [km/h]."""
-    return heard(replace(healthy(speed), shortest_wave=shortest_wave)).ringing
+    return received(replace(healthy(speed), shortest_wave=shortest_wave)).ringing
 
 
 def sound_crest(speed: float) -> float:
@@ -190,9 +190,9 @@ def more_impulsive(part: str) -> Finding:
     """Compare the kurtosis of spalls and healthy bearings, of the whole signal or of its ringing band."""
     found, holds = {}, True
     for speed in BOTH:
-        sound = getattr(heard(healthy(speed)), part)
+        sound = getattr(received(healthy(speed)), part)
         cases = [case for case in over_width(speed) if case.width >= IMPULSIVE]
-        values = [getattr(heard(case), part) for case in cases]
+        values = [getattr(received(case), part) for case in cases]
         holds = holds and all(value > (1.0 + HOLDS_FROM) * sound for value in values)
         found[speed] = [sound, *values]
     return at_both(f"Kurtosis of a healthy bearing, then of spalls of {widths(cases)}", found, holds)
@@ -202,7 +202,7 @@ def grows(over: str, cases: Mapping[float, Sequence[Case]]) -> Finding:
     """Follow rms and peak over a line of cases; both must rise."""
     sentences, holds = [], True
     for speed, line in cases.items():
-        rms, peak = ([getattr(heard(case), what) for case in line] for what in ("rms", "peak"))
+        rms, peak = ([getattr(received(case), what) for case in line] for what in ("rms", "peak"))
         holds = holds and rises(rms) and rises(peak)
         where = f" at {speed:g} km/h" if speed else ""
         sentences.append(f"rms {shown(rms)} and peak {shown(peak)} m/s^2{where}")

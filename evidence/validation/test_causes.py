@@ -8,7 +8,7 @@ import pytest
 
 from evidence.heat.cases import HEALTHY, SUMMER, State, torque_point
 from evidence.impact.cases import healthy
-from evidence.impact.study import heard
+from evidence.impact.study import received
 from evidence.measured.levels import SHALLOW, ours_over_load, ratio
 from evidence.validation import wheel_waves, wheelset
 from evidence.validation.anchor import turns
@@ -78,7 +78,7 @@ def test_fresh_grease_brings_the_axlebox_to_the_model_of_the_catalogue(speed: fl
 @pytest.mark.slow
 def test_a_sound_bearing_without_cages_is_no_more_impulsive_than_noise() -> None:
     """At 90 km/h: kurtosis as published, and the crest factor below the published ones."""
-    uncaged = heard(replace(healthy(90.0), caged=False))
+    uncaged = received(replace(healthy(90.0), caged=False))
     assert uncaged.kurtosis == pytest.approx(3.0, rel=0.1)
     assert uncaged.peak / uncaged.rms < 4.9
 

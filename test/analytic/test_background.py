@@ -1,4 +1,4 @@
-"""What a sensor hears besides its bearing: published levels, orders of lines, impulses."""
+"""What a sensor receives besides its bearing: published levels, orders of lines, impulses."""
 
 from dataclasses import replace
 

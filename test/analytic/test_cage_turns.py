@@ -20,7 +20,7 @@ SEEDS = pytest.mark.parametrize("seed", range(4))
 PARTS = ("cup", "cone", "roller")
 
 
-def _heard(loudness: Float, seed: int, settings: MonitorSettings = SETTINGS) -> MonitorResult:
+def _received(loudness: Float, seed: int, settings: MonitorSettings = SETTINGS) -> MonitorResult:
     noise = np.random.default_rng(seed).normal(size=len(TURNED))
     return REFERENCE(Stretch(RATE, loudness * noise, ANGLE, np.nan, 0), ORDERS, ROLLERS, settings)
 
@@ -38,19 +38,19 @@ def _pulses(order: float, depth: float, width: float) -> Float:
 
 @SEEDS
 def test_a_ball_is_named_and_the_cage_may_be_meant(seed: int) -> None:
-    found = _heard(_ball(2.0), seed)
+    found = _received(_ball(2.0), seed)
     assert found.verdict == "roller", found.reason
     assert found.also_fits == ("cage",)
     assert found.fault_order == pytest.approx(ORDERS.ftf, rel=0.01)
     assert found.expected_order == ORDERS.ftf
     assert "fault of the rolling elements: FTF found at" in found.reason
     assert "a damaged cage would have these lines, too" in found.reason
-    assert _heard(_ball(0.15), seed).verdict == "healthy"  # rollers that differ
+    assert _received(_ball(0.15), seed).verdict == "healthy"  # rollers that differ
 
 
 @SEEDS
 def test_with_harmonics_of_its_own_it_is_no_cage(seed: int) -> None:
-    found = _heard(_ball(2.0) * _pulses(2.0 * ORDERS.bsf, 2.0, 1.0 / 12.0), seed)
+    found = _received(_ball(2.0) * _pulses(2.0 * ORDERS.bsf, 2.0, 1.0 / 12.0), seed)
     assert found.verdict == "roller", found.reason
     assert found.also_fits == ()
     assert found.expected_order == pytest.approx(2.0 * ORDERS.bsf)
@@ -60,7 +60,7 @@ def test_with_harmonics_of_its_own_it_is_no_cage(seed: int) -> None:
 def test_harmonics_on_multiples_of_the_cage_are_none_of_their_own(seed: int) -> None:
     """2 BSF lies near 16 FTF in many bearings, within the tolerance, and BPFO at that of all rollers."""
     assert 2.0 * ORDERS.bsf == pytest.approx(16.0 * ORDERS.ftf, rel=0.02)
-    found = _heard(_pulses(ORDERS.ftf, 6.0, 1.0 / 12.0), seed)
+    found = _received(_pulses(ORDERS.ftf, 6.0, 1.0 / 12.0), seed)
     said = (found.verdict, found.also_fits)
     assert said in (("roller", ("cage",)), ("unexplained", ())), found.reason
 
@@ -81,7 +81,7 @@ def test_harmonics_on_multiples_of_the_cage_are_none_of_their_own(seed: int) -> 
 def test_rail_joints_whose_multiples_are_those_of_the_cage_are_no_fault(
     order: float, width: float, seed: int
 ) -> None:
-    found = _heard(_pulses(order, 2.0, width), seed)
+    found = _received(_pulses(order, 2.0, width), seed)
     assert found.verdict not in PARTS, found.reason
 
 
@@ -89,28 +89,28 @@ def test_rail_joints_whose_multiples_are_those_of_the_cage_are_no_fault(
 @pytest.mark.parametrize("multiple", [2, 3, 4])
 def test_a_comb_of_a_multiple_of_the_cage_is_no_rolling_element(multiple: int, seed: int) -> None:
     for off in (0.99, 1.0, 1.004):
-        found = _heard(_pulses(multiple * off * ORDERS.ftf, 2.0, 1.0 / 12.0), seed)
+        found = _received(_pulses(multiple * off * ORDERS.ftf, 2.0, 1.0 / 12.0), seed)
         assert found.verdict not in PARTS, found.reason
 
 
 @SEEDS
 def test_a_cup_whose_strikes_come_and_go_with_the_cage_is_a_cup(seed: int) -> None:
-    found = _heard(_ball(4.0) * _pulses(ORDERS.bpfo, 0.6, 1.0 / 12.0), seed)
+    found = _received(_ball(4.0) * _pulses(ORDERS.bpfo, 0.6, 1.0 / 12.0), seed)
     assert found.verdict == "cup", found.reason
 
 
 @SEEDS
 def test_at_a_speed_that_is_not_well_known_or_beside_a_cage_as_fast_it_may_be_another_cage(seed: int) -> None:
-    assert _heard(_ball(2.0), seed, replace(SETTINGS, speed_uncertainty=0.01)).verdict == "roller"
+    assert _received(_ball(2.0), seed, replace(SETTINGS, speed_uncertainty=0.01)).verdict == "roller"
     uncertain = replace(SETTINGS, speed_uncertainty=0.03)
-    found = _heard(_ball(2.0), seed, uncertain)
+    found = _received(_ball(2.0), seed, uncertain)
     assert found.verdict == "not_diagnosable"
     assert "the speed is uncertain by 3%; give a tachometer, or the speed within 1%" in found.reason
     assert np.isnan(found.confidence)
-    assert _heard(_ball(0.15), seed, uncertain).verdict == "healthy"
+    assert _received(_ball(0.15), seed, uncertain).verdict == "healthy"
     for ftf in (1.003 * ORDERS.ftf, np.nan):
         beside = replace(ORDERS, ftf=ftf, bpfo=6.1, bpfi=8.2, bsf=2.9)
-        found = _heard(_ball(2.0), seed, replace(SETTINGS, neighbours=(beside,)))
+        found = _received(_ball(2.0), seed, replace(SETTINGS, neighbours=(beside,)))
         assert found.verdict == "not_diagnosable"
         assert "or of its neighbour, whose cages turn as fast" in found.reason
 

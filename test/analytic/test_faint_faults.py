@@ -22,7 +22,7 @@ TURNED = np.arange(round(60.0 / SPEED * RATE)) * SPEED / RATE
 ANGLE = np.asarray(2.0 * np.pi * TURNED, np.float64)
 
 
-def _heard(loudness: Float, seed: int) -> MonitorResult:
+def _received(loudness: Float, seed: int) -> MonitorResult:
     noise = np.random.default_rng(seed).normal(size=len(TURNED))
     return REFERENCE(Stretch(RATE, loudness * noise, ANGLE, np.nan, 0), ORDERS, ROLLERS, SETTINGS)
 
@@ -41,8 +41,8 @@ def _strikes(order: float, depth: float, loaded_by: float = 0.0) -> Float:
 def test_faint_lines_are_a_fault_where_they_come_and_go_as_those_of_the_part(
     part: str, order: float, by: float, seed: int
 ) -> None:
-    modulated = _heard(_strikes(order, 0.3, by), seed)
-    alike = _heard(_strikes(order, 0.25), seed)
+    modulated = _received(_strikes(order, 0.3, by), seed)
+    alike = _received(_strikes(order, 0.25), seed)
     assert modulated.verdict == part, modulated.reason
     assert "faint" in modulated.reason
     assert np.isnan(modulated.confidence)  # no record tells how often it is right
@@ -70,7 +70,7 @@ def test_each_condition_of_a_faint_fault_counts() -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_faint_pattern_that_something_contradicts_is_never_unexplained(seed: int) -> None:
-    found = _heard(_strikes(ORDERS.bpfi, 0.3, 1.0) + _strikes(9.46, 0.37) - 1.0, seed)
+    found = _received(_strikes(ORDERS.bpfi, 0.3, 1.0) + _strikes(9.46, 0.37) - 1.0, seed)
     assert found.verdict == "healthy", found.reason
 
 
@@ -88,11 +88,11 @@ def test_tones_that_strike_like_clockwork_are_no_faint_fault(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_faint_lines_beside_a_comb_that_is_as_sure_are_no_fault(seed: int) -> None:
     own = _strikes(ORDERS.bpfi, 0.3, 1.0)
-    assert _heard(own, seed).verdict == "cone"
-    assert _heard(own + _strikes(5.37, 0.5) - 1.0, seed).verdict not in ("cup", "cone", "roller")
+    assert _received(own, seed).verdict == "cone"
+    assert _received(own + _strikes(5.37, 0.5) - 1.0, seed).verdict not in ("cup", "cone", "roller")
 
 
 def test_as_faint_as_rollers_that_pass_is_no_fault_of_the_cup() -> None:
-    found = _heard(_strikes(ORDERS.bpfo, 0.2), 3)
+    found = _received(_strikes(ORDERS.bpfo, 0.2), 3)
     assert found.score > found.threshold
     assert found.verdict == "healthy", found.reason

@@ -119,7 +119,7 @@ def test_strikes_as_loud_as_the_rollers_let_them_be_are_no_fault(resonance: floa
     assert max(found.scores) < found.threshold
 
 
-def test_a_stretch_cut_off_in_a_strike_is_heard_like_any_other() -> None:
+def test_a_stretch_cut_off_in_a_strike_is_received_like_any_other() -> None:
     whole = fault_stretch(None, 51, noise=0.01)
     last = np.clip(np.arange(len(whole.shaft_angle)) - len(whole.shaft_angle) + 0.02 * RATE, 0.0, None)
     cut = replace(whole, acceleration=whole.acceleration + 0.4 * last[:, None])  # up to 200 m/s² within 20 ms
@@ -196,7 +196,7 @@ def test_a_loud_tone_and_a_loud_resonance_hide_no_fault() -> None:
     assert deaf(loud, ORDERS, ROLLERS, SETTINGS).verdict == "healthy"
 
 
-def test_a_fault_that_strikes_like_clockwork_is_heard_as_measured() -> None:
+def test_a_fault_that_strikes_like_clockwork_is_received_as_measured() -> None:
     """Its strikes are tones, which whitening takes away."""
     stretch = fault_stretch(None, 48, noise=0.1)
     passing = ORDERS.bpfo * 19.2

@@ -41,7 +41,7 @@ def signals_of(vertical: np.ndarray) -> np.ndarray:
     return signals
 
 
-def heard(scene: Scene, vertical: np.ndarray, blocks_at_once: int = 1) -> tuple[np.ndarray, np.ndarray]:
+def received(scene: Scene, vertical: np.ndarray, blocks_at_once: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Time [s] and vertical reading of the first sensor; the box only shakes along z."""
     steps = round(scene.numerics.steps_per_sample)
     sensors = Sensors(scene, DELAY if steps > 1 else 0)
@@ -80,7 +80,7 @@ def test_the_gain_is_that_of_a_mass_on_a_spring(
     # whole periods in the last 0.3 s, so that the tones do not leak into each other
     tones = np.array([300.0, 1_800.0, 2_000.0, 4_500.0, 8_800.0, 9_000.0, 0.39 * rate])
     tones = np.round(tones * span) / span
-    at, reading = heard(scene, np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
+    at, reading = received(scene, np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
     last = slice(len(at) - round(span * rate), None)
     found = 2.0 * np.exp(-2j * np.pi * np.outer(tones, at[last])) @ reading[last] / (span * rate)
     expected = resonance_gain(tones, resonance, damping)
@@ -122,7 +122,7 @@ def test_the_filter_matches_the_theory_over_the_whole_band(
 
 def test_at_rest_it_reads_gravity_from_the_first_sample_on() -> None:
     sensor = replace(QUIET, mounting_resonance=9_000.0, rate=51_200.0)
-    _, reading = heard(scene_with(8, sensor), np.zeros(SAMPLES * 8 * 2))
+    _, reading = received(scene_with(8, sensor), np.zeros(SAMPLES * 8 * 2))
     assert np.abs(reading).max() < 1e-10
 
 
@@ -130,9 +130,9 @@ def test_at_rest_it_reads_gravity_from_the_first_sample_on() -> None:
 def test_any_cut_into_blocks_gives_the_same_bits(rate: float) -> None:
     sensor = replace(QUIET, noise_density=0.02, mounting_resonance=9_000.0, rate=rate)
     shaking = np.random.default_rng(3).normal(size=SAMPLES * 8 * 12)
-    one = heard(scene_with(8, sensor), shaking)
+    one = received(scene_with(8, sensor), shaking)
     for at_once in (3, 12):
-        several = heard(scene_with(8, sensor), shaking, at_once)
+        several = received(scene_with(8, sensor), shaking, at_once)
         assert all(np.array_equal(a, b) for a, b in zip(one, several, strict=True))
 
 
@@ -140,7 +140,7 @@ def test_the_anti_alias_filter_keeps_out_what_the_rate_cannot_show() -> None:
     """A tone at 0.7 of the rate, which would show at 0.3 of it, is 70 dB down."""
     for rate in (25_600.0, 51_200.0):
         time = (np.arange(SAMPLES * 8 * 8) + 1) / (25_600.0 * 8)
-        _, reading = heard(scene_with(8, replace(QUIET, rate=rate, mounting_resonance=1e5)), np.sin(
+        _, reading = received(scene_with(8, replace(QUIET, rate=rate, mounting_resonance=1e5)), np.sin(
             2.0 * np.pi * 0.7 * rate * time
         ))  # fmt: skip
         assert np.abs(reading[200:]).max() < 10.0 ** (-70.0 / 20.0) * abs(
@@ -150,7 +150,7 @@ def test_the_anti_alias_filter_keeps_out_what_the_rate_cannot_show() -> None:
 
 def test_noise_has_its_density_at_the_faster_rate_too() -> None:
     sensor = replace(QUIET, noise_density=0.02, rate=51_200.0)
-    _, reading = heard(scene_with(8, sensor), np.zeros(SAMPLES * 8 * BLOCKS))
+    _, reading = received(scene_with(8, sensor), np.zeros(SAMPLES * 8 * BLOCKS))
     assert reading.std() == pytest.approx(0.02 * np.sqrt(25_600.0), rel=0.02)
 
 
@@ -210,7 +210,7 @@ def test_a_measured_path_goes_in_and_comes_out(rate: float, steps: int, ending: 
     count, span = SAMPLES * steps * 60, 0.5
     time = (np.arange(count) + 1) / (25_600.0 * steps)
     tones = np.array([50.0, 900.0, 1_860.0, 1_900.0, 3_300.0, 5_150.0, 5_200.0, 9_000.0, 10_000.0])
-    at, reading = heard(scene_with(steps, sensor), np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
+    at, reading = received(scene_with(steps, sensor), np.cos(2.0 * np.pi * np.outer(tones, time)).sum(axis=0))
     last = slice(len(at) - round(span * rate), None)
     found = 2.0 * np.exp(-2j * np.pi * np.outer(tones, at[last])) @ reading[last] / (span * rate)
     expected = ringing(tones)
@@ -221,10 +221,10 @@ def test_a_measured_path_goes_in_and_comes_out(rate: float, steps: int, ending: 
 def test_a_path_on_one_axis_leaves_gravity_and_the_others_alone(tmp_path: Path) -> None:
     sensor = replace(QUIET, measured_paths=(MeasuredPath(path_file(tmp_path), ("x",)),))
     shaking = np.random.default_rng(5).normal(size=SAMPLES * 4 * 8)
-    _, filtered = heard(scene_with(4, sensor), shaking)
-    _, plain = heard(scene_with(4, QUIET), shaking)
+    _, filtered = received(scene_with(4, sensor), shaking)
+    _, plain = received(scene_with(4, QUIET), shaking)
     assert np.abs(filtered - plain[: len(filtered)]).max() < 1e-12 * 100
-    _, still = heard(
+    _, still = received(
         scene_with(4, replace(sensor, measured_paths=(MeasuredPath(path_file(tmp_path)),))), 0.0 * shaking
     )
     assert np.abs(still).max() < 1e-9  # gravity passes with gain 1
@@ -251,9 +251,9 @@ def test_paths_and_pickup_give_the_same_bits_however_blocks_are_cut(tmp_path: Pa
     )
     scene = replace(scene_with(4, sensor), background=HUM)
     shaking = np.random.default_rng(3).normal(size=SAMPLES * 4 * 12)
-    one = heard(scene, shaking)
+    one = received(scene, shaking)
     for at_once in (3, 12):
-        several = heard(scene, shaking, at_once)
+        several = received(scene, shaking, at_once)
         assert all(np.array_equal(a, b) for a, b in zip(one, several, strict=True))
 
 
@@ -288,7 +288,7 @@ HUM = Background(
 def test_pickup_is_volts_over_sensitivity_at_the_side_bands() -> None:
     """Around 2 kHz, 10 electrical periods a turn; 11 kHz lies beyond 0.4 of the rate and is held back."""
     scene = replace(scene_with(4, replace(QUIET, sensitivity=0.005)), background=HUM)
-    at, reading = heard(scene, np.zeros(SAMPLES * 4 * 54))
+    at, reading = received(scene, np.zeros(SAMPLES * 4 * 54))
     last = slice(len(at) - 25_600, None)
     electrical = 10.0 * SPEED / (2.0 * np.pi)
     for side in (-1.0, 1.0):

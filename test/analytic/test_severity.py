@@ -132,11 +132,11 @@ def test_without_a_width_the_reason_is_given():
 
 def test_size_and_stage_pass_through_the_topic_unchanged():
     finding = Finding.of(_results("cup", 6e-3)[-1])
-    heard = Finding.from_diagnostic(finding.to_diagnostic("axlebox/monitor"))
+    received = Finding.from_diagnostic(finding.to_diagnostic("axlebox/monitor"))
     for name in ("stage", "stage_reason"):
-        assert getattr(heard, name) == getattr(finding, name) != ""
+        assert getattr(received, name) == getattr(finding, name) != ""
     for name in ("spall_width", "spall_width_low", "spall_width_high"):
-        assert getattr(heard, name) == pytest.approx(getattr(finding, name), rel=1e-8)
+        assert getattr(received, name) == pytest.approx(getattr(finding, name), rel=1e-8)
 
 
 def _of_run(findings):

@@ -143,8 +143,8 @@ def test_a_shunting_train_gets_a_verdict_and_a_standing_one_waits():
     noise = np.random.default_rng(1).normal(size=(len(stands), 3))
     there = np.concatenate((time, back[0], stands))
     turned = np.concatenate((angle, angle[::-1], rest))
-    heard = np.concatenate((acceleration, acceleration[::-1], noise))
+    received = np.concatenate((acceleration, acceleration[::-1], noise))
     monitor = Monitor(ORDERS, ROLLERS)
-    verdicts = [result.verdict for result in feed_monitor(monitor, (there, turned, heard))]
+    verdicts = [result.verdict for result in feed_monitor(monitor, (there, turned, received))]
     assert "cup" in verdicts
     assert verdicts[-1] == "waiting"

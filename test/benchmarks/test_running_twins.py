@@ -22,14 +22,14 @@ def test_parallel_twins_are_compared_with_one_of_the_same_turns() -> None:
 @pytest.mark.slow
 @pytest.mark.ros
 @pytest.mark.skipif(ROS_IS_MISSING, reason="rclpy is not installed (pip install .[ros])")
-def test_paced_twin_is_heard_block_by_block_and_its_lateness_agrees_with_the_listener() -> None:
+def test_paced_twin_is_received_block_by_block_and_its_lateness_agrees_with_the_listener() -> None:
     from beardyn_core.choice import load_scene
     from benchmarks.paced_twin import COLUMNS, Level, row, run_paced
 
     level = Level("full", "standard")
     scene = load_scene("cup_spall", **level._asdict(), duration=1.0)
-    heard = run_paced(scene)
-    told = dict(zip(COLUMNS, row(level, scene, heard), strict=True))
+    received = run_paced(scene)
+    told = dict(zip(COLUMNS, row(level, scene, received), strict=True))
     assert told["state"] == "finished"
     assert told["blocks"] == 50
     assert told["simulated s"] == pytest.approx(1.0)

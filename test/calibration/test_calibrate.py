@@ -87,7 +87,9 @@ def test_what_cannot_be_asked_for_is_refused(
         bd.calibrate(recording(tmp_path), scene, **options)
 
 
-def test_a_fault_that_the_monitor_hears_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fault_that_the_monitor_receives_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     run = recording(tmp_path)
     healthy = bd.monitor(run)
     assert healthy.finding is not None

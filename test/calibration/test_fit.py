@@ -8,7 +8,7 @@ import pytest
 from beardyn_core.base.arrays import Float
 from beardyn_core.calibration.fitting import FEWEST_RUNS, Fitted
 from beardyn_core.calibration.identify import PRIOR, common_slope, identify
-from beardyn_core.calibration.spectra import Heard, Hearing, levels_of, rides_of
+from beardyn_core.calibration.spectra import Reception, StretchLevels, levels_of, rides_of
 from beardyn_core.calibration.unknowns import BY_NAME
 from test.calibration.law import BASES, fitter, law
 
@@ -47,7 +47,7 @@ def test_noise_below_everything_else_is_not_determined() -> None:
     assert each.reason.startswith("not determined")
 
 
-def test_two_numbers_that_are_heard_alike_are_not_told_apart() -> None:
+def test_two_numbers_that_are_received_alike_are_not_told_apart() -> None:
     found = fitter({"background": 1.5}, budget=70, alike=True).fit()
     fits = {each.unknown.name: each for each in found.fits}
     left = [name for name in ("background", "damping") if fits[name].reason]
@@ -101,15 +101,15 @@ def test_the_same_recordings_give_the_same_scene() -> None:
     assert [each.value for each in one.fits] == [each.value for each in other.fits]
 
 
-def test_white_noise_that_is_added_to_powers_is_that_which_is_heard() -> None:
+def test_white_noise_that_is_added_to_powers_is_that_which_is_received() -> None:
     density, seconds = 0.02, 40.0
-    hearing = Hearing(("z",), 25_600.0, seconds)
-    count = round(seconds * hearing.rate)
-    noise = np.random.default_rng(1).normal(0.0, density * np.sqrt(0.5 * hearing.rate), (count, 1))
-    added = law().levels(np.zeros((1, len(hearing.middles))), density)
+    reception = Reception(("z",), 25_600.0, seconds)
+    count = round(seconds * reception.rate)
+    noise = np.random.default_rng(1).normal(0.0, density * np.sqrt(0.5 * reception.rate), (count, 1))
+    added = law().levels(np.zeros((1, len(reception.middles))), density)
     # 230 independent lines in the narrowest band of 5.8 Hz: a standard deviation of 0.35 dB
-    assert levels_of(noise, hearing) == pytest.approx(added, abs=1.4)
-    assert np.mean(levels_of(noise, hearing) - added) == pytest.approx(0.0, abs=0.1)
+    assert levels_of(noise, reception) == pytest.approx(added, abs=1.4)
+    assert np.mean(levels_of(noise, reception) - added) == pytest.approx(0.0, abs=0.1)
 
 
 def test_intervals_widen_with_what_the_fit_leaves_and_with_scatter() -> None:
@@ -143,8 +143,8 @@ def test_slopes_that_two_seeds_do_not_agree_in_say_nothing() -> None:
 
 def test_stretches_are_put_together_by_speed() -> None:
     levels = np.zeros((2, 4))
-    heard = [Heard(speed, levels) for speed in (19.0, 19.2, 19.1, 12.0, 12.1, 7.0)]
-    rides = rides_of(heard)
+    received = [StretchLevels(speed, levels) for speed in (19.0, 19.2, 19.1, 12.0, 12.1, 7.0)]
+    rides = rides_of(received)
     assert [round(each.shaft_frequency, 1) for each in rides] == [19.1, 12.1]
     assert [len(each.levels) for each in rides] == [3, 2]
 

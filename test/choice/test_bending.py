@@ -152,7 +152,7 @@ def test_a_lower_band_needs_fewer_modes_and_longer_steps() -> None:
     assert low.numerics.steps_per_sample < whole.numerics.steps_per_sample
 
 
-def test_no_band_is_asked_for_that_no_sensor_hears() -> None:
+def test_no_band_is_asked_for_that_no_sensor_receives() -> None:
     with pytest.raises(InputError, match="vibration_to_Hz is 15000; the sensors measure to 10240 Hz"):
         boxed(vibration_to_Hz=15000)
     assert boxed(vibration_to_Hz=15000, sensors=FAST_SENSOR).vibration_to == 15000.0

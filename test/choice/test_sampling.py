@@ -124,7 +124,7 @@ def test_a_changed_scene_is_sampled_anew_and_one_of_another_rate_is_not() -> Non
     assert bd.scene(replace(asked(), sensors=sensors), vibration_to_Hz=2000.0).waveform_rate == 12_800.0
 
 
-def test_a_trial_hears_all_that_its_sensors_do() -> None:
+def test_a_trial_receives_all_that_its_sensors_do() -> None:
     trial = load_trial("quick")
     cell = next(cell for cell in trial.cells() if cell.tier == "lumped" or cell.tier == trial.tier)
     assert {sensor.rate for sensor in trial_scene(trial, cell).sensors} == {RATES[0]}

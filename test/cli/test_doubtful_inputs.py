@@ -174,14 +174,17 @@ def test_kilonewtons_under_a_header_of_newtons_are_doubted(
 def test_samples_at_the_end_of_a_sensor_s_range_are_counted_and_told() -> None:
     run = SyntheticRun()
     blocks: list[Block] = [run.block(index) for index in range(3)]
-    heard = np.concatenate([block.vibration[0].acceleration for block in blocks])
-    largest = float(np.abs(heard).max())
-    for range_, count in ((2.0 * largest, 0), (largest, int((np.abs(heard) >= largest).any(axis=1).sum()))):
+    received = np.concatenate([block.vibration[0].acceleration for block in blocks])
+    largest = float(np.abs(received).max())
+    for range_, count in (
+        (2.0 * largest, 0),
+        (largest, int((np.abs(received) >= largest).any(axis=1).sum())),
+    ):
         trend = desk_run.Trend((Accelerometer(range=range_),))
         for block in blocks:
             trend.add(block)
         summary = trend.summary(load_scene("static_5kN"), 1.0, desk_run.COMPLETE)
-        assert summary.clipped == ((("axlebox_top", count, len(heard)),) if count else ())
+        assert summary.clipped == ((("axlebox_top", count, len(received)),) if count else ())
         told = simulate.json_object(summary, None)["clipped_samples"]
         assert told == ({"axlebox_top": count} if count else {})
 

@@ -55,8 +55,8 @@ def test_a_run_is_simulated_recorded_monitored_and_reported(tmp_path: Path) -> N
     scene = ("cup_spall", "--tier", "lumped", "--effects", "standard", "--duration", "1.5", "-o", "run.mcap")
     done = light(MAIN, "simulate", *scene, folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    heard = light(MAIN, "monitor", "run.mcap", folder=tmp_path)
-    assert "BPFO found" in heard.stdout, heard.stderr
+    received = light(MAIN, "monitor", "run.mcap", folder=tmp_path)
+    assert "BPFO found" in received.stdout, received.stderr
     assert light(MAIN, "report", "run.mcap", folder=tmp_path).returncode == 0
     assert light(MAIN, "export", "run.mcap", "-o", "run.csv", folder=tmp_path).returncode == 0
 

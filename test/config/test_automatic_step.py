@@ -79,11 +79,11 @@ def test_a_fast_sensor_keeps_what_friction_needs() -> None:
     del data["numerics"]["steps_per_sample"]
     sensors = [{"name": "fast", "rate_kHz": 51.2}]
     alone = scene_from_text(yaml.safe_dump({**data, "effects": steep, "mounting": SUSPENDED}))
-    heard = scene_from_text(
+    received = scene_from_text(
         yaml.safe_dump({**data, "effects": steep, "mounting": SUSPENDED, "sensors": sensors})
     )
     assert alone.numerics.steps_per_sample == 11
-    assert heard.numerics.steps_per_sample == 12
+    assert received.numerics.steps_per_sample == 12
 
 
 BOX = {"preset": "standard", "structure": {"kind": "modes", "table": "high_speed"}}
@@ -91,7 +91,7 @@ BOX = {"preset": "standard", "structure": {"kind": "modes", "table": "high_speed
 
 @pytest.mark.parametrize(("steps", "needed", "turns"), [(1, 2, "5.1"), (4, 4, "10.2")])
 def test_modes_of_the_box_get_five_steps_a_turn(steps: int, needed: int, turns: str) -> None:
-    """The highest free one below 10 kHz; none where none is heard or the box is rigid."""
+    """The highest free one below 10 kHz; none where none is received or the box is rigid."""
     boxed, given = (
         scene_with_keys(numerics={}, effects=BOX, mounting=SUSPENDED),
         StepChoice(steps, "as given"),

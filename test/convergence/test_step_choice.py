@@ -181,8 +181,8 @@ def test_chosen_step_is_converged(point: str, band: float) -> None:
     assert abs(run.torque - fine.torque) < 5e-3 * abs(fine.torque) + 2.0 * doubt
     assert run.scatter == pytest.approx(fine.scatter, rel=0.2)
     assert run.chatter < LARGEST_CHATTER_INDEX
-    heard = 1.02 * band >= THIRDS
-    assert np.abs((run.levels - fine.levels)[heard]).max(initial=0.0) < 1.5
+    received = 1.02 * band >= THIRDS
+    assert np.abs((run.levels - fine.levels)[received]).max(initial=0.0) < 1.5
 
 
 def test_rings_on_an_axle_that_bends_get_another_step() -> None:
@@ -206,6 +206,6 @@ def test_films_of_pockets_knock_alike_at_the_usual_step_and_a_finer_one() -> Non
         twin = Twin(replace(scene, numerics=numerics, sensors=sensors))
         load = load_history(scene.operation, scene.mounting, DURATION, scene.seed, bearing=scene.bearing)
         twin.start(load)
-        heard = [twin.advance().acceleration[0, :, 2] for _ in range(round(DURATION / 0.02))]
-        levels.append(third_octaves(np.concatenate(heard[20:]))[THIRDS > 4500.0].mean())
+        received = [twin.advance().acceleration[0, :, 2] for _ in range(round(DURATION / 0.02))]
+        levels.append(third_octaves(np.concatenate(received[20:]))[THIRDS > 4500.0].mean())
     assert abs(levels[0] - levels[1]) < 1.0

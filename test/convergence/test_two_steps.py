@@ -33,8 +33,8 @@ def powers(name: str, tier: str, steps: int, seed: int) -> Float:
         sensors=tuple(replace(sensor, noise_density=0.0) for sensor in scene.sensors),
         numerics=replace(scene.numerics, steps_per_sample=steps),
     )
-    heard = [block.acceleration[0] for block in blocks(scene, DURATION) if block.start_ns >= SETTLED * 1e9]
-    return bands(np.concatenate(heard))[1][FIRST:] ** 2
+    received = [block.acceleration[0] for block in blocks(scene, DURATION) if block.start_ns >= SETTLED * 1e9]
+    return bands(np.concatenate(received))[1][FIRST:] ** 2
 
 
 def changed(name: str, tier: str, steps: int) -> tuple[Float, Float, NDArray[np.bool_]]:

@@ -1,4 +1,4 @@
-"""A monitor that hears only vibration, shaft and load finds spalls, and stays quiet on a healthy bearing."""
+"""A monitor of vibration, shaft and load alone finds spalls, and stays quiet on a healthy bearing."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WAVEFORM_RATE = 25_600.0
 
 
 @dataclass(frozen=True)
-class Heard:
+class Measurement:
     """What a train has of a run, and what the monitor said."""
 
     vibration: NDArray[np.float64]
@@ -34,7 +34,7 @@ class Heard:
 
 
 @cache
-def heard(scene_name: str, healthy: bool, seed: int | None = None, tier: str = "full") -> Heard:
+def received(scene_name: str, healthy: bool, seed: int | None = None, tier: str = "full") -> Measurement:
     """Run a scene, with or without its defects, and let the monitor listen."""
     scene = load_scene(scene_name, seed=seed, tier=tier)
     scene = replace(scene, defects=()) if healthy else scene
@@ -48,10 +48,10 @@ def heard(scene_name: str, healthy: bool, seed: int | None = None, tier: str = "
         speed.append(block.shaft_speed)
     settled = np.concatenate(vibration)[int(SETTLED * WAVEFORM_RATE) :]
     shaft_frequency = float(np.mean(np.concatenate(speed))) / (2.0 * np.pi)
-    return Heard(settled, shaft_frequency, orders, scene.bearing.roller_count, tuple(results))
+    return Measurement(settled, shaft_frequency, orders, scene.bearing.roller_count, tuple(results))
 
 
-def envelope_spectrum(run: Heard) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def envelope_spectrum(run: Measurement) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Shaft orders and envelope amplitude of the vertical axis, 2 to 10 kHz, independent of the monitor."""
     band = butter(4, [2000.0, 10_000.0], "bandpass", fs=WAVEFORM_RATE, output="sos")
     envelope = np.abs(hilbert(sosfiltfilt(band, run.vibration[:, 2])))
@@ -67,7 +67,7 @@ def line(orders: NDArray[np.float64], amplitude: NDArray[np.float64], order: flo
 
 
 def test_strongest_envelope_line_and_a_harmonic_of_a_cup_spall_are_bpfo() -> None:
-    run = heard("cup_spall", healthy=False)
+    run = received("cup_spall", healthy=False)
     orders, amplitude = envelope_spectrum(run)
     searched = (orders > 0.3 * run.roller_count) & (orders < 12.0 * run.roller_count)
     strongest = orders[searched][amplitude[searched].argmax()]
@@ -78,7 +78,7 @@ def test_strongest_envelope_line_and_a_harmonic_of_a_cup_spall_are_bpfo() -> Non
 
 
 def test_bpfo_stands_ten_decibels_above_the_identical_healthy_run() -> None:
-    faulty, healthy = heard("cup_spall", healthy=False), heard("cup_spall", healthy=True)
+    faulty, healthy = received("cup_spall", healthy=False), received("cup_spall", healthy=True)
     for harmonic in (1, 2):
         order = harmonic * faulty.orders.bpfo
         gain = line(*envelope_spectrum(faulty), order) / line(*envelope_spectrum(healthy), order)
@@ -86,7 +86,7 @@ def test_bpfo_stands_ten_decibels_above_the_identical_healthy_run() -> None:
 
 
 def test_monitor_names_a_cup_spall_within_one_percent_of_bpfo() -> None:
-    results = heard("cup_spall", healthy=False).results
+    results = received("cup_spall", healthy=False).results
     assert results
     for result in results:
         assert result.verdict == "cup"
@@ -94,14 +94,14 @@ def test_monitor_names_a_cup_spall_within_one_percent_of_bpfo() -> None:
 
 
 def test_monitor_is_quiet_on_the_identical_healthy_run() -> None:
-    results = heard("cup_spall", healthy=True).results
+    results = received("cup_spall", healthy=True).results
     assert results
     assert {result.verdict for result in results} == {"healthy"}
 
 
 @pytest.mark.parametrize("tier", [pytest.param("full", marks=pytest.mark.slow), "quasistatic"])
 def test_cone_spall_gives_bpfi_with_shaft_sidebands(tier: str) -> None:
-    run = heard("cone_spall", healthy=False, tier=tier)
+    run = received("cone_spall", healthy=False, tier=tier)
     assert {result.verdict for result in run.results} == {"cone"}
     orders, amplitude = envelope_spectrum(run)
     background = float(np.median(amplitude[(orders > 5.0) & (orders < 50.0)]))
@@ -113,14 +113,14 @@ def test_cone_spall_gives_bpfi_with_shaft_sidebands(tier: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [101, 102, 103, 104, 105])
 def test_monitor_raises_no_alarm_on_healthy_runs_of_other_seeds(seed: int) -> None:
-    results = heard("smooth_run", healthy=True, seed=seed).results
+    results = received("smooth_run", healthy=True, seed=seed).results
     assert {result.verdict for result in results} == {"healthy"}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [201, 202, 203])
 def test_monitor_finds_the_cup_spall_on_other_seeds(seed: int) -> None:
-    assert {result.verdict for result in heard("cup_spall", healthy=False, seed=seed).results} == {"cup"}
+    assert {result.verdict for result in received("cup_spall", healthy=False, seed=seed).results} == {"cup"}
 
 
 # Of `beardyn trial healthy`: one whose second stretch ends in a strike of its flat, the deepest lines of a

@@ -72,6 +72,12 @@ def test_every_page_is_in_the_site_once() -> None:
     assert sorted(listed) == sorted(there)
 
 
+def test_no_formula_needs_a_program_of_another_server() -> None:
+    for page in PAGES:
+        text = re.sub(r"^```.*?^```|`[^`]*`", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+        assert not re.search(r"\$[^$\n]+\$|\\frac|\{math\}", text), f"{page.name}: write formulas without TeX"
+
+
 def test_the_interface_page_has_every_name() -> None:
     text = (DOCS / "api.md").read_text(encoding="utf-8")
     listed = re.findall(r"^\.\. auto\w+:: beardyn_core\.(\w+)$", text, re.MULTILINE)
@@ -118,3 +124,6 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
     done = subprocess.run(words, capture_output=True, text=True, timeout=1200, check=False)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "html" / "searchindex.js").stat().st_size > 100_000
+    for page in (tmp_path / "html").rglob("*.html"):  # an archive is read without a connection
+        text = page.read_text(encoding="utf-8")
+        assert not re.search(r'<(script|link)[^>]*(src|href)="(https?:)?//', text), page

@@ -121,6 +121,30 @@ def test_messages_have_none() -> None:
     assert found == {}
 
 
+ROOMS_IN_PLAIN_WORDS = ("physics", "bearing")
+OLD_FASHIONED = {  # in docstrings and comments of these rooms, as well as what is given up above
+    r"\b(tell|tells|told) (whether|which|how|numba)\b": "check, find, measure",
+    r"\b(say|says) (where|why|that|how|of)\b": "state, report",
+    r"\b(do|does) not know\b": "is independent of, leaves out",
+    r"\b(is|temperature) wanted\b": "given, requested",
+    r"\bhastened\b": "accelerated",
+}
+
+
+@pytest.mark.parametrize("room", ROOMS_IN_PLAIN_WORDS)
+def test_docstrings_of_the_physics_have_plain_words(room: str) -> None:
+    found = {}
+    for path in sorted((ROOT / "beardyn_core" / room).rglob("*.py")):
+        nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        kinds = ast.Module | ast.ClassDef | ast.FunctionDef
+        texts = [ast.get_docstring(node) or "" for node in nodes if isinstance(node, kinds)]
+        whole = re.sub(r"`+[^`]*`+", "", " ".join(texts))  # without names
+        odd = [one[0] for words in OLD_FASHIONED for one in re.finditer(words, whole, re.I)]
+        if odd := [*odd, *given_up(whole)]:
+            found[path.name] = odd
+    assert found == {}
+
+
 def test_the_interface_has_none() -> None:
     names = {name: given_up(inspect.getdoc(getattr(bd, name)) or "") for name in bd.__all__}
     assert {name: found for name, found in names.items() if found} == {}

@@ -1,4 +1,4 @@
-"""Effects that are off by default leave no code: the step is no larger than one that never heard of them.
+"""Effects that are off by default leave no code: the step is no larger than one that never had them.
 
 For the comparison all kernels are built anew with the hooks of those effects cut out: functions that hand
 back what they were given. Two kernels, half a minute of compiling each, hence slow.

@@ -308,6 +308,8 @@ def test_the_box_of_a_scene_is_that_of_the_table() -> None:
         ({"sensors": [{"name": "a", "position_mm": [0, 0, 90]}]}, "sits on no seat of the box high_speed"),
         ({"effects": {"structure": {"kind": "modes", "table": "hi_speed"}}}, "did you mean high_speed?"),
         ({"bearing": "METRO120x220"}, "high_speed was made with the cup of HS130x230: outer_diameter 230"),
+        ({"bearing": "METRO120x220"}, "shipped boxes with the cup of METRO120x220: metro; effects auto take"),
+        ({"bearing": "FR130x230x150"}, "of FR130x230x150: freight_box, high_speed_FR130x230x150; "),
         ({"effects": {"structure": {"kind": "modes", "table": "none.csv"}}}, "none.csv: cannot be read"),
         (
             {"sensors": [{"name": "a", "position_mm": [0, 0, 170], "measured_paths": [{"path": "a.csv"}]}]},

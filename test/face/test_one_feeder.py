@@ -54,8 +54,8 @@ def test_run_and_blocks_feed_a_monitor_with_the_same_signals() -> None:
     live = list(run_monitor(monitor_of(scene), map(MonitorInput.of_block, blocks(scene))))
     later = list(run_monitor(monitor_of(scene), memory.to_run().monitor_inputs()))
     # the blocks of a run end where its filters let them, the parts of a recording every 512 samples: what is
-    # hardly heard in one may be heard in the other, and then the verdicts are the same
-    verdicts = [[each.verdict for each in heard] for heard in (live, later)]
+    # hardly seen in one may be seen in the other, and then the verdicts are the same
+    verdicts = [[each.verdict for each in received] for received in (live, later)]
     assert verdicts[0][-1] == verdicts[1][-1] == "cup"
     assert sum(one != other for one, other in zip(*verdicts, strict=True)) <= 1
     ends = np.array([[each.end_ns, other.end_ns] for each, other in zip(live, later, strict=True)])

@@ -28,10 +28,10 @@ def drawn(count: int, seed: int, shift: float = 0.0, noise: float = 1.0) -> Desc
     play = random.uniform(0.0, 2.5e-4, count)
     condition = random.choice(["healthy", "cup", "cone"], count)
     width = np.exp(random.uniform(np.log(2e-3), np.log(16e-3), count))
-    return heard(random, load, play, condition, width, shift, noise)
+    return received(random, load, play, condition, width, shift, noise)
 
 
-def heard(
+def received(
     random: np.random.Generator,
     load: Float,
     play: Float,

@@ -20,7 +20,7 @@ from beardyn_core.follow.estimator_choice import estimator_for, how_to_train, li
 from beardyn_core.follow.live_choice import LiveChoice
 from beardyn_core.follow.shipped import shipped_estimators
 from test.follow.synthetic import PLATE
-from test.follow.test_listening import measured, signal
+from test.follow.test_intake import measured, signal
 
 MINE = replace(load_bearing("HS130x230"), name="mine", roller_count=15)
 

@@ -23,7 +23,7 @@ from beardyn_core.follow.following import (
 from beardyn_core.follow.growth import GrowthLaw
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
-from test.follow.synthetic import NAMES, heard, standard_estimator
+from test.follow.synthetic import NAMES, received, standard_estimator
 
 NORMAL_OF_TEN = np.array([-1.64, -1.04, -0.67, -0.39, -0.13, 0.13, 0.39, 0.67, 1.04, 1.64])  # quantiles
 
@@ -45,7 +45,7 @@ def stretches(
     """Hear stretches of one bearing."""
     random, ones = np.random.default_rng(seed), np.ones(count)
     numbers = (load * ones, play * ones, np.repeat(condition, count), width * ones)
-    return heard(random, *numbers, length=length * ones).descriptors
+    return received(random, *numbers, length=length * ones).descriptors
 
 
 def followed(
@@ -177,7 +177,7 @@ def test_width_and_rate_of_a_growing_spall_are_followed(estimator: Estimator, ra
     ones = np.ones(count)
     ends = []
     for seed in (12, 13, 14):  # one of several draws can be off by chance
-        rows = heard(
+        rows = received(
             np.random.default_rng(seed), 5e4 * ones, 1e-4 * ones, np.repeat("cup", count), area / length,
             length=length * ones,
         ).descriptors  # fmt: skip
@@ -203,14 +203,14 @@ def test_what_no_stretch_tells_is_not_told_of_all_of_them(estimator: Estimator) 
     deaf = {name: replace(each, reach=20.0 * each.reach) for name, each in estimator.regressions.items()}
     last = followed(replace(estimator, regressions=deaf), stretches(5, "cup", 6, load=8e4))[-1]
     for name in ("vertical_load", "end_play", "width", "length"):
-        assert np.isnan(last.heard[name].value)
+        assert np.isnan(last.received[name].value)
         assert np.isnan(last.estimates[name].value)
         assert "not identifiable" in last.estimates[name].sentence
     assert last.remains is not None
     assert np.isnan([*last.remains.remaining, last.remains.life, *last.remains.used]).all()
-    heard = followed(estimator, stretches(5, "cup", 6, load=8e4))[-1]
-    assert heard.remains is not None
-    assert np.isfinite([*heard.remains.remaining, heard.remains.life, *heard.remains.used]).all()
+    received = followed(estimator, stretches(5, "cup", 6, load=8e4))[-1]
+    assert received.remains is not None
+    assert np.isfinite([*received.remains.remaining, received.remains.life, *received.remains.used]).all()
 
 
 def test_a_doubt_does_not_hide_that_a_bearing_must_come_out(estimator: Estimator) -> None:
@@ -229,7 +229,7 @@ def test_a_length_that_no_signal_tells_is_that_of_the_runs_learnt_from(estimator
     last = followed(replace(estimator, regressions=fewer), rows)[-1]
     assert last.estimates.part is not None
     assert last.estimates.part.condition == "cup"
-    assert not last.heard["length"].intervals  # of this stretch, which hears no spall
+    assert not last.received["length"].intervals  # of this stretch, which receives no spall
     assert last.estimates["length"].intervals[-1] == tuple(
         estimator.card["quantities"]["length"]["ranges"][-1]
     )

@@ -28,7 +28,7 @@ from beardyn_core.follow.mounting_search import (
 from beardyn_core.follow.mounting_watch import LATEST, MountingWatch
 from beardyn_core.monitor.chain import Stretch
 from test.follow.synthetic import PLATE
-from test.follow.test_listening import turning
+from test.follow.test_intake import turning
 from test.recordings import import_signal
 
 RATE, SAMPLES = 6400.0, 6400
@@ -40,7 +40,7 @@ RINGS = (
 TURN, LOUD = Mounting(TURNED, ("x",), 25.0, 0.8), Mounting(GAIN, AXES, 20.0, 0.9)
 
 
-def heard(seed: int) -> Stretch:
+def received(seed: int) -> Stretch:
     """Noise of a box with three modes, each with a direction of its own."""
     draw = np.random.default_rng(seed)
     frequency = np.arange(SAMPLES // 2 + 1) * RATE / SAMPLES
@@ -60,7 +60,7 @@ def learnt() -> Estimator:
     """An estimator that knows the levels of such boxes, and nothing else of them."""
     names, rows = names_of(AXES), np.full((130, len(names_of(AXES))), np.nan)
     for k, row in enumerate(rows):
-        for axis, signal in zip(AXES, (heard(k).acceleration).T, strict=True):
+        for axis, signal in zip(AXES, (received(k).acceleration).T, strict=True):
             levels = band_levels(signal - signal.mean(), RATE, FINE, 12)
             for frequency, level in levels.items():
                 row[names.index(f"fine_{axis}_{frequency:.0f}")] = level
@@ -77,8 +77,8 @@ def learnt() -> Estimator:
 
 
 def mounted(seed: int, matrix: Float) -> Stretch:
-    """What a sensor hears whose axes are a matrix times those stated."""
-    usual = heard(seed)
+    """What a sensor receives whose axes are a matrix times those stated."""
+    usual = received(seed)
     return replace(usual, acceleration=usual.acceleration @ matrix.T)
 
 
@@ -89,8 +89,8 @@ def turned(degrees: float) -> Float:
     return np.array([[1.0, 0.0, 0.0], cosine * along_y + sine * along_z, cosine * along_z - sine * along_y])
 
 
-def test_powers_of_bands_are_the_levels_that_an_estimator_hears() -> None:
-    stretch = heard(1)
+def test_powers_of_bands_are_the_levels_that_an_estimator_receives() -> None:
+    stretch = received(1)
     powers = np.diagonal(cross_powers(stretch), axis1=1, axis2=2)
     for axis in range(3):
         signal = stretch.acceleration[:, axis]
@@ -120,19 +120,19 @@ def test_a_mistake_of_mounting_is_named_with_its_amount(
 
 
 def test_what_is_familiar_or_of_another_box_is_no_mistake_of_mounting() -> None:
-    kept = [seed for seed in range(2000, 2020) if not mountings_of([heard(seed)], learnt())]
+    kept = [seed for seed in range(2000, 2020) if not mountings_of([received(seed)], learnt())]
     assert len(kept) == 20
-    other = heard(5).acceleration
+    other = received(5).acceleration
     lines = rfft(other, axis=0) * (1.0 + 3.0 * np.sin(np.arange(SAMPLES // 2 + 1) / 40.0) ** 2)[:, None]
-    strange = replace(heard(5), acceleration=irfft(lines, SAMPLES, axis=0))
+    strange = replace(received(5), acceleration=irfft(lines, SAMPLES, axis=0))
     assert strangeness_of([strange], learnt()) > 1.0
     assert mountings_of([strange], learnt()) == ()
-    dead = heard(5).acceleration * np.array([1.0, 0.0, 1.0])
-    assert mountings_of([replace(heard(5), acceleration=dead)], learnt()) == ()
+    dead = received(5).acceleration * np.array([1.0, 0.0, 1.0])
+    assert mountings_of([replace(received(5), acceleration=dead)], learnt()) == ()
 
 
 def test_an_estimator_of_one_axis_knows_no_mounting() -> None:
-    assert mountings_of([heard(1)], replace(learnt(), axes=("z",))) == ()
+    assert mountings_of([received(1)], replace(learnt(), axes=("z",))) == ()
 
 
 @pytest.mark.parametrize(
@@ -175,7 +175,7 @@ def test_a_run_with_exchanged_channels_is_told_so() -> None:
     found = estimates_of(turning(values, rate=RATE), learnt(), learnt().plate)
     assert found.strangeness > 1.0
     assert found.mountings[0].axes == ("x", "z", "y")
-    usual = np.concatenate([heard(seed).acceleration for seed in (1001, 1002)])
+    usual = np.concatenate([received(seed).acceleration for seed in (1001, 1002)])
     assert estimates_of(turning(usual, rate=RATE), learnt(), learnt().plate).mountings == ()
 
 
@@ -237,10 +237,10 @@ def test_a_live_watch_searches_when_it_is_due_and_forgets_what_has_gone() -> Non
         watch.take(mounted(seed, wrong))
     assert len(watch.due()) == LATEST
     for seed in range(2000, 2000 + LATEST):
-        watch.take(heard(seed))
+        watch.take(received(seed))
     assert not watch.sentence
     assert not watch.due()
     alone = MountingWatch(replace(learnt(), axes=("z",)))
     for seed in range(2):
-        alone.take(replace(heard(seed), acceleration=100.0 * heard(seed).acceleration[:, 2:]))
+        alone.take(replace(received(seed), acceleration=100.0 * received(seed).acceleration[:, 2:]))
     assert not alone.due()

@@ -16,7 +16,7 @@ PLATE = NamePlate(name="axlebox", roller_count=17, roller_diameter=26.7e-3, pitc
 HARMONICS = range(1, 9)
 
 
-def heard(shares: tuple[float, ...], part: str = "cup") -> dict[str, float]:
+def received(shares: tuple[float, ...], part: str = "cup") -> dict[str, float]:
     """Work out what a train of bursts of 6 kHz has, at these shares of each passage."""
     order = PLATE.frequencies.bpfo if part == "cup" else PLATE.frequencies.bpfi
     time = np.arange(round(SECONDS * RATE)) / RATE
@@ -34,7 +34,7 @@ def heard(shares: tuple[float, ...], part: str = "cup") -> dict[str, float]:
 @pytest.mark.parametrize("part", ["cup", "cone"])
 @pytest.mark.parametrize("share", [0.15, 0.22, 0.31])
 def test_harmonics_of_two_bursts_rise_and_fall_by_the_share_between(share: float, part: str) -> None:
-    one, two = heard((0.5,), part), heard((0.5, 0.5 + share), part)
+    one, two = received((0.5,), part), received((0.5, 0.5 + share), part)
     gain = np.array([two[f"harmonic_high_{k}"] - one[f"harmonic_high_{k}"] for k in HARMONICS])
     law = np.abs(np.cos(np.pi * share * np.array(HARMONICS)))
     clear = law > 0.2
@@ -44,7 +44,7 @@ def test_harmonics_of_two_bursts_rise_and_fall_by_the_share_between(share: float
 
 
 def test_levels_do_not_matter_and_every_name_has_a_number() -> None:
-    found = heard((0.5, 0.7))
+    found = received((0.5, 0.7))
     assert tuple(found) == NAMES
     assert np.sum(10.0 ** (0.1 * np.array([found[f"harmonic_high_{k}"] for k in range(1, 25)]))) == (
         pytest.approx(1.0)

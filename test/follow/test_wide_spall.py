@@ -24,7 +24,7 @@ from beardyn_core.follow.wide_spall import (
     fold_widths,
     spacings_of,
 )
-from test.follow.synthetic import NAMES, PLATE, RATE, STRETCH, heard
+from test.follow.synthetic import NAMES, PLATE, RATE, STRETCH, received
 
 DRAWING = PLATE if isinstance(PLATE, NamePlate) else NamePlate.of(PLATE)
 CUP, CONE = spacings_of(DRAWING)
@@ -41,7 +41,7 @@ def spalled(count: int, seed: int, noise: float = 1.0) -> Described:
     random = np.random.default_rng(seed)
     condition = random.choice(["cup", "cone"], count)
     width = np.exp(random.uniform(np.log(1.5e-3), np.log(LARGEST), count))
-    runs = heard(random, np.full(count, 5e4), np.full(count, 1e-4), condition, width)
+    runs = received(random, np.full(count, 5e4), np.full(count, 1e-4), condition, width)
     spacing = np.where(condition == "cone", CONE, CUP)
     way, wide = fold_widths(width, spacing), np.mod(width, spacing) > 0.5 * spacing
     for name in ("way_cup", "way_cone", "kurtosis"):
@@ -50,10 +50,10 @@ def spalled(count: int, seed: int, noise: float = 1.0) -> Described:
     runs.descriptors[:, NAMES.index("louder")] = condition == "cone"
     for part in ("cup", "cone"):
         runs.descriptors[:, NAMES.index(f"score_{part}")] = 10.0 * (condition == part)
-    heard_way = np.where(way > 3.2e-3, way - 0.6e-3 + 0.1e-3 * random.normal(size=count), 0.0)
-    runs.descriptors[:, NAMES.index(WAY)] = np.maximum(heard_way, 0.0)
+    received_way = np.where(way > 3.2e-3, way - 0.6e-3 + 0.1e-3 * random.normal(size=count), 0.0)
+    runs.descriptors[:, NAMES.index(WAY)] = np.maximum(received_way, 0.0)
     for name in CONTRASTS:
-        order = np.where(heard_way > 0.0, np.where(wide, 1.0, -1.0), 0.0)
+        order = np.where(received_way > 0.0, np.where(wide, 1.0, -1.0), 0.0)
         runs.descriptors[:, NAMES.index(name)] = order + noise * random.normal(size=count)
     return runs
 

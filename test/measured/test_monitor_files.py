@@ -150,6 +150,47 @@ def test_direct_and_recorded_verdicts_are_the_same(
         assert one["score_dB"] == pytest.approx(other["score_dB"], abs=1.5)
 
 
+def test_python_judges_a_measured_file_as_the_command_does(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = motor(tmp_path)
+    assert main(["monitor", str(path), "--speed-rpm", "1800", "--bearing", "6205", "--json"]) == 12
+    shown = json.loads(capsys.readouterr().out)
+    for source in (path, str(path), [path]):
+        found = bd.monitor(source, speed_rpm=1800, bearing="6205")
+        assert (found.verdict, found.agreeing) == (shown["verdict"], shown["agreeing"]) == ("cup", 7)
+    width = bd.severity(path, speed_rpm=1800, bearing="6205")
+    assert width is not None
+    page = tmp_path / "page.html"
+    bd.report(path, speed_rpm=1800, bearing="6205", html=page)
+    assert "outer ring (cup)" in page.read_text(encoding="utf-8")
+
+
+def test_python_says_what_a_measured_file_lacks(tmp_path: Path) -> None:
+    path = motor(tmp_path)
+    with pytest.raises(bd.InputError, match="does not name its bearing; give bearing"):
+        bd.monitor(path, speed_rpm=1800)
+    with pytest.raises(bd.InputError, match="speed"):
+        bd.monitor(path, bearing="6205")
+    with pytest.raises(bd.InputError, match="sped is no option of measured files; allowed are channels"):
+        bd.monitor(path, sped=1800, bearing="6205")
+    run = bd.read_measured(path, speed_rpm=1800, bearing="6205")
+    with pytest.raises(bd.InputError, match=r"speed_rpm: for measured files; .* is read already"):
+        bd.monitor(run, speed_rpm=1800)
+    with pytest.raises(bd.InputError, match=r"speed_rpm: for measured files; .*run.mcap is a recording"):
+        bd.monitor(tmp_path / "run.mcap", speed_rpm=1800)
+
+
+def test_a_measured_file_is_sent_to_the_commands_that_take_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    for command in ("report", "view"):
+        assert main([command, str(motor(tmp_path))]) == BAD_INPUT
+        assert "`beardyn monitor` takes it as it is" in capsys.readouterr().err
+
+
 def test_a_tacho_gives_the_same_verdict_as_a_constant_speed_when_the_shaft_speeds_up(tmp_path: Path) -> None:
     time = np.arange(60_000) / RATE
     turns = 25.0 * time + 1.0 * time**2

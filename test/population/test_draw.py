@@ -54,7 +54,7 @@ def test_sobol_and_latin_hypercube_fill_a_dimension_more_evenly_than_chance() ->
 @pytest.mark.parametrize("name", shipped_names("sweeps"))
 @pytest.mark.parametrize("sampling", ["as shipped", "sobol"])
 def test_nothing_that_a_run_has_tells_what_its_bearing_has(name: str, sampling: str) -> None:
-    """Else a learner hears the speed and says the spall: two sequences of Sobol went together by 0.96."""
+    """Else a learner receives the speed and says the spall: two sequences of Sobol went together by 0.96."""
     sweep = read_sweep(name)[0]
     changes: dict[str, Any] = {} if sampling == "as shipped" else {"sampling": sampling}
     sweep = replace(sweep, runs=512 * sweep.runs_per_bearing, **changes)

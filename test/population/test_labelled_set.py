@@ -73,8 +73,8 @@ def test_batches_give_every_run_of_a_part_once_in_another_order_each_time(
         for batch in runs.batches(2, part=None, labels=("condition", "kurtosis"), seed=seed, buffer=3):
             assert batch["vibration"].shape[0] == len(batch["run"]) <= 2
             np.testing.assert_array_equal(batch["condition"], runs.table["condition"][batch["run"]])
-            for run, heard in zip(batch["run"], batch["vibration"], strict=True):
-                np.testing.assert_array_equal(heard, runs.arrays["vibration"][int(run)])
+            for run, received in zip(batch["run"], batch["vibration"], strict=True):
+                np.testing.assert_array_equal(received, runs.arrays["vibration"][int(run)])
             found += batch["run"].tolist()
         assert sorted(found) == list(range(6))
         orders.append(tuple(found))

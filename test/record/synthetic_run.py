@@ -1,7 +1,7 @@
 """A kinematically right run without dynamics: blocks to feed the recording room with.
 
 Rollers and cages move as pure rolling demands; loads follow a load zone at the top of the cup; the
-accelerometer hears every roller that passes the middle of a cup spall.
+accelerometer receives every roller that passes the middle of a cup spall.
 """
 
 from __future__ import annotations

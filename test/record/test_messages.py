@@ -230,8 +230,8 @@ def test_a_block_that_ended_early_has_no_empty_messages(
 
 def test_times_before_zero_are_exact_in_the_header() -> None:
     block = SyntheticRun().block(0)
-    heard = block.vibration[0]
-    early = replace(block, vibration=(replace(heard, time_ns=heard.time_ns - 700_000),))
+    received = block.vibration[0]
+    early = replace(block, vibration=(replace(received, time_ns=received.time_ns - 700_000),))
     for name, stamp, cdr in BlockEncoder(17, ("axlebox_top",)).encode(early):
         if name == "vibration":
             assert stamp == -700_000

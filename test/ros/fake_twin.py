@@ -79,8 +79,10 @@ class FakeTwin:
         )
         if self._scene == "fake_one_axis":  # the sensor measures z alone
             only_z = np.array([np.nan, np.nan, 1.0])
-            heard = tuple(replace(each, acceleration=each.acceleration * only_z) for each in block.vibration)
-            block = replace(block, vibration=heard)
+            received = tuple(
+                replace(each, acceleration=each.acceleration * only_z) for each in block.vibration
+            )
+            block = replace(block, vibration=received)
         self._index += 1
         keep = max(int(np.searchsorted(self._load.time_ns, block.end_ns)) - 1, 0)
         self._load = self._load.part(keep, len(self._load))

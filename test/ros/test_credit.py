@@ -29,7 +29,7 @@ def periods(monkeypatch: pytest.MonkeyPatch, rate: float, lead: float = LEAD_S) 
     held.begin(0)
     begin, found = clock.now, []
     while clock.now < begin + 2.0:
-        held.hear(round((clock.now - begin) * rate / BLOCK_S) * round(BLOCK_S * 1e9))
+        held.receive(round((clock.now - begin) * rate / BLOCK_S) * round(BLOCK_S * 1e9))
         found.append(held.look_period(lead))
         clock.now += found[-1]
     return found
@@ -56,7 +56,7 @@ def test_silence_is_told_from_credit_that_does_not_move(monkeypatch: pytest.Monk
     clock = Clock()
     monkeypatch.setattr(replay, "time", clock)
     held = Credit()
-    held.hear(5)
+    held.receive(5)
     clock.now += 1.0
-    held.hear(5)
-    assert (held.heard_at, held.changed_at) == (101.0, 100.0)
+    held.receive(5)
+    assert (held.received_at, held.changed_at) == (101.0, 100.0)

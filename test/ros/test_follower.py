@@ -43,8 +43,8 @@ def test_follower_tells_what_a_train_does_not_measure_and_is_recorded(graph: Gra
     graph.until(
         lambda: follower in graph.node.get_node_names_and_namespaces(), "the follower's name in the graph"
     )
-    heard = graph.node.get_subscriber_names_and_types_by_node(*follower)
-    assert {name for name, _ in heard} - HOUSEKEEPING == ALLOWED
+    received = graph.node.get_subscriber_names_and_types_by_node(*follower)
+    assert {name for name, _ in received} - HOUSEKEEPING == ALLOWED
     graph.fake_load(duration=5.0)
     assert graph.exit_code("follower") == 0
     assert graph.exit_code("recorder") == 0
@@ -137,7 +137,7 @@ def test_a_gain_that_is_not_as_stated_is_in_the_diagnostics(graph: Graph, tmp_pa
 
 
 @pytest.mark.usefixtures("compiled_kernels")
-def test_a_twin_runs_beside_and_what_is_heard_is_compared_with_it(graph: Graph) -> None:
+def test_a_twin_runs_beside_and_what_is_received_is_compared_with_it(graph: Graph) -> None:
     graph.listen("follower/estimate", "follower/residual")
     graph.fake_twin(speed_factor=4.0)
     words = {"twin": "smooth_run", "twin_tier": "lumped", "exit_when_done": False}

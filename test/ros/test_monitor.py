@@ -28,8 +28,8 @@ def test_monitor_finds_the_cup_fault_and_subscribes_to_nothing_that_a_train_has_
     graph.until(
         lambda: monitor in graph.node.get_node_names_and_namespaces(), "the monitor's name in the graph"
     )
-    heard = graph.node.get_subscriber_names_and_types_by_node(*monitor)
-    assert {name for name, _ in heard} - HOUSEKEEPING == ALLOWED
+    received = graph.node.get_subscriber_names_and_types_by_node(*monitor)
+    assert {name for name, _ in received} - HOUSEKEEPING == ALLOWED
     graph.fake_load(duration=3.0)
     assert graph.exit_code("monitor") == 0
     statuses = [decode_diagnostics(cdr)[1][0] for cdr in graph.messages["monitor/result"]]
@@ -74,7 +74,7 @@ def test_numbers_are_left_out_and_every_sample_comes_as_the_parameters_say(graph
     assert graph.messages["vibration_samples"] == [encode_samples(cdr) for cdr in graph.messages["vibration"]]
 
 
-def test_a_fault_heard_with_the_data_of_another_bearing_is_unexplained_on_the_topic(graph: Graph) -> None:
+def test_a_fault_received_with_the_data_of_another_bearing_is_unexplained_on_the_topic(graph: Graph) -> None:
     graph.listen("monitor/result")
     graph.fake_twin(speed_factor=2.0)
     graph.node_process("monitor", bearing="FR130x230x150")

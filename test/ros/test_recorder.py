@@ -44,7 +44,7 @@ ABSENT = (*LIVE_ONLY, "temperature", "source_time", "vibration_samples", *OF_A_F
 
 
 def is_connected(graph: Graph, part: str) -> None:
-    """Wait until a node hears the twin: nobody misses a twin that it has never seen."""
+    """Wait until a node receives the twin: nobody misses a twin that it has never seen."""
     graph.until(
         lambda: any(status.value("connected") == "true" for status in graph.statuses(part)),
         f"the connection of the {part} to the twin",
@@ -93,8 +93,8 @@ def test_recording_is_complete_and_an_independent_reader_decodes_every_topic(gra
                 waveforms.append(message.data.tobytes())
     assert min(decoded.values()) > 0
     assert decoded["/axlebox/force"] == 640
-    heard = [cloud_to_arrays(cdr).tobytes() for cdr in graph.messages["vibration"]]
-    assert waveforms == heard
+    received = [cloud_to_arrays(cdr).tobytes() for cdr in graph.messages["vibration"]]
+    assert waveforms == received
 
 
 def test_kill_9_of_the_recorder_leaves_a_recoverable_file_and_the_twin_runs_on(graph: Graph) -> None:
@@ -258,7 +258,7 @@ def test_a_short_run_that_is_over_before_its_truth_comes_has_its_last_word(tmp_p
         values = (("run_id", run_id), ("state", state), ("messages bodies", str(bodies)))
         word = Diagnostic("axlebox/twin", 0, said, values)
         watch.take_statuses((word,))
-        recording.hear(word)
+        recording.receive(word)
         recording.add(topic("/diagnostics"), encode_diagnostics(0, "axlebox", [word]))
 
     def blocks(count: int) -> None:
@@ -329,7 +329,7 @@ def test_a_file_without_a_truth_has_the_last_word_of_the_twin(tmp_path: Path) ->
     recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
     recording.add(topic("truth"), encode_string(json.dumps({"scene": "x"})))
     word = Diagnostic("axlebox/twin", 0, "finished", (("run_id", "i-1"), ("state", FINISHED)))
-    recording.hear(word)
+    recording.receive(word)
     recording.add(topic("/diagnostics"), encode_diagnostics(0, "axlebox", [word]))
     recording.close("")
     recording.close("")
@@ -340,22 +340,22 @@ def test_a_file_without_a_truth_has_the_last_word_of_the_twin(tmp_path: Path) ->
 @pytest.mark.parametrize("count", [10, 2 * MESSAGES_BEFORE_TRUTH])
 def test_a_load_that_goes_on_behind_a_run_makes_no_file(tmp_path: Path, count: int) -> None:
     """It is of the next run; where none has begun, it may be all that there is, and is kept."""
-    heard = topic("/clock"), encode_time(0)
+    received = topic("/clock"), encode_time(0)
     recording = Recording(lambda _scene, number: free_name(tmp_path / "run.mcap", number), "/axlebox")
     recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": "one"})))
     recording.close("finished")
     for _ in range(count):
-        recording.add(*heard)
+        recording.add(*received)
     recording.add(topic("truth"), encode_string(json.dumps({"scene": "x", "run_id": "two"})))
     assert recording.current is not None
     kept = recording.current.counts["/clock"]
     assert min(count, MESSAGES_BEFORE_TRUTH // 2) <= kept <= MESSAGES_BEFORE_TRUTH
     recording.close("finished")
-    recording.add(*heard)
+    recording.add(*received)
     recording.close("the recorder was told to stop")
     assert [path.name for path in recording.paths] == ["run.mcap", "run_2.mcap"]
     alone = Recording(lambda _scene, number: free_name(tmp_path / "alone.mcap", number), "/axlebox")
-    alone.add(*heard)
+    alone.add(*received)
     alone.close("")
     assert recorded_topics(tmp_path / "alone.mcap") == {"/clock"}
 

@@ -160,7 +160,7 @@ def test_a_shared_file_has_what_each_box_said_once_and_ends_with_the_last(tmp_pa
     }
     for each in (a, b):
         for cdr in said.values():
-            each.add("/diagnostics", 0, cdr)  # everybody hears them all
+            each.add("/diagnostics", 0, cdr)  # everybody receives them all
     b.close("the twin has vanished")
     a.add("/diagnostics", 5, said["car/a/twin"])
     assert (a.message_count, b.counts["/diagnostics"]) == (4, 3)

@@ -219,7 +219,7 @@ def test_twin_publishes_every_topic_of_the_table_with_increasing_clock(graph: Gr
     assert float(graph.statuses("twin")[-1].value("pace")) == pytest.approx(1.0, abs=0.15)
 
 
-def test_two_twins_under_other_namespaces_do_not_hear_each_other(graph: Graph) -> None:
+def test_two_twins_under_other_namespaces_do_not_receive_each_other(graph: Graph) -> None:
     graph.start(
         "left", "test.ros.fake_twin", "twin", "--ros-args", "-r", "__ns:=/left", "-p", "scene:=fake",
         "-p", "publish_clock:=false",

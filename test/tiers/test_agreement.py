@@ -180,8 +180,8 @@ def _spalled(tier: str) -> np.ndarray:
     scene = scene_of("cup_spall", tier)
     assert scene.scatter is not None
     blocks = blocks_of(replace(scene, scatter=replace(scene.scatter, surface="none")), 2.1)
-    heard = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
-    return third_octave_levels(heard[:, None])
+    received = np.concatenate([block.vibration[0].acceleration[:, 2] for block in blocks])[2560:]
+    return third_octave_levels(received[:, None])
 
 
 @pytest.mark.parametrize("tier", FAST)

@@ -233,7 +233,7 @@ def test_a_run_begins_bent_and_quiet(tier: str, kind: str) -> None:
     assert np.abs(signals[:, SIGNAL_FORCE + 2] / 8e4 - 1.0).max() < 0.01
 
 
-def test_sensors_hear_the_modes_at_their_seats() -> None:
+def test_sensors_receive_the_modes_at_their_seats() -> None:
     """The channel behind the others is the acceleration of the seat: place times squared rate, 0.2 dB."""
     scene = replace(bent_scene("quasistatic", "modes", "cup_spall"), scatter=None)  # nothing else excites it
     twin = started(scene)
@@ -251,13 +251,13 @@ def test_sensors_hear_the_modes_at_their_seats() -> None:
         places[step] = fitted.sensors[:, 2] @ twin._state.flex[0] - rest
         found[step] = signals[0, SIGNAL_CHANNELS + 2]
     window = np.hanning(1024)
-    heard, moved = np.abs(np.fft.rfft(found * window)), np.abs(np.fft.rfft(places * window))
+    received, moved = np.abs(np.fft.rfft(found * window)), np.abs(np.fft.rfft(places * window))
     rate = 2.0 * np.pi * np.fft.rfftfreq(1024, 1.0 / 25600.0)
     bands = [(500.0, 1000.0), (1000.0, 2000.0), (2000.0, 4000.0)]
     for low, high in bands:
         band = (rate > 2.0 * np.pi * low) & (rate < 2.0 * np.pi * high)
         expected = np.linalg.norm((rate**2 * moved)[band])
-        assert np.linalg.norm(heard[band]) == pytest.approx(expected, rel=0.02), (low, high)
+        assert np.linalg.norm(received[band]) == pytest.approx(expected, rel=0.02), (low, high)
 
 
 def test_a_box_that_bends_takes_no_step_longer_than_a_sample() -> None:

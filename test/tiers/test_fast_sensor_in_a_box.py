@@ -20,7 +20,7 @@ from test.runs import blocks_of
 from test.tiers.runs import scene_of
 
 TIERS = ("full", "quasistatic", "lumped")
-HEARING = PASSBAND * RATES[1]  # [Hz]
+RECEPTION = PASSBAND * RATES[1]  # [Hz]
 HIGHER = 20_000.0 / 12_773.0  # brings the highest free mode of the shipped box to 20 kHz
 
 
@@ -48,7 +48,7 @@ def test_the_steps_of_a_fast_sensor_resolve_all_that_it_measures(tier: str) -> N
     scene = ringing(tier)
     modes = modes_of(scene)
     assert modes.frequency[: modes.free_count].max() == pytest.approx(20_000.0, rel=1e-4)
-    assert scene.numerics.steps_per_sample * WAVEFORM_RATE > STEPS_PER_TURN * HEARING
+    assert scene.numerics.steps_per_sample * WAVEFORM_RATE > STEPS_PER_TURN * RECEPTION
     if tier == "full":
         return
     fitted = step_body(scene, 1.0 / (scene.numerics.steps_per_sample * WAVEFORM_RATE))

@@ -102,8 +102,8 @@ def test_slip_spacing_lines_and_torque_are_those_of_the_full_tier() -> None:
     assert np.sqrt((apart**2).mean()) < 4.0
     from beardyn_core.study.measures import BAND_CENTRES
 
-    heard = (BAND_CENTRES > 30.0) & (BAND_CENTRES < 5_500.0)
-    assert np.abs(fast.levels - full.levels)[heard].max() < 4.0
+    received = (BAND_CENTRES > 30.0) & (BAND_CENTRES < 5_500.0)
+    assert np.abs(fast.levels - full.levels)[received].max() < 4.0
 
 
 @pytest.mark.parametrize(

@@ -83,7 +83,7 @@ def test_restored_sensors_go_on_with_the_same_bits(scene: Scene) -> None:
 
 
 def test_trends_of_a_fast_first_sensor_stand_where_those_of_the_others_do(scene: Scene) -> None:
-    """The same place heard at both rates, decimated to 400 Hz, differs by noise and rounding only."""
+    """The same place received at both rates, decimated to 400 Hz, differs by noise and rounding only."""
     place = Accelerometer("here", (0.0, 0.0, 0.1), 0.0, 1e9, mounting_resonance=30_000.0)
     quiet = (place, replace(place, rate=51_200.0))
     usual, fast = (

@@ -115,8 +115,8 @@ def test_without_film_and_friction_nothing_creeps(tier: str) -> None:
 def axial_levels(scene: Scene) -> Float:
     quiet = tuple(replace(sensor, noise_density=0.0, rate=25_600.0) for sensor in scene.sensors)
     blocks = list(start(replace(scene, duration=2.3, sensors=quiet)).blocks())
-    heard = np.concatenate([block.acceleration[0] for block in blocks])[7680:]
-    return third_octave_levels(heard[:, [1]])
+    received = np.concatenate([block.acceleration[0] for block in blocks])[7680:]
+    return third_octave_levels(received[:, [1]])
 
 
 @pytest.mark.slow

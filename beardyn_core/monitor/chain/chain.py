@@ -20,7 +20,7 @@ from beardyn_core.monitor.chain.ambiguity import (
 )
 from beardyn_core.monitor.chain.cage_turns import score_with_turns
 from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
-from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unheard
+from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unmeasured
 from beardyn_core.monitor.chain.explanations import PART_NAMES
 from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
@@ -101,7 +101,7 @@ class Chain:
         speed = stretch.shaft_frequency
         unknown, hidden = parts_without_order(orders), parts_on_the_shaft(orders, stretch.revolutions)
         not_judged = (*unknown, *hidden)
-        if why := unheard(stretch, settings):
+        if why := unmeasured(stretch, settings):
             return MonitorResult(
                 NOT_DIAGNOSABLE,
                 why,
@@ -127,9 +127,9 @@ class Chain:
             deep = replace(
                 settings, least_strikes=settings.clockwork_strikes, least_sharpest=never, faint_margin=np.inf
             )
-            heard = self.decide(clockwork, stretch, deep)
-            if heard.name in (*FAULTS, UNEXPLAINED):
-                found, verdict, lined = clockwork, heard, measured
+            received = self.decide(clockwork, stretch, deep)
+            if received.name in (*FAULTS, UNEXPLAINED):
+                found, verdict, lined = clockwork, received, measured
         if verdict.name == HEALTHY and (why := doubt(stretch)):
             verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         levels = levels_of(stretch.in_band(settings.band)[stretch.inner], speed)

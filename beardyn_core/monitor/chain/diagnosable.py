@@ -23,7 +23,7 @@ def live_axes(stretch: Stretch) -> tuple[Stretch, str]:
     return replace(stretch, acceleration=stretch.acceleration[:, live]), dead
 
 
-def unheard(stretch: Stretch, settings: MonitorSettings) -> str:
+def unmeasured(stretch: Stretch, settings: MonitorSettings) -> str:
     """Say why nothing can be found in a stretch, empty when something can."""
     least = 2.0 * (settings.lowest_band + settings.narrowest_band)
     if stretch.rate < least * (1.0 - _RATE_TOLERANCE):

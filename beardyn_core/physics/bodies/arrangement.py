@@ -57,7 +57,7 @@ class Arrangement:
 
     @property
     def present(self) -> NDArray[np.bool_]:
-        """Tell whether a roller is there, shape [row, roller]."""
+        """Check whether a roller is there, shape [row, roller]."""
         there = np.ones((self.rows, self.roller_count), dtype=bool)
         for row, roller in self.missing:
             there[row, roller] = False

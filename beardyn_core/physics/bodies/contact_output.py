@@ -24,7 +24,7 @@ class Here(NamedTuple):
 
 
 class ContactOutput(NamedTuple):
-    """What an output says of one contact of a roller, in its orbit frame."""
+    """What an output reports of one contact of a roller, in its orbit frame."""
 
     force: Vector  # on the roller [N]
     arm: Vector  # from the centre of mass to the contact [m]
@@ -110,7 +110,7 @@ def account_gravity(here, work, audit):
 
 @inline
 def output_contact(lanes, rollers, block, kind, output):
-    """Write what the last step says of one contact of a block of rollers.
+    """Write what the last step gives of one contact of a block of rollers.
 
     ``kind``: ``CUP``, ``CONE``, ``RIB`` or ``POCKET``.
     """

@@ -28,7 +28,7 @@ class Held(NamedTuple):
 
 @inline
 def is_fresh(step, held):
-    """Tell whether friction is worked out in a step of a block, however the contacts are."""
+    """Check whether friction is worked out in a step of a block, however the contacts are."""
     if held is None:
         return False
     return step % int(held.steps) == 0

@@ -19,7 +19,7 @@ MOMENTUM = 9  # 3 components of the angular momentum about the centre of mass [N
 SPIN = 12  # rotation about the own axis relative to the orbit frame [rad]
 ROLLER_STATES = 13
 
-# --- what the last step says of each roller: per contact 8 fields
+# --- what the last step gives of each roller: per contact 8 fields
 CONTACT_OUTPUT = 13
 OUTPUT_FORCE = 0  # 3 components of the force on the roller [N]
 OUTPUT_ARM = 3  # 3 components from the centre of mass to the contact [m]
@@ -111,8 +111,8 @@ PLACE_AZIMUTH, PLACE_REPEATS, PLACE_RADIUS, PLACE_ARC_RADIUS, PLACE_REACH, PLACE
 PATCH_FIELDS = 6
 PATCH_POINTS = 258  # of a path: 256 cells and one point beyond
 
-# --- springs near a patch (sound or damaged part of a lamina) [0, spring x field, lane]
-# firmness is that of the sound surface under a patch's sharp edges, the softening its relative loss
+# --- springs near a patch (intact or damaged part of a lamina) [0, spring x field, lane]
+# firmness is that of the intact surface under a patch's sharp edges, the softening its relative loss
 SPRING_SHARE, SPRING_GAP, SPRING_FIRMNESS = range(3)
 SPRING_RING_SLOPE, SPRING_RING_SOFTENING = 3, 4
 SPRING_ROLLER_SLOPE, SPRING_ROLLER_SOFTENING = 5, 6

@@ -38,7 +38,7 @@ class Body(NamedTuple):
 
 
 class View(NamedTuple):
-    """A ring or cage as a roller sees it, in the roller's orbit frame."""
+    """A ring or cage in the orbit frame of a roller."""
 
     origin: Vector  # from the cup's origin [m]
     axis: Vector  # a cage shows its small rotation without the spin here, [rad]

@@ -18,7 +18,7 @@ LOAD_SPEED, LOAD_BOGIE = 6, 7  # after the six components of the load
 
 @inline
 def row_of(group, lane, width, rows):
-    """Tell which row's rollers a lane of a group holds."""
+    """Find which row's rollers a lane of a group holds."""
     if width == 1:
         return group
     return rows * lane // width

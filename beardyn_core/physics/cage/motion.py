@@ -70,7 +70,7 @@ def _place(bodies, cage, rotating, kinematic):
                 bodies[body, turn + i] = 0.5 * (
                     bodies[layout.CUP_BODY, turn + i] + bodies[layout.CONE_BODY, turn + i]
                 )
-            # tilted rings carry the cages, which stand beside their centre
+            # tilted rings carry the cages, which stand next to their centre
             bodies[body, place + X] -= lift * bodies[body, turn + Z]
             bodies[body, place + Z] += lift * bodies[body, turn + X]
 

@@ -15,7 +15,7 @@ from beardyn_core.scene.scene import Scene
 
 
 class PocketFilmParams(NamedTuple):
-    """Lubricant between roller and bar, at one of two abscissae unless said otherwise; see `pocket_loads`."""
+    """Lubricant between roller and bar; at one of two abscissae, see `pocket_loads`."""
 
     wedge: float  # load over rolling speed and radius over gap [N s/m]
     squeeze: float  # load over speed of approach and (radius over gap)^1.5 [N s/m]
@@ -72,7 +72,7 @@ def rolling_speed(slip, direction, axis, film):
 
 @inline
 def is_reached(depth, film):
-    """Tell whether the wall acts on any lane; a film acts within the thickness of its layer."""
+    """Check whether the wall acts on any lane; a film acts within the thickness of its layer."""
     if film is None:
         return any_positive(depth)
     return any_positive(1.0 + film.inverse_layer * depth)

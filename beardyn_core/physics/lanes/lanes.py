@@ -261,7 +261,7 @@ def _align_stack(_typing: Any, lanes: Any) -> Any:
 def align_stack(lanes: Lanes) -> None:
     """Keep the lane values that find no register where none lies across two cache lines.
 
-    For entry points. LLVM knows of such values too late to align the stack by itself; on the 16 bytes that
+    For entry points. LLVM learns of such values too late to align the stack by itself; on the 16 bytes that
     it is given three of four stores and loads of them take two cache lines, also in a step that spills
     hundreds of times.
     """
@@ -289,7 +289,7 @@ def _lower(emit: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _type_calls(function: Any, arity: int, vectors_only: bool) -> None:
-    """Tell numba the type of calls with lane values; ``vectors_only``: of those that have a vector.
+    """Give numba the type of calls with lane values; ``vectors_only``: of those that have a vector.
 
     An overload would do, too, but numba compiles one like a function, for each combination of types.
     """
@@ -353,7 +353,7 @@ def _any_positive(_typing: Any, a: Any) -> Any:
 
 
 def any_positive(a: Any) -> Any:
-    """Tell whether any lane is above zero: the one way to branch on lane values."""
+    """Check whether any lane is above zero: the one way to branch on lane values."""
     return bool(np.any(np.greater(a, 0.0)))
 
 

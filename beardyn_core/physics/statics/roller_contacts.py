@@ -31,7 +31,7 @@ from beardyn_core.effects.lamina_coupling import bearing_lamina_root
 from beardyn_core.physics.modal_body import ModalBody
 
 # The end sphere of a forced bearing that is centred this close to the bearing axis, where its direction from
-# there says nothing, is pushed along its roller's meridian [m].
+# there counts for nothing, is pushed along its roller's meridian [m].
 _ON_AXIS = 1.0e-3
 _NOT_ASKED = np.empty(0)
 

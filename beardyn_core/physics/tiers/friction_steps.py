@@ -45,7 +45,7 @@ def usual_steps(effects: EffectSet, laminae: int) -> int:
     """Find the steps per sample of a full run that names none: the tier's, or more where friction is steep.
 
     Friction whose slope depends on the speed (load sharing without a film) is taken at an entrainment of
-    5 m/s; `choose_steps` knows the slowest speed.
+    5 m/s; `choose_steps` uses the slowest speed.
     """
     slope = fixed_slope(effects)
     if isinstance(effects.traction, LoadSharingTraction) and effects.film is None:

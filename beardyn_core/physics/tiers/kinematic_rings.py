@@ -151,7 +151,7 @@ def journal_velocity(bodies):
 def add_response(lanes, bodies, flex, axle, before, signal, box, work, p):
     """Add the wrench of `hold_response` to a step that has been taken without it, and move the modes.
 
-    Cup and cone get opposite wrenches. The channels get the dampers' part only: what they say is force and
+    Cup and cone get opposite wrenches. The channels get the dampers' part only: what they give is force and
     acceleration of the instant itself.
 
     ``before`` (5 numbers): `journal_velocity` before the step; ``signal`` [SIGNAL_CHANNELS]: changed: force

@@ -140,15 +140,15 @@ def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
 
 @inline
 def over_patches(approach, moments):
-    """Work out the approach at which a sound roller has the load of one over patches, and its slope.
+    """Work out the approach at which an intact roller has the load of one over patches, and its slope.
 
     ``approach``: of cone and cup [m]; ``moments`` (3 numbers): means over the laminae of `gap_moments`.
 
-    The roller is rigid: what the laminae over a patch give up those beside it take over, and the contact
+    The roller is rigid: what the laminae over a patch give up those next to it take over, and the contact
     with the other ring remains whole. With the share f under the patch, of firmness s and with a gap g,
     balance at the depth e is ``(1 - f) e + f s (e - g) = D - e`` for contacts that are linear in e, and the
-    sound roller has ``2 (D - e)``. Laminae that have let go altogether leave ``(1 - f)^0.9`` of the firmness
-    of a 10/9 law. The load is right to 3.5 % of that of a sound roller.
+    intact roller has ``2 (D - e)``. Laminae that have let go altogether leave ``(1 - f)^0.9`` of the firmness
+    of a 10/9 law. The load is right to 3.5 % of that of an intact roller.
     """
     free = exp2(0.9 * log2(at_least(1.0 - moments[0], _LEAST_FIRM)))
     left = at_most(2.0 * free / (1.0 + free), 1.0)

@@ -160,7 +160,7 @@ def cone_waves(lanes, block, nearest, azimuths, faults, highest, damage):
 
 @inline
 def free_flight(motion, cup, steady, p):
-    """Work out where contacts of a step are linearised, as velocities, and what presses besides them.
+    """Work out where contacts of a step are linearised, as velocities, and what else presses.
 
     ``motion`` (3 numbers): radial and axial velocity against the cup and tilt rate before the step [m/s],
     [rad/s]; ``cup`` (2 numbers): radial and axial acceleration of the cup [m/s^2]; ``steady`` (2 numbers):

@@ -91,7 +91,7 @@ def describe(status: int) -> str:
 
 
 def is_fatal(status: int) -> bool:
-    """Tell whether the run has to end."""
+    """Check whether the run has to end."""
     fatal = Status.NOT_FINITE | Status.PENETRATION | Status.OFF_RIB
     return bool(Status(status) & fatal)
 
@@ -107,7 +107,7 @@ def chatter_index(state: State, step_count: int) -> NDArray[np.float64]:
 
     The rms of what flips in the friction force (`bodies.contact_output.watch_chatter`) over the rms of the
     friction capacity. Full friction that flips every step has the index 2, every second step 0.7; smooth
-    friction has nearly 0, and a strike what it is beside its own load.
+    friction has nearly 0, and a strike what it is compared with its own load.
     """
     index = []
     for ring in range(2):
@@ -187,7 +187,7 @@ def _judge(rollers, bodies, step_count, large_end_radius, faces):
 
 @inline
 def _chatters(rollers, block, lane, step_count):
-    """Tell whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
+    """Check whether the chatter index of a roller is too large on cup or cone; see `chatter_index`."""
     found = False
     for ring in range(2):
         first = CHATTER + ring * CHATTER_FIELDS
@@ -216,7 +216,7 @@ def _from_axis(rollers, block, lane):
 
 @inline
 def _beyond_face(rollers, block, lane, faces):
-    """Tell how far the rib contact is beyond the edges of its face, the cone's place neglected, [m]."""
+    """Measure how far the rib contact is beyond the edges of its face, the cone's place neglected, [m]."""
     first = CONTACT_OUTPUT + RIB * OUTPUT_FIELDS + OUTPUT_ARM
     out, along = rollers[block, first, lane], rollers[block, first + 2, lane]
     beyond = -math.inf

@@ -111,7 +111,7 @@ def ring_motion_params(base: Parameters) -> RingMotionParams:
     """Work out the motion of axlebox and journal.
 
     The suspension damps with the velocity of the middle of the step, (m + h c/2) a = F; a box that hangs
-    beside its centre keeps that of the beginning.
+    next to its centre keeps that of the beginning.
     """
     mounting, gravity = base.mounting, base.effects.gravity
     steady = mounting.preload.copy()

@@ -172,9 +172,11 @@ def draw_strikes(axes: Axes, inspection: Inspection) -> None:
     count = min(len(values), round(_TURNS * signal.rate / hertz))
     margin = min(count, (len(values) - count) // 2)
     begin = max(0, (len(values) - count) // 2 - margin)
-    heard = _in_band(values[begin : begin + count + 2 * margin], signal.rate, band)[margin : margin + count]
-    axes.plot(np.arange(len(heard)) * (1e3 / signal.rate), heard, color=_INK, linewidth=0.5)
-    end = len(heard) * 1e3 / signal.rate
+    received = _in_band(values[begin : begin + count + 2 * margin], signal.rate, band)[
+        margin : margin + count
+    ]
+    axes.plot(np.arange(len(received)) * (1e3 / signal.rate), received, color=_INK, linewidth=0.5)
+    end = len(received) * 1e3 / signal.rate
     axes.set(xlim=(0.0, end))
     at = (begin + margin) / signal.rate
     title = f"{_TURNS:g} turns of the shaft from {at:.2f} s, axis {name}, {band[0]:.0f} to {band[1]:.0f} Hz"

@@ -20,7 +20,7 @@ TOPIC = re.compile(r"topic(?:\s*:\s*(\d+\.?\d*)\s*%)?")
 KEPT_S = 60.0  # of samples, for a follower that is behind
 
 
-class LoadHearing:
+class LoadReception:
     """Samples of the vertical load as they come, and their mean over a time.
 
     Parameters

@@ -10,7 +10,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.measured.about import Mounted
-from beardyn_core.measured.stream import Heard, Stream
+from beardyn_core.measured.stream import SensorBlock, Stream
 from beardyn_core.measured.survey import Survey
 from beardyn_core.monitor.speed import SpeedTrack, speed_from_vibration
 from beardyn_core.monitor.streaming import measured_axes
@@ -19,7 +19,7 @@ PIECE_S = 10.0  # of vibration that is searched at a time
 _RPM = 60.0  # of a hertz
 
 
-def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
+def with_found_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
     """Find the speed in the vibration of the first accelerometer, where it was asked for.
 
     Raises
@@ -75,15 +75,15 @@ def with_heard_speed(survey: Survey, bearings: Sequence[Mounted]) -> Survey:
         f"{path}: by the vibration the shaft turns with {slowest:.5g} to {fastest:.5g} rpm, "
         f"give or take {doubt:.3g}"
     )
-    return replace(survey, heard=whole, told=(*survey.told, told))
+    return replace(survey, received=whole, told=(*survey.told, told))
 
 
 def _pieces(survey: Survey, rate: float) -> Iterator[tuple[float, Float]]:
     """Give begin [s] and vibration of pieces without a gap; a short rest belongs to the piece before."""
-    parts: list[Heard] = []
+    parts: list[SensorBlock] = []
     count = 0
     for part in Stream(survey):
-        if not isinstance(part, Heard) or part.sensor != survey.sensors[0]:
+        if not isinstance(part, SensorBlock) or part.sensor != survey.sensors[0]:
             continue
         gap = bool(parts) and part.sample != parts[-1].sample + len(parts[-1].time_ns)
         if parts and (gap or count >= PIECE_S * rate):
@@ -96,10 +96,10 @@ def _pieces(survey: Survey, rate: float) -> Iterator[tuple[float, Float]]:
         yield _join_parts(parts)
 
 
-def _tail(parts: list[Heard], rate: float) -> int:
+def _tail(parts: list[SensorBlock], rate: float) -> int:
     """Count the parts of the last third, with which the next piece begins: no piece is a short rest."""
     return max(1, int(PIECE_S * rate / 3.0 / max(1, len(parts[-1].time_ns))))
 
 
-def _join_parts(parts: list[Heard]) -> tuple[float, Float]:
+def _join_parts(parts: list[SensorBlock]) -> tuple[float, Float]:
     return parts[0].time_ns[0] * 1e-9, measured_axes(np.concatenate([part.acceleration for part in parts]))

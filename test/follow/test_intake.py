@@ -1,4 +1,4 @@
-"""What is heard of a run: stretches at the estimator's rate, the command, runs that are refused."""
+"""What is received of a run: stretches at the estimator's rate, the command, runs that are refused."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ def estimator() -> Estimator:
 def signal(seconds: float, rate: float = RATE, axes: int = 3) -> Float:
     """Noise with a line at twice the rollers' passing on z, 3 m/s^2, shape [sample, axis]."""
     time = np.arange(round(seconds * rate)) / rate
-    heard = np.random.default_rng(1).normal(0.0, 0.5, (len(time), axes))
-    heard[:, -1] += 3.0 * np.sin(2.0 * np.pi * 2.0 * ORDERS.bpfo * SHAFT_HZ * time)
-    return heard
+    received = np.random.default_rng(1).normal(0.0, 0.5, (len(time), axes))
+    received[:, -1] += 3.0 * np.sin(2.0 * np.pi * 2.0 * ORDERS.bpfo * SHAFT_HZ * time)
+    return received
 
 
 def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
@@ -50,7 +50,7 @@ def measured(folder: Path, values: Float, rate: float = RATE) -> Path:
 
 
 def turning(values: Float, speed_hz: float = SHAFT_HZ, rate: float = RATE) -> Any:
-    """What is heard of a run that begins a second after zero, whose shaft turns evenly."""
+    """What is received of a run that begins a second after zero, whose shaft turns evenly."""
     time_ns = 1_000_000_000 + np.round(np.arange(len(values)) * 1e9 / rate).astype(np.int64)
     shaft_ns = np.arange(990_000_000, time_ns[-1] + 10_000_000, 2_500_000)
     angle = (2.0 * np.pi * speed_hz * 1e-9 * shaft_ns + np.pi) % (2.0 * np.pi) - np.pi
@@ -59,7 +59,7 @@ def turning(values: Float, speed_hz: float = SHAFT_HZ, rate: float = RATE) -> An
     return SimpleNamespace(label="run", sensors={"box": signal}, vibration=signal, shaft=shaft)
 
 
-def test_a_shaft_that_turns_backwards_is_heard_as_if_forwards(estimator: Estimator) -> None:
+def test_a_shaft_that_turns_backwards_is_received_as_if_forwards(estimator: Estimator) -> None:
     values = signal(1.6)
     run = turning(values, -SHAFT_HZ)
     intake = StretchIntake(estimator)
@@ -97,7 +97,7 @@ def test_what_the_other_stream_does_not_follow_is_forgotten(first: str, estimato
     assert (intake.gaps, intake.unfit) == (0, 0)
 
 
-def test_an_intake_says_why_it_hears_nothing(estimator: Estimator) -> None:
+def test_an_intake_says_why_it_receives_nothing(estimator: Estimator) -> None:
     values = signal(1.6)
     values[:, :2] = np.nan
     with pytest.raises(InputError, match="axis x is not measured; the estimator needs x, y, z: train one"):
@@ -136,7 +136,7 @@ def test_lines_and_bands_have_the_levels_of_the_signal() -> None:
 @pytest.mark.parametrize(
     ("rate", "seconds", "count"), [(RATE, 4.6, 3), (2.0 * RATE, 3.1, 2), (RATE, 1.46, 1)]
 )
-def test_a_run_is_heard_in_whole_stretches_at_the_rate_learnt(
+def test_a_run_is_received_in_whole_stretches_at_the_rate_learnt(
     rate: float, seconds: float, count: int, tmp_path: Path, estimator: Estimator
 ) -> None:
     run = bd.read(measured(tmp_path, signal(seconds, rate), rate))
@@ -217,7 +217,7 @@ def test_command_tells_what_the_function_finds(
         (2.0, RATE, 3, {"sensor": "bottom"}, "has no sensor 'bottom'"),
     ],
 )
-def test_runs_that_cannot_be_heard_are_refused(
+def test_runs_that_cannot_be_received_are_refused(
     seconds: float, rate: float, axes: int, options: dict[str, Any], sentence: str,
     tmp_path: Path, estimator: Estimator,
 ) -> None:  # fmt: skip

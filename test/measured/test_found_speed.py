@@ -7,7 +7,7 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
-from beardyn_core.measured.heard_speed import PIECE_S
+from beardyn_core.measured.found_speed import PIECE_S
 from beardyn_core.monitor.speed import speed_from_vibration
 
 PLATE = bd.name_plate("6205")
