@@ -20,7 +20,7 @@ from beardyn_core.effects import ModalStructure
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.tiers.step_choice import AUDIBLE_BAND
 from beardyn_core.scene.defect import WornPocket, every_patch
-from beardyn_core.scene.operation import QuarterVehicleOperation
+from beardyn_core.scene.operation import ConstantOperation, QuarterVehicleOperation, SteppedOperation
 from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES
@@ -110,6 +110,15 @@ class Evidence:
         if not isinstance(operation, QuarterVehicleOperation):
             return False
         return bool(operation.wheel_defects or operation.rail_defects)
+
+    @property
+    def runs_quietly(self) -> bool:
+        """Whether nothing shakes the box at high frequencies: fault, surface, wheel, rail, background."""
+        scene = self.scene
+        steady = isinstance(scene.operation, ConstantOperation | SteppedOperation)
+        made = scene.scattered is not None and scene.scattered.made_surface != "none"
+        forces = scene.background is not None and scene.background.forces
+        return steady and not (made or forces or self.patches)
 
     @property
     def band(self) -> float:
