@@ -180,8 +180,11 @@ def test_a_scene_takes_a_cylindrical_pair_and_its_text_gives_it_back(name: str) 
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ({"bearing": {"cone_ribs": "none"}}, "holds the axle along its axis"),
-        ({"rows": 1}, "holds the axle along its axis"),
+        ({"bearing": {"cone_ribs": "none"}}, "nothing holds the axle along its axis"),
+        (
+            {"rows": 1},
+            "a single row with cone_ribs outer, cup_ribs both: it holds the axle",
+        ),
         ({"end_play_mm": 0.1}, "roller_play"),
         ({"bearing": "HS130x230", "radial_clearance_mm": 0.1}, "its play is end_play_mm"),
     ],
