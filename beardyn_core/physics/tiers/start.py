@@ -190,12 +190,12 @@ def settle_lumped(
         if p.thrust is not None:
             whole = np.zeros(5)
             whole[: min(held, 5)] = place[: min(held, 5)]
-            push, along, tangent = thrust_at(
-                whole, np.concatenate(places), np.concatenate(row_of), approach, p.thrust
-            )
-            along = along[:, :held]
-            left[:held] -= push @ along
-            stiffness[:held, :held] += (along * tangent[:, None]).T @ along
+            ribs = thrust_at(whole, np.concatenate(places), np.concatenate(row_of), approach, p.thrust)
+            along = np.zeros_like(normal)
+            along[:, :held] = ribs.by_pose[:, :held]
+            ways = np.stack([along, normal])  # the way along the axle and the approach, in the unknowns
+            left -= ribs.force @ along + ribs.pressing @ normal
+            stiffness += np.einsum("irk,rij,jrl->kl", ways, ribs.tangent, ways)
         return left, stiffness
 
     missing, stiffness = missing_at(found)
