@@ -37,8 +37,8 @@ def scene_file(folder: Path, name: str) -> Path:
     return path
 
 
-def test_two_of_each_kind_are_shipped() -> None:
-    assert (len(CYLINDRICAL), len(SPHERICAL)) == (2, 2)
+def test_each_kind_is_shipped_with_sources() -> None:
+    assert (len(CYLINDRICAL), len(SPHERICAL)) == (3, 2)
     for name in OTHERS:
         bearing = bd.bearing(name)
         assert all(source for _, source in bearing.sources)
