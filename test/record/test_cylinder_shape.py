@@ -58,8 +58,9 @@ def beyond_the_raceway(mesh: meshes.Mesh, raceway: float, inwards: bool) -> np.n
 def test_ribs_of_both_rings_stand_beside_the_rollers_on_their_sides(
     name: str, cup_ribs: str, cone_ribs: str
 ) -> None:
-    bearing = replace(load_any_bearing(name), cup_ribs=cup_ribs, cone_ribs=cone_ribs)
+    bearing = load_any_bearing(name)
     assert isinstance(bearing, CylindricalBearing)
+    bearing = replace(bearing, cup_ribs=cup_ribs, cone_ribs=cone_ribs)
     shape = BearingShape(**asdict(BearingShape.of(bearing)))
     for mesh, raceway, inwards, sides, height in (
         (meshes.cup(shape), bearing.cup_radius, True, cup_ribs, bearing.cup_rib_height),
