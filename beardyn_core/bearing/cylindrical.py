@@ -34,6 +34,11 @@ class CylindricalBearing(RadialBearing):
     element: ClassVar[str] = "cylinder"
     words: ClassVar[str] = "cylindrical roller bearing"
     largest_thrust: ClassVar[float] = 0.4  # FAG and INA, catalogue, cylindrical roller bearings
+    single_row_hint: ClassVar[str] = (
+        "a single row carries thrust towards a rib of its inner ring only, where the outer ring has one at "
+        "the other ends of its rollers (cone_ribs, cup_ribs), or on a prop "
+        "(mounting.axial_prop_stiffness_MN_per_m)"
+    )
 
     row_spacing: A[float, At("mm", gt=0.0), "between the roller mid-lengths of both rows"]
     profile: A[Profile, "of the roller generator"] = Profile()
@@ -91,14 +96,23 @@ class CylindricalBearing(RadialBearing):
         return (0.5 * self.roller_diameter - self.rib_contact_height) / math.sin(self.rib_opening)
 
     @property
+    def thrust_rib_sides(self) -> tuple[float, ...]:
+        """Sides of a row, 1 outer and -1 inner, whose rib of the inner ring passes thrust on.
+
+        The outer ring has one at the other ends of the rollers. Row 0 carries a force on the axle of the same
+        sign along y, row 1 of the other.
+        """
+        return tuple(side for side in self.cone_rib_sides if -side in self.cup_rib_sides)
+
+    @property
     def carries_thrust(self) -> bool:
         """Whether a row has a rib of the inner ring and one of the outer at the other roller ends."""
-        return any(-side in self.cup_rib_sides for side in self.cone_rib_sides)
+        return bool(self.thrust_rib_sides)
 
     @property
     def row_is_held(self) -> bool:
         """Whether one row alone passes thrust on in both directions."""
-        return all(side in self.cone_rib_sides and -side in self.cup_rib_sides for side in (-1.0, 1.0))
+        return len(self.thrust_rib_sides) == 2
 
     @property
     def cone_rib_sides(self) -> tuple[float, ...]:

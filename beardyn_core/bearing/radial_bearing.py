@@ -22,6 +22,7 @@ class RadialBearing(RollerBearing):
     """A double-row bearing with symmetric rollers, whose play is a radial clearance."""
 
     usual_laminae: ClassVar[int] = 30
+    play_words: ClassVar[str] = "radial clearance"
 
     name: A[str, At(longest=80), "of the bearing"]
     description: A[str, "what it is, in a few words"] = ""

@@ -29,6 +29,12 @@ class RollerBearing:
     steel_factor: ClassVar[float] = 1.1
     # axial force over the radial one that catalogues allow at most
     largest_thrust: ClassVar[float] = math.inf
+    # what a search that finds no equilibrium names: the play, and what holds one row along the axle
+    play_words: ClassVar[str] = "end play"
+    single_row_hint: ClassVar[str] = (
+        "a single row needs an axial load or a prop against its own thrust "
+        "(mounting.axial_prop_stiffness_MN_per_m)"
+    )
     # laminae that a static answer takes when no count is given
     usual_laminae: ClassVar[int] = 1
 

@@ -277,12 +277,20 @@ def _not_of_this_kind(
     if given["end_play"] is not None:
         for sentence in check(bearing.mounted(given["end_play"])):
             yield Problem(sentence.removesuffix("."), ("end_play_mm",))
-    held = bearing.carries_thrust and (given["rows"] == ROW_COUNT or bearing.row_is_held)
+    single = given["rows"] != ROW_COUNT
+    held = bearing.row_is_held if single else bearing.carries_thrust
     if not held and getattr(given["mounting"], "axial_prop_stiffness", 1.0) == 0.0:
+        ribs = f"cone_ribs {bearing.cone_ribs}, cup_ribs {bearing.cup_ribs}"
+        if bearing.carries_thrust:
+            lack = f"with rows 1 is a single row with {ribs}: it holds the axle along its axis one way only"
+        else:
+            lack = (
+                f"has {ribs}: no rib of the inner ring has one of the outer ring at the other ends of its "
+                "rollers, so that nothing holds the axle along its axis"
+            )
         yield Problem(
-            f"{bearing.name} has cone_ribs {bearing.cone_ribs}, cup_ribs {bearing.cup_ribs} and rows is "
-            f"{given['rows']}: nothing holds the axle along its axis either way; give "
-            "mounting.axial_prop_stiffness_MN_per_m",
+            f"{bearing.name} {lack}; give mounting.axial_prop_stiffness_MN_per_m, or ribs "
+            f"{'on both sides of both rings, as NUP has' if single else 'as NJ and NJP have'}",
             ("rows",) if bearing.carries_thrust else ("bearing",),
         )
 

@@ -13,6 +13,7 @@ from typing import Annotated as A
 
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.plain_json import read_object
+from beardyn_core.bearing.cylindrical import RIBS
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.scene.defect import Defect, MissingRoller, defect_from
 from beardyn_core.scene.load import LoadHistory
@@ -44,11 +45,22 @@ class BearingShape:
     outer_diameter: float
     width: float
     rib_contact_height: A[float, "of the rib contact above the cone raceway"]
+    # of cylindrical bearings; recordings of earlier versions have them not
+    cup_ribs: A[str, "sides on which the outer ring of a row has a rib: none, inner, outer, both"] = "none"
+    cone_ribs: A[str, "the same of the inner ring"] = "outer"
+    cup_rib_height: A[float, "above the raceway"] = 0.0
+    cone_rib_height: A[float, "above the raceway"] = 0.0
 
     @classmethod
     def of(cls, bearing: RollerBearing) -> BearingShape:
         """Take the shape of a bearing."""
-        return cls(**{member.name: getattr(bearing, member.name) for member in fields(cls)})
+        return cls(
+            **{
+                member.name: getattr(bearing, member.name)
+                for member in fields(cls)
+                if hasattr(bearing, member.name)
+            }
+        )
 
     @property
     def is_cylindrical(self) -> bool:
@@ -229,6 +241,12 @@ def _check(run: RunDescription) -> None:
     sizes = (shape.pitch_diameter, shape.roller_diameter, shape.roller_length, shape.outer_diameter)
     if not (all(0.0 < size < LARGEST_SIZE for size in sizes) and 0.0 <= shape.contact_angle < pi / 2.0):
         raise ValueError("a dimension of the bearing is none")
+    heights = (shape.cup_rib_height, shape.cone_rib_height)
+    if not (
+        all(0.0 <= height < shape.roller_diameter for height in heights)
+        and {shape.cup_ribs, shape.cone_ribs} <= set(RIBS)
+    ):
+        raise ValueError("a rib of the bearing is none")
     texts = (run.scene, run.scene_text, *run.body_names)
     if not all(isinstance(text, str) for text in texts) or len(run.body_names) > MOST_BODIES:
         raise ValueError("the scene or the names of the bodies are no texts")

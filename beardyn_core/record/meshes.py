@@ -106,7 +106,13 @@ def raceway_radius(shape: BearingShape, ring: str, distance: float) -> tuple[flo
 
 
 def cup(shape: BearingShape) -> Mesh:
-    """Build the cup, cut open over `CUT_OPEN`."""
+    """Build the cup with its ribs, cut open over `CUT_OPEN`."""
+    azimuth = np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 121)
+    if shape.is_cylindrical:
+        raceway = raceway_radius(shape, "cup", 0.0)[1]
+        ring = (-0.5 * shape.width, 0.5 * shape.width, raceway, 0.5 * shape.outer_diameter)
+        ribs = _ribs(shape, shape.cup_ribs, raceway - shape.cup_rib_height, raceway)
+        return join_meshes(*(_sector(_rectangle(*each), azimuth) for each in (ring, *ribs)))
     half = shape.roller_length / 2.0
     inner_small = raceway_radius(shape, "cup", -1.06 * half)
     inner_large = raceway_radius(shape, "cup", 1.30 * half)
@@ -120,7 +126,6 @@ def cup(shape: BearingShape) -> Mesh:
     ]
     left = [(-y, r) for y, r in reversed(right)]
     profile = np.array([*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]])
-    azimuth = np.linspace(CUT_OPEN[1], CUT_OPEN[0] + 2.0 * pi, 121)
     return join_meshes(
         revolve(profile, azimuth), section(profile, CUT_OPEN[1], -1.0), section(profile, CUT_OPEN[0], 1.0)
     )
@@ -128,6 +133,14 @@ def cup(shape: BearingShape) -> Mesh:
 
 def cone(shape: BearingShape) -> Mesh:
     """Build both cones with their ribs and the spacer, with a dark mark that shows the rotation."""
+    azimuth = np.linspace(0.0, 2.0 * pi, 145)
+    if shape.is_cylindrical:
+        raceway = raceway_radius(shape, "cone", 0.0)[1]
+        ring = (-0.5 * shape.width, 0.5 * shape.width, 0.5 * shape.bore, raceway)
+        height = shape.cone_rib_height or 2.2 * shape.rib_contact_height
+        ribs = _ribs(shape, shape.cone_ribs, raceway, raceway + height)
+        mesh = join_meshes(*(revolve(_rectangle(*each), azimuth) for each in (ring, *ribs)))
+        return mark_vertices(mesh, _in_sector(mesh, 0.06))
     half = shape.roller_length / 2.0
     bore, middle = shape.bore / 2.0, shape.row_spacing / 2.0
     small = raceway_radius(shape, "cone", -1.04 * half)
@@ -148,7 +161,6 @@ def cone(shape: BearingShape) -> Mesh:
         (end, bore),
     ]
     left = [(-y, r) for y, r in reversed(right)]
-    azimuth = np.linspace(0.0, 2.0 * pi, 145)
     mesh = revolve(np.array([*left, *right, left[0]]), azimuth)
     return mark_vertices(mesh, _in_sector(mesh, 0.06))
 
@@ -220,6 +232,26 @@ def spall(shape: BearingShape, defect: Patch | FieldSpall) -> Mesh:
     half = max(defect.width / 2.0 / float(profile[:, 1].mean()), 0.004)
     mesh = revolve(profile, np.linspace(defect.azimuth - half, defect.azimuth + half, 12))
     return _on_side(mesh, defect.row)
+
+
+def _ribs(
+    shape: BearingShape, sides: str, low: float, high: float
+) -> list[tuple[float, float, float, float]]:
+    """List where ribs of a cylindrical ring stand in both rows: from and to along y, and in radius, [m]."""
+    face, edge, middle = 0.505 * shape.roller_length, 0.5 * shape.width, 0.5 * shape.row_spacing
+    inner_edge = max(2.0 * middle - edge, 0.0)  # of the ring of a row
+    found = []
+    if sides in ("outer", "both"):
+        found.append((middle + face, edge))
+    if sides in ("inner", "both"):
+        found.append((inner_edge, middle - face))
+    rows = [*found, *((-end, -begin) for begin, end in found)]
+    return [(begin, end, low, high) for begin, end in rows if end > begin and high > low]
+
+
+def _rectangle(begin: float, end: float, low: float, high: float) -> Float:
+    """Make the closed profile of a ring for `revolve`."""
+    return np.array([(begin, low), (begin, high), (end, high), (end, low), (begin, low)])
 
 
 def mark_vertices(mesh: Mesh, where: NDArray[np.bool_]) -> Mesh:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from beardyn_core.base.errors import InputError
+from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.any_bearing import AnyBearing
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.profile import Profile
@@ -160,3 +160,26 @@ def test_centrifugal_force_presses_every_roller_on_the_cup() -> None:
     light = bearing.roller_mass * orbit**2 * 0.5 * bearing.pitch_diameter
     assert found.cup_load.min() == pytest.approx(light, rel=1e-6)
     assert_allclose(found.cup_load - found.cone_load, light, rtol=1e-5)
+
+
+@pytest.mark.parametrize("thrust", [-100.0, 100.0])
+def test_a_single_row_that_finds_no_rest_is_told_in_words_of_cylinders(thrust: float) -> None:
+    """No cones that drive apart, no end play: ribs, and radial clearance."""
+    with pytest.raises(ValidityError) as refused:
+        solve(shipped(), (0.0, thrust, 0.0), end_play=None, rows=1)
+    sentence = str(refused.value)
+    assert "rib of" in sentence
+    assert "cone_ribs" in sentence
+    assert "own thrust" not in sentence
+    assert "end play" not in sentence
+    if thrust > 0.0:  # towards its rib, but no roller is pressed that would hold the rib's couple
+        assert "radial clearance" in sentence
+
+
+@pytest.mark.parametrize(("cone_ribs", "way"), [("outer", 1.0), ("inner", -1.0)])
+def test_a_single_row_carries_thrust_towards_its_rib(cone_ribs: str, way: float) -> None:
+    bearing = replace(shipped(), cone_ribs=cone_ribs)
+    found = solve(bearing, (0.0, 2e3 * way, 4e4), end_play=None, rows=1, laminae=20)
+    assert found.rib_load.sum() == pytest.approx(2e3, rel=0.01)
+    with pytest.raises(ValidityError, match="2000 N push the axle"):
+        solve(bearing, (0.0, -2e3 * way, 4e4), end_play=None, rows=1, laminae=20)

@@ -12,7 +12,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.cli import main as command
 from beardyn_core.config.folders import find
 from beardyn_core.config.load import read_scene_mapping
-from beardyn_core.config.nouns import box_for, load_bearing, load_box
+from beardyn_core.config.nouns import box_for, load_any_bearing, load_bearing, load_box
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.mounting import Mounting
 from beardyn_core.structure.box import Box
@@ -108,6 +108,20 @@ def test_every_shipped_bearing_fits_in_the_box(name: str) -> None:
     assert modes.inertia[1] == pytest.approx(table.inertia[1] * across**4 * along, rel=0.1)
     assert modes.frequency[:2] == pytest.approx(table.frequency[:2] / across, rel=0.12)
     assert {seat: modes.places[seat] for seat in table.seats}.keys() == table.places.keys()
+
+
+@pytest.mark.parametrize("name", ["freight_box", "freight_WJ130x240"])
+def test_the_coarsest_mesh_has_modes_near_those_of_the_shipped_one(name: str) -> None:
+    """Edges of 60 mm for 15 mm; so large elements flatten where their edges follow the bore."""
+    need_finite_elements()
+    box, table = load_box(name), read_table(table_path(name))
+    assert isinstance(box, Box)
+    modes = modes_of(box, load_any_bearing(box.bearing), mesh=0.06, highest=3000.0).modes
+    assert modes.mass == pytest.approx(table.mass, rel=0.01)
+    # coarse elements are stiffer, never softer
+    stiffer = modes.frequency[:4] / table.frequency[:4]
+    assert stiffer.min() > 1.0
+    assert stiffer.max() < 1.06
 
 
 @pytest.mark.parametrize(

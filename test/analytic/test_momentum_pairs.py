@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.config import load_any_bearing
 from beardyn_core.physics.bodies.layout import (
     ANGULAR,
+    AXIAL,
     CAGE_BODY,
     CHANGE,
     CONE_BODY,
@@ -17,18 +22,22 @@ from beardyn_core.physics.bodies.layout import (
     ENERGY_LOST,
     LINEAR,
     RATE,
+    ROLLER_STATES,
     TILT,
     TURN,
 )
 from beardyn_core.physics.bodies.losses import LOSSES
+from beardyn_core.scene.scene import Scene
 from test.kernels.momentum import assert_momentum_is_exchanged
 from test.kernels.naive_step import rotated
 from test.kernels.rig import Rig
 from test.kernels.states import shaken
+from test.scenes import standard_scene
 
 Float = NDArray[np.float64]
 FAR = 1.0
 CONTACTS = ("all", "cup", "cone", "rib", "pocket")
+RIBS = ("cone_outer", "cone_inner", "cup_outer", "cup_inner")
 
 
 def only_contact(rig: Rig, name: str) -> None:
@@ -55,6 +64,52 @@ def test_force_and_moment_on_rollers_and_rings_vanish_in_sum(contact: str, seed:
     rig = shaken(seed)
     only_contact(rig, contact)
     assert_momentum_is_exchanged(rig)
+
+
+@cache
+def cylinders() -> Scene:
+    """A pair with ribs on both sides of both rings, and little play, so that shaken rollers touch all."""
+    bearing = load_any_bearing("WJ130x240")
+    assert isinstance(bearing, CylindricalBearing)
+    bearing = replace(bearing, cone_ribs="both", roller_play=2e-5, end_play=4e-5)
+    return replace(standard_scene(), bearing=bearing, end_play=bearing.end_play)
+
+
+def only_contact_of_cylinders(rig: Rig, name: str) -> None:
+    """Take the other contacts far away, and each rib but the named one."""
+    p = rig.parameters
+    flanges, cage = p.effects.flanges, p.effects.cage
+    assert flanges is not None
+    assert cage is not None
+    if name not in ("cup", "all"):
+        p = p._replace(cup=p.cup._replace(gap=FAR))
+    if name not in ("cone", "all"):
+        p = p._replace(cone=p.cone._replace(gap=FAR))
+    for each in RIBS:
+        if name not in (each, "all"):
+            flange = getattr(flanges, each)
+            rib = flange.rib._replace(distance=flange.rib.distance + FAR)
+            flanges = flanges._replace(**{each: flange._replace(rib=rib)})
+    if name not in ("pocket", "all"):
+        cage = cage._replace(half_clearance=FAR, half_end_clearance=FAR)
+    rig.parameters = p._replace(effects=p.effects._replace(flanges=flanges, cage=cage))
+
+
+@pytest.mark.parametrize("contact", ["all", "cup", "cone", *RIBS, "pocket"])
+@pytest.mark.parametrize("seed", [51, 52, 53])
+def test_force_and_moment_on_cylinders_and_rings_vanish_in_sum(contact: str, seed: int) -> None:
+    """The same of each rib of each ring, about the world's origin, raceways and pockets."""
+    rig = shaken(seed, scene=cylinders())
+    fields = rig.fields()[:ROLLER_STATES]
+    shape = fields.shape[1:]
+    fields[AXIAL] += np.random.default_rng(seed).normal(0.0, 3e-5, shape)
+    rig.set_fields(fields)
+    only_contact_of_cylinders(rig, contact)
+    assert_momentum_is_exchanged(rig)
+    if contact in RIBS:  # the ring that has the rib is pushed along, the other is left alone
+        pushed, idle = (CONE_BODY, CUP_BODY) if contact.startswith("cone") else (CUP_BODY, CONE_BODY)
+        assert np.linalg.norm(rig.work.wrenches[pushed, :3]) > 10.0
+        assert np.linalg.norm(rig.work.wrenches[idle, :3]) < 1e-9
 
 
 @pytest.mark.parametrize("seed", [21, 22])

@@ -14,12 +14,13 @@ from beardyn_core.config.yaml_text import read_file
 from beardyn_core.monitor.streaming import Monitor, MonitorInput
 from beardyn_core.run import blocks
 
-DURATION = 4.6  # 40 turns of the shaft
+DURATION = 4.6  # 40 turns of the shaft of the wagon, 26 of the locomotive
+LOCOMOTIVE = "locomotive_cylindrical_cup"
 
 
-def scene_of(tier: str, **defect: Any) -> Any:
+def scene_of(tier: str, shipped: str = "freight_cylindrical_cup", **defect: Any) -> Any:
     """The shipped wagon with background and scatter, in a rigid box, with another spall or none."""
-    path = find("scenes", "freight_cylindrical_cup")
+    path = find("scenes", shipped)
     keys = {**read_file(path), "tier": tier, "effects": "standard"}
     keys["sensors"] = [{**keys["sensors"][0], "position_mm": [0, 0, 170]}]
     keys["defects"] = [{**keys["defects"][0], **defect}] if defect else []
@@ -57,3 +58,12 @@ def test_a_spall_of_each_part_is_named(tier: str, defect: dict[str, Any]) -> Non
 @pytest.mark.parametrize("tier", ["quasistatic", "lumped"])
 def test_a_healthy_pair_is_named_healthy(tier: str) -> None:
     assert set(last_verdicts(scene_of(tier))) == {"healthy"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("defect", [{}, {"on": "cup"}], ids=["healthy", "cup"])
+def test_a_spalled_outer_ring_of_a_locomotive_is_named_and_a_healthy_one_is_not(
+    defect: dict[str, Any],
+) -> None:
+    verdicts = last_verdicts(scene_of("quasistatic", LOCOMOTIVE, **defect))
+    assert set(verdicts) == {defect.get("on", "healthy")}

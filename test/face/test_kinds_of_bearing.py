@@ -37,8 +37,8 @@ def scene_file(folder: Path, name: str) -> Path:
     return path
 
 
-def test_two_of_each_kind_are_shipped() -> None:
-    assert (len(CYLINDRICAL), len(SPHERICAL)) == (2, 2)
+def test_each_kind_is_shipped_with_sources() -> None:
+    assert (len(CYLINDRICAL), len(SPHERICAL)) == (3, 2)
     for name in OTHERS:
         bearing = bd.bearing(name)
         assert all(source for _, source in bearing.sources)
@@ -180,8 +180,11 @@ def test_a_scene_takes_a_cylindrical_pair_and_its_text_gives_it_back(name: str) 
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ({"bearing": {"cone_ribs": "none"}}, "holds the axle along its axis"),
-        ({"rows": 1}, "holds the axle along its axis"),
+        ({"bearing": {"cone_ribs": "none"}}, "nothing holds the axle along its axis"),
+        (
+            {"rows": 1},
+            "a single row with cone_ribs outer, cup_ribs both: it holds the axle",
+        ),
         ({"end_play_mm": 0.1}, "roller_play"),
         ({"bearing": "HS130x230", "radial_clearance_mm": 0.1}, "its play is end_play_mm"),
     ],

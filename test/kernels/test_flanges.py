@@ -144,7 +144,7 @@ def test_share_of_thrust_is_the_root_of_its_way(way: float, depth: float) -> Non
     root = brentq(lambda force: path.softness * force ** (2.0 / 3.0) + lean * force - way, 0.0, 1e7)
 
     def share(at: float) -> tuple[float, float]:
-        force, tangent = plain(_share)(np.array([at]), np.array([depth]), path, thrust)
+        force, tangent, _ = plain(_share)(np.array([at]), np.array([depth]), path, thrust)
         return float(force[0]), float(tangent[0])
 
     force, tangent = share(way)
@@ -161,3 +161,41 @@ def test_a_roller_that_leans_through_its_clearance_carries_nothing_before() -> N
     for way, carries in ((0.9 * lost, False), (1.5 * lost, True)):
         force = plain(_share)(np.array([way]), open_by, path, thrust)[0]
         assert (float(force[0]) > 0.0) is carries
+
+
+def added(way: float, depth: float) -> tuple[float, float]:
+    """Axial force and what a roller adds to its raceways, [N]."""
+    thrust = thrust_params(pair(), 30)
+    assert thrust is not None
+    force, _, more = plain(_share)(np.array([way]), np.array([depth]), thrust.inwards, thrust)
+    return float(force[0]), float(more[0])
+
+
+@pytest.mark.parametrize(
+    ("way", "depth"), [(2e-6, 4e-5), (5e-6, 6e-5), (1e-5, 3e-5), (9e-5, -5e-5), (2e-4, -1e-4)]
+)
+def test_a_leaning_roller_presses_its_raceways_by_what_its_spring_gains_with_depth(
+    way: float, depth: float
+) -> None:
+    """Energy: force over way, integrated, at two depths; a roller that is pressed all along blends."""
+    thrust = thrust_params(pair(), 30)
+    assert thrust is not None
+    ways, step = np.linspace(0.0, way, 20_001), 1e-8
+    energy = [
+        np.trapezoid(plain(_share)(ways, np.full_like(ways, at), thrust.inwards, thrust)[0], ways)
+        for at in (depth - step, depth + step)
+    ]
+    gained = float(energy[1] - energy[0]) / (2.0 * step)
+    force, more = added(way, depth)
+    expected = gained if depth < 0.0 else gained / (1.0 + gained / (thrust.tip * force))
+    assert more == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_roller_that_touches_with_its_ends_alone_has_the_couple_of_its_ribs_over_its_length() -> None:
+    bearing = pair()
+    force, more = added(3e-4, -1e-4)
+    assert more == pytest.approx(
+        force * (bearing.roller_diameter - 2.0 * bearing.rib_contact_height) / bearing.effective_length
+    )
+    # none leaps as the raceways of a roller close
+    assert added(3e-4, -1e-12)[1] == pytest.approx(added(3e-4, 1e-12)[1], rel=1e-3)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 
+from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.config import load_any_bearing
 from beardyn_core.record import meshes
-from beardyn_core.record.description import BearingShape
+from beardyn_core.record.description import BearingShape, RunDescription
 from test.bearings import CYLINDRICAL, TAPERED
+from test.record.synthetic_run import description
 
 
 @pytest.mark.parametrize("name", [*CYLINDRICAL, *TAPERED])
@@ -39,3 +42,46 @@ def test_rollers_of_the_picture_fill_the_space_between_the_raceways(name: str) -
     assert np.abs(roller[:, 0]).max() == pytest.approx(0.5 * bearing.roller_length)
     for mesh in (meshes.cup(shape), meshes.cone(shape), meshes.cage(shape, 0), meshes.cage(shape, 1)):
         assert np.isfinite(mesh.vertices).all()
+
+
+def beyond_the_raceway(mesh: meshes.Mesh, raceway: float, inwards: bool) -> np.ndarray:
+    """Places along y of what stands more than 1 mm above a raceway."""
+    radius = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
+    above = radius < raceway - 1e-3 if inwards else radius > raceway + 1e-3
+    found: np.ndarray = mesh.vertices[above, 1]
+    return found
+
+
+@pytest.mark.parametrize("name", CYLINDRICAL)
+@pytest.mark.parametrize("cup_ribs", ["none", "inner", "outer", "both"])
+@pytest.mark.parametrize("cone_ribs", ["none", "inner", "outer", "both"])
+def test_ribs_of_both_rings_stand_beside_the_rollers_on_their_sides(
+    name: str, cup_ribs: str, cone_ribs: str
+) -> None:
+    bearing = load_any_bearing(name)
+    assert isinstance(bearing, CylindricalBearing)
+    bearing = replace(bearing, cup_ribs=cup_ribs, cone_ribs=cone_ribs)
+    shape = BearingShape(**asdict(BearingShape.of(bearing)))
+    for mesh, raceway, inwards, sides, height in (
+        (meshes.cup(shape), bearing.cup_radius, True, cup_ribs, bearing.cup_rib_height),
+        (meshes.cone(shape), bearing.cone_radius, False, cone_ribs, bearing.cone_rib_height),
+    ):
+        places = beyond_the_raceway(mesh, raceway, inwards)
+        for row in (-1.0, 1.0):
+            off = row * places[np.sign(places) == row] - 0.5 * bearing.row_spacing
+            # beyond the ends of the rollers, and nowhere between
+            assert np.abs(off).min(initial=1.0) >= 0.5 * bearing.roller_length
+            assert bool((off > 0.0).any()) is (sides in ("outer", "both"))
+            assert bool((off < 0.0).any()) is (sides in ("inner", "both"))
+        radius = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
+        if sides != "none":
+            tip = radius.min() if inwards else radius[radius < bearing.cup_radius].max()
+            assert tip == pytest.approx(raceway - height if inwards else raceway + height)
+        assert np.abs(mesh.vertices[:, 1]).max() == pytest.approx(0.5 * bearing.width)
+
+
+def test_a_recording_of_a_rib_that_no_bearing_has_is_refused() -> None:
+    run = description()
+    for wrong in (replace(run.shape, cup_ribs="left"), replace(run.shape, cup_rib_height=-1.0)):
+        with pytest.raises(InputError, match="a rib of the bearing is none"):
+            RunDescription.from_json(replace(run, shape=wrong).to_json())

@@ -4,6 +4,7 @@
 module              responsibility
 =================== =========================================================
 static              the double row in balance
+possible_loads      loads that a bearing cannot carry, refused before the search
 equilibria          equilibria that are solved once
 roller_contacts     contacts of resting cones and cylinders, with tangents
 barrel_contacts     contacts of resting barrels

@@ -25,6 +25,12 @@ from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.hertz_pressure import pressure_law
 from beardyn_core.physics.lamina_table import lamina_pressure
 from beardyn_core.physics.modal_body import ModalBody
+from beardyn_core.physics.statics.possible_loads import (
+    ACCEPTABLE,
+    ACCEPTABLE_FORCE,
+    require_held,
+    require_possible,
+)
 from beardyn_core.physics.statics.roller_contacts import ConePose, ContactModel, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 
@@ -32,20 +38,14 @@ TILT_MODES = ("locked", "free")
 
 _ITERATIONS = 300
 _TOLERANCE = 1.0e-11
-_ACCEPTABLE = 1.0e-8
 _ROUNDING_FORCE = 1.0e-8
-# [N]; without a load there is no scale to compare with.
-_ACCEPTABLE_FORCE = 1.0e-3
 # Longest step of the cone; it also carries a cone that touches nothing through its play.
 _LONGEST_STEP = 1.0e-4
 _REFERENCE_STIFFNESS = 1.0e9
-# Along the axle, of the length of a roller: a prop that yields more lets a row slide off its raceways.
-_MOST_YIELD = 0.5
 # A pose in which a roller is out of balance by this share of the largest load is one that rollers have no
 # place in; a search that meets more of them than this, one after the other, finds none.
 _OUT_OF_BALANCE = 1.0e-3
 _MOST_OUT_OF_BALANCE = 10
-_FEWEST_OF_ELLIPSE = 10
 # Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
 # one that is farther off drives away, into poses that no contact law is for and that cost the most.
 _FARTHEST = 0.03
@@ -190,7 +190,7 @@ def solve(
     axial_stiffness : float
         Of a prop that holds the cone against the cup along the axle, [N/m].
     rows : int
-        2, or 1 for row 0 alone; the cone leans on it towards +y only.
+        2, or 1 for row 0 alone; a cone leans on it towards +y only, cylinders as their ribs hold them.
     missing : sequence of pairs of int
         Row and roller of those that are not there; their loads are 0.
     crown : array_like, shape [row, roller], optional
@@ -215,7 +215,7 @@ def solve(
         end_play = bearing.end_play if isinstance(bearing, Bearing) else 0.0
     load = _checked_load(force, moment, end_play, tilt, laminae, speed, roller_phase)
     require_sound(bearing)
-    _require_possible(bearing, load, laminae, coupling)
+    require_possible(bearing, load, laminae, coupling)
     modal = np.zeros(0) if body is None else body.stiffness
     springs = np.concatenate(
         [[0.0, axial_stiffness, 0.0], np.asarray(tilt_stiffness, dtype=np.float64), modal]
@@ -224,7 +224,7 @@ def solve(
         bearing, end_play, laminae, speed, roller_phase, coupling, oversize, body, rows, missing,
         crown,
     )  # fmt: skip
-    _require_held(model, load, axial_stiffness)
+    require_held(model, load, axial_stiffness)
     moving = 5 if tilt == "free" and not bearing.self_aligning else 3
     load = np.concatenate([load, np.asarray(modal_load, dtype=np.float64)])
     cone = _Cone(model, load, moving, springs)
@@ -316,7 +316,7 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
         smallest = min(smallest, size)
         scale = float(np.abs(cone.load / cone.scale).max()) + 0.1 * float(state.cup.force.sum())
         if size <= _TOLERANCE * scale + _ROUNDING_FORCE or (
-            (stalled > 3 or iteration > 60) and size <= _ACCEPTABLE * scale + _ACCEPTABLE_FORCE
+            (stalled > 3 or iteration > 60) and size <= ACCEPTABLE * scale + ACCEPTABLE_FORCE
         ):
             return state, unknowns, iteration
         if np.any(cone.off(unknowns) > farthest) or lost > _MOST_OUT_OF_BALANCE:
@@ -339,73 +339,12 @@ def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]
             stalled += 1
     force = np.array2string(cone.load[:3], precision=1)
     placeless = ", where rollers have no place," if lost > _MOST_OUT_OF_BALANCE else ""
+    bearing = cone.model.bearing
     raise ValidityError(
-        f"static equilibrium of {cone.model.bearing.name} under {force} N was not found: after "
+        f"static equilibrium of {bearing.name} under {force} N was not found: after "
         f"{iteration + 1} steps the cone is {1e3 * cone.off(unknowns).max():.2g} mm off its place{placeless} "
-        f"and {size:.3g} N are left. Check load, end play and tilt; a moment needs free tilt and both "
-        "rows in contact; a single row needs an axial load or a prop against its own thrust "
-        "(mounting.axial_prop_stiffness_MN_per_m)."
-    )
-
-
-def _require_possible(
-    bearing: RollerBearing, load: Float, laminae: int, coupling: LaminaCoupling | None
-) -> None:
-    """Refuse what a kind of bearing cannot carry, and what its contacts are not made for."""
-    problems = []
-    if isinstance(bearing, CylindricalBearing) and load[1] != 0.0 and not bearing.carries_thrust:
-        problems.append(
-            f"{bearing.name} carries no axial load, and {load[1]:g} N are given: no row has a rib of the "
-            "inner ring with one of the outer ring at the other end of its rollers (cone_ribs, cup_ribs)."
-        )
-    if bearing.self_aligning:
-        if load[3] or load[4]:
-            problems.append(
-                f"moment is {load[3]:g}, {load[4]:g} N m; {bearing.name} is self-aligning and carries none."
-            )
-        if laminae < _FEWEST_OF_ELLIPSE:
-            problems.append(
-                f"laminae is {laminae}; a spherical roller bearing needs at least {_FEWEST_OF_ELLIPSE}, of "
-                "which its contact ellipses are made."
-            )
-        if coupling is not None:
-            problems.append(
-                "laminae of a spherical roller bearing cannot be coupled: its slices are those of Hertz's "
-                "ellipse as they are."
-            )
-    if problems:
-        raise InputError(problems)
-
-
-def _require_held(model: ContactModel, load: Float, axial_stiffness: float) -> None:
-    """Refuse a single row that its own thrust drives off its raceways; one between two ribs is held.
-
-    Every cup load has the angle of the cup, so their sum along the axle is at least its tangent times their
-    sum across, in any pose. Across they carry the load, and centrifugal forces where rollers are missing:
-    those of the others add up to no more than the missing ones would have.
-    """
-    if len(model.centre) > 1:
-        return
-    if isinstance(model.bearing, CylindricalBearing) and model.bearing.row_is_held:
-        return
-    across, pressed = math.hypot(load[0], load[2]), float(load[1])
-    uneven = float(model.inertia_load[0]) * np.count_nonzero(model.missing)
-    thrust = math.tan(model.bearing.cup_angle) * max(across - uneven, 0.0)
-    lacking = thrust - pressed
-    if lacking <= _ACCEPTABLE * across + _ACCEPTABLE_FORCE:
-        return
-    word, yields = "a prop", ""
-    if axial_stiffness > 0.0:
-        gives_way = lacking / axial_stiffness
-        if gives_way <= _MOST_YIELD * model.bearing.effective_length:
-            return
-        word = "a stiffer prop"
-        yields = f"; its prop would yield by {1e3 * gives_way:.3g} mm, more than half a roller"
-    raise ValidityError(
-        f"static equilibrium of {model.bearing.name} does not exist: a single row under {across:.4g} N "
-        f"across the axle drives its rings apart unless more than {thrust:.4g} N press them together along "
-        f"it, and {pressed:.4g} N do{yields}. Give more axial load, or {word} "
-        "(mounting.axial_prop_stiffness_MN_per_m)."
+        f"and {size:.3g} N are left. Check load, {bearing.play_words} and tilt; a moment needs free "
+        f"tilt and both rows in contact; {bearing.single_row_hint}."
     )
 
 

@@ -5,7 +5,9 @@ point contacts and of what it leans over: the ribs push with the lever of their 
 raceways hold with the length of the roller. One that nothing presses leans over until its ends touch both
 raceways, and carries what is then left to it.
 
-Neglected: that a leaning roller presses its raceways harder.
+The spring softens as the raceways part, so it drives them apart: the force along the axle and what a leaning
+roller adds to its raceways are derivatives of one energy. A roller that leans over its clearance presses them
+with the couple of its ribs over its length, and in between the two limits blend.
 """
 
 from __future__ import annotations
@@ -96,13 +98,16 @@ def _face(bearing: CylindricalBearing, ring: str, side: float) -> RibFace | None
 
 @inline
 def _share(way, approach, path, thrust):
-    """Work out force [N] and tangent [N/m] of rollers that are pressed along by a way [m].
+    """Work out force [N] and tangent [N/m] of rollers that are pressed along by a way [m], and what they add.
 
     With the root x of the force to the power 1/3 the way is ``softness x^2 + lean x^3``: Newton's steps from
-    above come down to it.
+    above come down to it. Added to the load of both raceways [N] is the change of the energy with the
+    approach at a held way, ``-lean' force^2 / 2`` of a roller that is pressed all along; one that touches
+    with its ends alone has ``tip force``, and no roller more.
     """
     left = at_least(way - thrust.tip * at_least(-approach, 0.0), 0.0) + _TINY
     x = log2(at_most(at_least(approach, thrust.least_depth), thrust.most_depth))
+    slope = thrust.by_depth + 2.0 * x * thrust.depth_squared
     lean = exp2(thrust.level + x * (thrust.by_depth + x * thrust.depth_squared))
     root = at_most(sqrt(left / path.softness), exp2((1.0 / 3.0) * log2(left / lean)))
     for _ in range(_NEWTON_STEPS):
@@ -110,33 +115,40 @@ def _share(way, approach, path, thrust):
         found = square * (path.softness + lean * root) - left
         root = root - found / (root * (2.0 * path.softness + 3.0 * lean * root))
     force = where_greater(left, 2.0 * _TINY, root * root * root, 0.0 * root)
-    return force, 3.0 * root / (2.0 * path.softness + 3.0 * lean * root)
+    leant = at_least(-0.5 * slope * lean * force, 0.0)
+    pressing = thrust.tip * force * leant / (leant + thrust.tip * at_least(approach, 0.0) + _TINY)
+    return force, 3.0 * root / (2.0 * path.softness + 3.0 * lean * root), pressing
 
 
 @inline
 def _press(way, rate, approach, path, thrust, time):
-    """Work out what a path carries with its damper, [N]; ``way``, ``rate``: of cone against cup along it."""
+    """Work out what a path carries with its damper, and what raceways get of it, [N].
+
+    ``way``, ``rate``: of cone against cup along it.
+    """
     zero = 0.0 * way
     if path is None:
-        return zero
+        return zero, zero
     way = way - path.gap
     if not any_positive(way):
-        return zero
-    force, tangent = _share(way, approach, path, thrust)
+        return zero, zero
+    force, tangent, pressing = _share(way, approach, path, thrust)
     damped = at_least(force + time * tangent * rate, 0.0)
-    return where_greater(force, 0.0, damped, zero)
+    return where_greater(force, 0.0, damped, zero), pressing
 
 
 @inline
 def push_along(outward, rate, approach, thrust, time):
     """Work out the axial force of a block of rollers on the cup, outwards, and the sum of both ways, [N].
 
+    With what it adds to the load of each raceway [N].
+
     ``outward``, ``rate``: of the cone against the cup at the rollers' axes [m], [m/s];
     ``approach``: of cup and cone on the rollers [m]; ``time``: of the dampers [s].
     """
-    inwards = _press(-outward, -rate, approach, thrust.inwards, thrust, time)
-    outwards = _press(outward, rate, approach, thrust.outwards, thrust, time)
-    return outwards - inwards, outwards + inwards
+    inwards, one = _press(-outward, -rate, approach, thrust.inwards, thrust, time)
+    outwards, other = _press(outward, rate, approach, thrust.outwards, thrust, time)
+    return outwards - inwards, outwards + inwards, one + other
 
 
 @inline
@@ -163,19 +175,21 @@ def _outward(side, motion, i, direction, thrust):
 
 
 @inline
-def add_thrust(lanes, sums, waves, cosine, sine, counted, approach, thrust, time, trend, row):
+def add_thrust(lanes, sums, load, waves, cosine, sine, counted, approach, thrust, time, trend, row):
     """Add a block of rollers to the sums of axial forces: plain, times cosine and sine, of both ways.
 
-    Each roller's force on the cup, outwards, goes to a ``row`` of the ``trend``.
+    Each roller's force on the cup, outwards, goes to a ``row`` of the ``trend``. Returns the ``load`` of the
+    raceways with what leaning rollers add, and the sums.
     """
     if thrust is None:
-        return sums
+        return load, sums
     way = waves[0][0] * cosine + (waves[0][1] * sine + waves[0][2])
     rate = waves[1][0] * cosine + (waves[1][1] * sine + waves[1][2])
-    push, both = push_along(way, rate, approach, thrust, time)
+    push, both, pressing = push_along(way, rate, approach, thrust, time)
     push = counted * push
     lanes.store(trend, row, 0, push)
-    return sums[0] + push, sums[1] + push * cosine, sums[2] + push * sine, sums[3] + counted * both
+    summed = (sums[0] + push, sums[1] + push * cosine, sums[2] + push * sine, sums[3] + counted * both)
+    return load + pressing, summed
 
 
 @inline
@@ -228,8 +242,8 @@ def thrust_torque(torque, waves, cosine, sine, approach, speed, thrust, flanges)
         return torque
     way = waves[0][0] * cosine + (waves[0][1] * sine + waves[0][2])
     zero = 0.0 * way
-    inwards = _press(-way, zero, approach, thrust.inwards, thrust, 0.0)
-    outwards = _press(way, zero, approach, thrust.outwards, thrust, 0.0)
+    inwards = _press(-way, zero, approach, thrust.inwards, thrust, 0.0)[0]
+    outwards = _press(way, zero, approach, thrust.outwards, thrust, 0.0)[0]
     total = _rib_torque(zero, inwards, speed, flanges.cone_outer)
     total = _rib_torque(total, outwards, speed, flanges.cone_inner)
     total = _rib_torque(total, outwards, speed, flanges.cup_outer)
@@ -243,10 +257,17 @@ def _rib_torque(total, load, speed, flange):
     return total + where_greater(load, 0.0, flange_torque(load, speed, flange), 0.0 * load)
 
 
-def thrust_at(
-    pose: Float, azimuth: Float, sides: Float, approach: Float, thrust: ThrustParams
-) -> tuple[Float, Float, Float]:
-    """Work out the axial force of every roller on the cup along +y, and how it acts.
+class Thrust(NamedTuple):
+    """What the ribs carry of a pose of the cone, and how that changes."""
+
+    force: Float  # of each roller on the cup along +y [N]
+    pressing: Float  # added to the load of its raceways [N]
+    by_pose: Float  # [roller, 5], direction in the pose: force times that is the wrench on the cup
+    tangent: Float  # [roller, 2, 2], change of both with the way along y and the approach [N/m]
+
+
+def thrust_at(pose: Float, azimuth: Float, sides: Float, approach: Float, thrust: ThrustParams) -> Thrust:
+    """Work out what the ribs carry in a pose.
 
     Parameters
     ----------
@@ -254,27 +275,29 @@ def thrust_at(
         Displacement of the cone [m] and tilt about x and z [rad].
     azimuth, sides, approach : float64 arrays, shape [roller]
         Places [rad], sides of the rows, and approaches of the raceways [m].
-
-    Returns
-    -------
-    force : float64 array, shape [roller]
-    by_pose : float64 array, shape [roller, 5]
-        Direction of the force in the pose: force times that is the wrench on the cup.
-    stiffness : float64 array, shape [roller]
-        Along that direction [N/m].
     """
     direction = np.zeros((len(azimuth), 5))
     direction[:, 1] = 1.0
     direction[:, 3] = -thrust.radius * np.cos(azimuth)
     direction[:, 4] = thrust.radius * np.sin(azimuth)
     way = direction @ pose
-    force, step = [], 1.0e-9
-    for change in (-step, 0.0, step):
-        outward = sides * (way + change)
-        push = np.zeros_like(outward)
-        for sign, path in ((-1.0, thrust.inwards), (1.0, thrust.outwards)):
-            if path is not None:
-                found = plain(_share)(sign * outward - path.gap, approach, path, thrust)[0]
-                push += sign * np.where(sign * outward > path.gap, found, 0.0)
-        force.append(sides * push)
-    return force[1], direction, (force[2] - force[0]) / (2.0 * step)
+    step = 1.0e-9
+    moved = (_both(way + i * step, approach + k * step, sides, thrust) for i, k in _NEIGHBOURS)
+    here, after, before, deeper, shallower = moved
+    along, across = (after - before) / (2.0 * step), (deeper - shallower) / (2.0 * step)
+    return Thrust(here[0], here[1], direction, np.moveaxis(np.stack([along, across], axis=1), 2, 0))
+
+
+_NEIGHBOURS = ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))
+
+
+def _both(way: Float, approach: Float, sides: Float, thrust: ThrustParams) -> Float:
+    """Compute force along y and what raceways get, shape [2, roller], [N]."""
+    push, pressing = np.zeros_like(way), np.zeros_like(way)
+    for sign, path in ((-1.0, thrust.inwards), (1.0, thrust.outwards)):
+        if path is not None:
+            outward = sign * sides * way - path.gap
+            force, _, more = plain(_share)(outward, approach, path, thrust)
+            push += np.where(outward > 0.0, sign * force, 0.0)
+            pressing += np.where(outward > 0.0, more, 0.0)
+    return np.stack([sides * push, pressing])

@@ -222,11 +222,11 @@ def load_rollers(lanes, rollers, sums, motion, direction, turns, speeds, trend, 
             deepest = at_least(lanes.load(rollers, block, PENETRATION), 0.5 * approach)
             lanes.store(rollers, block, PENETRATION, deepest)
         waves = load_vector(lanes, p.pockets, block, COUNTED)
-        loads = add_scaled(loads, load, waves)
         thrust = 2 * rollers.shape[0] + TREND_EXTRAS + block
-        along = add_thrust(
-            lanes, along, outward, cosine, sine, waves[0], approach, p.thrust, time, trend, thrust
+        load, along = add_thrust(
+            lanes, along, load, outward, cosine, sine, waves[0], approach, p.thrust, time, trend, thrust
         )
+        loads = add_scaled(loads, load, waves)
         add_reaction(lanes, sums, block, waves[0] * load, p.bending, None)
         lanes.store(trend, block, 0, load)
         largest = rollers.shape[0] + TREND_EXTRAS + block

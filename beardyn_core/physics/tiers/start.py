@@ -8,6 +8,8 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
@@ -188,12 +190,12 @@ def settle_lumped(
         if p.thrust is not None:
             whole = np.zeros(5)
             whole[: min(held, 5)] = place[: min(held, 5)]
-            push, along, tangent = thrust_at(
-                whole, np.concatenate(places), np.concatenate(row_of), approach, p.thrust
-            )
-            along = along[:, :held]
-            left[:held] -= push @ along
-            stiffness[:held, :held] += (along * tangent[:, None]).T @ along
+            ribs = thrust_at(whole, np.concatenate(places), np.concatenate(row_of), approach, p.thrust)
+            along = np.zeros_like(normal)
+            along[:, :held] = ribs.by_pose[:, :held]
+            ways = np.stack([along, normal])  # the way along the axle and the approach, in the unknowns
+            left -= ribs.force @ along + ribs.pressing @ normal
+            stiffness += np.einsum("irk,rij,jrl->kl", ways, ribs.tangent, ways)
         return left, stiffness
 
     missing, stiffness = missing_at(found)
@@ -215,10 +217,10 @@ def settle_lumped(
     else:
         size = float(np.abs(missing / scale).max())
         if not size <= _ACCEPTABLE * most + _ACCEPTABLE_FORCE:
+            kind = Bearing if float(cup.sine) != 0.0 else CylindricalBearing
             raise ValidityError(
                 f"the lumped tier found no static equilibrium under the first load in {_ITERATIONS} steps: "
-                f"{size:.3g} N are left. Check load, end play and preload; a single row needs an axial load "
-                "or a prop against its own thrust (mounting.axial_prop_stiffness_MN_per_m); tier quasistatic "
-                "finds its equilibrium by itself"
+                f"{size:.3g} N are left. Check load, {kind.play_words} and preload; "
+                f"{kind.single_row_hint}; tier quasistatic finds its equilibrium by itself"
             )
     return np.concatenate([found[:held], pose[held:]]), found[held:]
