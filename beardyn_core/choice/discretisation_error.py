@@ -36,8 +36,8 @@ _REFERENCE_LAMINAE = 40
 _FEW, _OF_FEW_DB = 6, 0.5
 # Slices that meet a raceway one after the other shake the modes of a box: power over that of 40 slices from
 # some frequency on, with so many slices and to some power of their number. `waviness`, in which little else
-# does, was 12 dB too loud at 10 kHz with 4 slices, 7.6 with 8 and 2.4 with 16; between thin or rigid rings, and
-# with a surface, be it fine, it was within 0.8 dB.
+# does, was 12 dB too loud at 10 kHz with 4 slices, 7.6 with 8 and 2.4 with 16; between thin or rigid rings,
+# and with a surface, be it fine, it was within 0.8 dB.
 _KNOCKS_FROM, _KNOCKING_SLICES, _KNOCKING_POWER = 2000.0, 14.0, 2.5
 # Width of a third-octave band over its centre.
 _BAND = 0.2316
