@@ -61,7 +61,13 @@ def test_there_are_at_least_fourteen_operations_of_every_sort(scenes: list[Scene
     speeds = [speed * 3.6 for operation in rails for _, speed in operation.speed_profile]
     assert min(speeds) < 0.0 < max(speeds)
     assert max(speeds) == pytest.approx(300.0)
-    assert {s.bearing.name for s in scenes} == {"HS130x230", "FR130x230x150", "METRO120x220", "WJ130x240"}
+    assert {s.bearing.name for s in scenes} == {
+        "HS130x230",
+        "FR130x230x150",
+        "METRO120x220",
+        "WJ130x240",
+        "SRB120x260",
+    }
 
 
 def test_a_monitor_meets_true_and_false_friends(scenes: list[Scene]) -> None:

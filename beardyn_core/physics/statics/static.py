@@ -21,6 +21,7 @@ from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
 from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
+from beardyn_core.bearing.spherical import FEWEST_OF_ELLIPSE
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.hertz_pressure import pressure_law
 from beardyn_core.physics.lamina_table import lamina_pressure
@@ -45,7 +46,6 @@ _MOST_YIELD = 0.5
 # place in; a search that meets more of them than this, one after the other, finds none.
 _OUT_OF_BALANCE = 1.0e-3
 _MOST_OUT_OF_BALANCE = 10
-_FEWEST_OF_ELLIPSE = 10
 # Beyond its play a cone gives way by up to 0.02 of the pitch diameter along the axle under what it can bear;
 # one that is farther off drives away, into poses that no contact law is for and that cost the most.
 _FARTHEST = 0.03
@@ -363,9 +363,9 @@ def _require_possible(
             problems.append(
                 f"moment is {load[3]:g}, {load[4]:g} N m; {bearing.name} is self-aligning and carries none."
             )
-        if laminae < _FEWEST_OF_ELLIPSE:
+        if laminae < FEWEST_OF_ELLIPSE:
             problems.append(
-                f"laminae is {laminae}; a spherical roller bearing needs at least {_FEWEST_OF_ELLIPSE}, of "
+                f"laminae is {laminae}; a spherical roller bearing needs at least {FEWEST_OF_ELLIPSE}, of "
                 "which its contact ellipses are made."
             )
         if coupling is not None:
