@@ -20,7 +20,8 @@ from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
-    from beardyn_core.bearing.any_bearing import SimulatedBearing
+    from beardyn_core.bearing.cylindrical import CylindricalBearing
+    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.effects import LineFilm
@@ -187,7 +188,7 @@ def torque(
     from beardyn_core.physics.rolling_resistance import oil_supply
     from beardyn_core.physics.statics.torque import running_torque
 
-    chosen = _simulated(bearing, "torques")
+    chosen = _with_lines(bearing, "torques")
     oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     found = oil_supply(_film(supply))
     rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
@@ -316,7 +317,7 @@ def film(
     from beardyn_core.physics.lamina_table import equivalent_radius
     from beardyn_core.physics.statics.torque import entrainment_speeds
 
-    chosen = _simulated(bearing, "films")
+    chosen = _with_lines(bearing, "films")
     oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
@@ -364,10 +365,15 @@ def _bearing(bearing: RollerBearing | str) -> RollerBearing:
     return bearing if isinstance(bearing, RollerBearing) else load_any_bearing(bearing)
 
 
-def _simulated(bearing: RollerBearing | str, what: str) -> SimulatedBearing:
-    from beardyn_core.bearing.any_bearing import require_simulated
+def _with_lines(bearing: RollerBearing | str, what: str) -> Bearing | CylindricalBearing:
+    from beardyn_core.bearing.any_bearing import refuse_kind
+    from beardyn_core.bearing.cylindrical import CylindricalBearing
+    from beardyn_core.bearing.geometry import Bearing
 
-    return require_simulated(_bearing(bearing), what=what)
+    chosen = _bearing(bearing)
+    if not isinstance(chosen, Bearing | CylindricalBearing):
+        refuse_kind(chosen.name, chosen.kind, what, kinds=(Bearing.kind, CylindricalBearing.kind))
+    return chosen
 
 
 def _played(

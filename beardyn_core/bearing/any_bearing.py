@@ -12,15 +12,12 @@ from beardyn_core.bearing.roller_bearing import KINDS, RollerBearing
 from beardyn_core.bearing.spherical import SphericalBearing
 
 AnyBearing = Bearing | CylindricalBearing | SphericalBearing
-SimulatedBearing = Bearing | CylindricalBearing
-"""Bearings that a twin runs."""
-SIMULATED_KINDS = (Bearing.kind, CylindricalBearing.kind)
 BEARING_OF_KIND: dict[str, type[RollerBearing]] = dict(
     zip(KINDS, (Bearing, CylindricalBearing, SphericalBearing), strict=True)
 )
 POSSIBLE = (
-    "possible are load distribution, stiffness and rating life (`beardyn bearing`), fault frequencies and "
-    "the monitor"
+    "possible are load distribution, stiffness and rating life (`beardyn bearing`), fault frequencies, "
+    "the monitor, and runs (`beardyn simulate`)"
 )
 
 
@@ -39,23 +36,14 @@ def require_tapered(bearing: RollerBearing, what: str, label: str = "bearing") -
     return bearing
 
 
-def require_simulated(bearing: RollerBearing, label: str = "bearing", what: str = "runs") -> SimulatedBearing:
-    """Give a bearing back that a twin runs; raise `InputError` for one of another kind, as above."""
-    if not isinstance(bearing, Bearing | CylindricalBearing):
-        refuse_kind(bearing.name, bearing.kind, what, label, SIMULATED_KINDS)
-    return bearing
-
-
 def refuse_kind(
     name: str, kind: str, what: str, label: str = "bearing", kinds: tuple[str, ...] = (Bearing.kind,)
 ) -> NoReturn:
     """Raise `InputError`: what was asked for exists for some kinds only; see `require_tapered`."""
-    words, possible = BEARING_OF_KIND[kind].words, POSSIBLE
-    if kind in SIMULATED_KINDS:
-        possible = f"{POSSIBLE}, and runs (`beardyn simulate`)"
+    words = BEARING_OF_KIND[kind].words
     raise InputError(
         f"{label}: {name} is a {words}; {what} exist for {' and '.join(kinds)} roller bearings only; "
-        f"{possible}"
+        f"{POSSIBLE}"
     )
 
 

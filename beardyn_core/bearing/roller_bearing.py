@@ -206,6 +206,26 @@ class RollerBearing:
             """Radius on which the centres of mass orbit, [m]."""
 
     @property
+    def cup_slant(self) -> float:
+        """Angle of the outer raceway to the bearing axis, positive where it opens outwards, [rad]."""
+        return self.cup_angle
+
+    @property
+    def cone_slant(self) -> float:
+        """The same of the inner raceway, [rad]."""
+        return self.cone_angle
+
+    @property
+    def roller_slant(self) -> float:
+        """The same of the rollers' axes, [rad]."""
+        return self.contact_angle
+
+    @property
+    def roller_profile_radius(self) -> float:
+        """Radius of the arc of barrels, 0 where rollers are straight, [m]."""
+        return 0.0
+
+    @property
     def clamped(self) -> Self:
         """The bearing with its rollers just touching, where its play is a dimension of its rings."""
         return self

@@ -7,7 +7,7 @@ profile of a barrel is an arc, a little smaller than those of both raceways: wha
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated as A
 from typing import ClassVar
 
@@ -16,6 +16,9 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At
 from beardyn_core.bearing.radial_bearing import RadialBearing
+
+FEWEST_OF_ELLIPSE = 10
+"""Slices of a roller of which contact ellipses can be made."""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -31,6 +34,9 @@ class SphericalBearing(RadialBearing):
     words: ClassVar[str] = "spherical roller bearing"
     self_aligning: ClassVar[bool] = True
     steel_factor: ClassVar[float] = 1.15
+    # it has no ribs: its play is the radial clearance
+    end_play: ClassVar[float] = 0.0
+    rib_contact_height: ClassVar[float] = 0.0
 
     contact_angle: A[float, At("deg", gt=0.0, lt=45.0), "roller axis to bearing axis"]
     cup_osculation: A[
@@ -74,6 +80,38 @@ class SphericalBearing(RadialBearing):
         """Radius and axial place of the middle of the inner raceway of a row, [m]."""
         lower = self.centre_distance - 0.5 * self.roller_diameter
         return lower * math.cos(self.contact_angle), lower * math.sin(self.contact_angle)
+
+    @property
+    def cup_line(self) -> tuple[float, float]:
+        """Radius and axial place of the middle of the contact with the outer raceway, [m]."""
+        upper = self.centre_distance + 0.5 * self.roller_diameter
+        return upper * math.cos(self.contact_angle), upper * math.sin(self.contact_angle)
+
+    @property
+    def cone_groove(self) -> tuple[float, float]:
+        """Radius and axial place of the middle of the arc of an inner raceway, [m]."""
+        distance = self.centre_distance + self.cone_profile_radius - 0.5 * self.roller_diameter
+        return distance * math.cos(self.contact_angle), distance * math.sin(self.contact_angle)
+
+    @property
+    def cup_slant(self) -> float:
+        """Angle of the outer raceway to the bearing axis: it closes outwards, [rad]."""
+        return -self.contact_angle
+
+    @property
+    def cone_slant(self) -> float:
+        """The same of the inner raceway, [rad]."""
+        return -self.contact_angle
+
+    @property
+    def roller_slant(self) -> float:
+        """The same of the rollers' axes, [rad]."""
+        return -self.contact_angle
+
+    @property
+    def clamped(self) -> SphericalBearing:
+        """The bearing without radial clearance."""
+        return replace(self, radial_clearance=0.0)
 
     @property
     def pressure_centre_spread(self) -> float:

@@ -18,9 +18,8 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.edge import At
 from beardyn_core.base.units import UNITS
-from beardyn_core.bearing.any_bearing import require_simulated
-from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
 
 STEEL_EXPANSION = 12.0e-6  # [1/K], bearing steel, catalogue value
@@ -82,29 +81,24 @@ def end_play_per_kelvin(bearing: Bearing, expansion: float = STEEL_EXPANSION) ->
     )
 
 
-def clearance_per_kelvin(bearing: CylindricalBearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
-    """Change of the radial clearance of cylinders with the temperature of each part, [m/K].
+def clearance_per_kelvin(bearing: RadialBearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
+    """Change of the radial clearance of cylinders and barrels with the temperature of each part, [m/K].
 
-    Diameters of raceways and rollers grow in proportion to themselves.
+    Everything grows in proportion to itself; the gap of barrels, along their contact lines.
     """
+    cosine = math.cos(bearing.cup_angle)
     return PartTemperatures(
-        cup=2.0 * expansion * bearing.cup_radius,
-        cone=-2.0 * expansion * bearing.cone_radius,
-        rollers=-2.0 * expansion * bearing.roller_diameter,
+        cup=2.0 * expansion * bearing.cup_radius / cosine**2,
+        cone=-2.0 * expansion * bearing.cone_radius / cosine**2,
+        rollers=-2.0 * expansion * bearing.roller_diameter / cosine,
     )
 
 
 def play_per_kelvin(bearing: RollerBearing, expansion: float = STEEL_EXPANSION) -> PartTemperatures:
-    """Change of the end play of tapered rollers, or of the radial clearance of cylinders, [m/K].
-
-    Raises
-    ------
-    InputError
-        For a bearing of another kind.
-    """
-    bearing = require_simulated(bearing)
-    if isinstance(bearing, CylindricalBearing):
+    """Change of the end play of tapered rollers, or of the radial clearance of others, [m/K]."""
+    if isinstance(bearing, RadialBearing):
         return clearance_per_kelvin(bearing, expansion)
+    assert isinstance(bearing, Bearing)
     return end_play_per_kelvin(bearing, expansion)
 
 

@@ -14,6 +14,7 @@ from itertools import product
 from typing import Any
 
 from beardyn_core.base.errors import ValidityError
+from beardyn_core.bearing.spherical import FEWEST_OF_ELLIPSE
 from beardyn_core.choice import bending, discretisation_error, friction, gravity_damping_rules, guidance
 from beardyn_core.choice.costs import Costs, measured_costs
 from beardyn_core.choice.reference_solution import Evidence
@@ -170,10 +171,12 @@ def _least_errors(
 def _counts(scene: Scene, free: Free, given: EffectSet, name: str) -> list[int]:
     """List the lamina counts that a tier can take for a scene."""
     limits = TIERS[name]
-    if limits.needs_rib and given.rib is None:
+    barrels = scene.bearing.self_aligning  # held by their raceways, with ellipses of so many slices
+    if limits.needs_rib and given.rib is None and not barrels:
         return []
+    fewest = max(limits.smallest_laminae, FEWEST_OF_ELLIPSE if barrels else 1)
     counts = discretisation_error.LAMINAE if free.laminae else (scene.numerics.laminae,)
-    return [count for count in counts if count >= limits.smallest_laminae]
+    return [count for count in counts if count >= fewest]
 
 
 def _least_cost(costs: Costs, offered: list[list[Alternative]], name: str, count: int) -> float:

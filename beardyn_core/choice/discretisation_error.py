@@ -65,6 +65,8 @@ def laminae(evidence: Evidence, count: int, tier: str) -> Verdict:
     length = evidence.scene.bearing.effective_length
     partial = [patch for patch in evidence.patches if patch.length < length]
     tilt = max(abs(tilt_error(patch, length, count)) for patch in (None, *partial))
+    if evidence.scene.bearing.self_aligning:  # rollers that hold no tilt
+        tilt = 0.0
     # a mode that moves by half of that takes its level out of its band by as much
     shift = decibels(1.0 + 0.5 * tilt / _BAND)
     influence = {**change.influence(), "vibration": shift + decibels(change.stiffness)}

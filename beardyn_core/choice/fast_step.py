@@ -13,7 +13,7 @@ from beardyn_core.bearing.rib_face import rib_faces
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies.rates import WAVEFORM_RATE
 from beardyn_core.physics.journal import bending_give
-from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_stiffness
 from beardyn_core.physics.suspension import box_coupling
 from beardyn_core.physics.tiers.friction_steps import StepChoice
 from beardyn_core.scene.mounting import Mounting
@@ -42,11 +42,11 @@ def fastest_mode(
     static load rating, where the line contacts are at their stiffest. ``bending`` [6, 6]: what an axle that
     bends adds to the inverse mass of the journal.
     """
-    cosine, sine, lever = math.cos(bearing.cup_angle), math.sin(bearing.cup_angle), lever_of_cup(bearing)
+    cosine, sine, lever = math.cos(bearing.cup_slant), math.sin(bearing.cup_slant), lever_of_cup(bearing)
     rollers = rows * bearing.roller_count
     # Stribeck's and Sjovall's factor of a line contact
     heaviest = 4.08 * static_rating(bearing) * 0.5 * rows / (rollers * cosine)
-    tangent = roller_tangent(bearing) * heaviest**0.1
+    tangent = float(roller_stiffness(bearing, heaviest))
     carrying = rollers * (1.0 if preloaded else 0.5)
     across, along = 0.5 * carrying * tangent * cosine**2, carrying * tangent * sine**2
     along += thrust_stiffness(bearing, rows)

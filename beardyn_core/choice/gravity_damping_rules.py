@@ -102,7 +102,7 @@ def lamina_coupling(evidence: Evidence) -> Rule:
     know each other are louder above 5 kHz. Fast tiers have that in what their third octaves are off by.
     """
     effect = evidence.scene.effects.lamina_coupling
-    if effect is None:
+    if effect is None or not effect.about.suits(evidence.scene.bearing.kind):
         return absent("lamina_coupling")
     change = evidence.difference({"coupling": None}, {"coupling": effect}, heavy=True)
     influence = change.influence()

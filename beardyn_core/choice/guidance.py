@@ -33,6 +33,8 @@ def rib(evidence: Evidence) -> Rule:
     effect, losses = evidence.scene.effects.rib, evidence.losses
     if effect is None:
         return absent("rib", FULL)
+    if not effect.about.suits(evidence.scene.bearing.kind):
+        return absent("rib")
     share = float(evidence.typical.rib_load.max()) / max(evidence.typical.largest_roller_load, 1.0e-3)
     full, dry = losses.rib(effect), losses.rib(_plain(effect))
     reason = f"the raceways press the rollers against it with {percent(share)} of their load"

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from beardyn_core.base.arrays import Float
 from beardyn_core.physics.journal import journal_shapes, modes_of
 from beardyn_core.physics.modal_body import ModalBody
-from beardyn_core.physics.roller_spring import lever_of_cup, roller_tangent
+from beardyn_core.physics.roller_spring import lever_of_cup, roller_stiffness
 from beardyn_core.physics.statics.static import StaticSolution
 from beardyn_core.physics.suspension import box_coupling, cross_matrix, spatial_mass
 from beardyn_core.scene.scene import Scene
@@ -62,7 +62,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     left out: below 200 Hz the first counts, towards their bounce at 17 to 22 kHz the second.
     """
     azimuth, sides, loads = _loaded_rollers(scene, static)
-    cosine, wrench = math.cos(scene.bearing.cup_angle), _wrenches(scene, azimuth, sides)
+    cosine, wrench = math.cos(scene.bearing.cup_slant), _wrenches(scene, azimuth, sides)
     centres = band_centres(highest)
     if not loads.size:
         return np.zeros((len(scene.sensors), centres.size))
@@ -71,7 +71,7 @@ def levels(scene: Scene, static: StaticSolution, body: ModalBody | None, highest
     rate = 2.0 * np.pi * (low[:, None] + (high - low)[:, None] * place).ravel()
     damping = scene.effects.contact_damping
     time_constant = 0.0 if damping is None else damping.time_constant
-    spring = roller_tangent(scene.bearing) * loads**0.1 * (1.0 + 1j * rate[:, None] * time_constant)
+    spring = roller_stiffness(scene.bearing, loads) * (1.0 + 1j * rate[:, None] * time_constant)
     box = _free_box(scene, body)
     between = -(wrench @ (_journal(scene) + box) @ wrench.T) / rate[:, None, None] ** 2
     arms = [np.block([np.eye(3), -cross_matrix(sensor.position)]) for sensor in scene.sensors]
@@ -117,7 +117,7 @@ def _loaded_rollers(scene: Scene, static: StaticSolution) -> tuple[Float, Float,
 def _wrenches(scene: Scene, azimuth: Float, sides: Float) -> Float:
     """Give force and moment about the bearing centre of unit forces of rollers on the cup, [roller, 6]."""
     lever = lever_of_cup(scene.bearing)
-    cosine, sine = math.cos(scene.bearing.cup_angle), math.sin(scene.bearing.cup_angle)
+    cosine, sine = math.cos(scene.bearing.cup_slant), math.sin(scene.bearing.cup_slant)
     return np.stack(
         [
             cosine * np.sin(azimuth),
@@ -148,7 +148,7 @@ def bounce(scene: Scene, static: StaticSolution, force: Float) -> Bounce | None:
     azimuth, sides, loads = _loaded_rollers(scene, static)
     if axle is None or not loads.size:
         return None
-    spring = np.sqrt(roller_tangent(scene.bearing) * loads**0.1)
+    spring = np.sqrt(roller_stiffness(scene.bearing, loads))
     box, journal = np.linalg.cholesky(_free_box(scene, None)), np.sqrt(_journal(scene))
     moved = np.hstack([-box, journal, journal_shapes(axle)])  # by coordinates of unit mass
     pressed = spring[:, None] * _wrenches(scene, azimuth, sides) @ moved

@@ -6,6 +6,7 @@ import numpy as np
 
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.kinematics import centrifugal_force
+from beardyn_core.bearing.spherical import FEWEST_OF_ELLIPSE
 from beardyn_core.choice.load_cases import LoadCase
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.bodies.arrangement import Arrangement
@@ -38,11 +39,17 @@ class Statics:
         self,
         case: LoadCase,
         *,
-        laminae: int = USUAL_LAMINAE,
+        laminae: int = 0,
         coupling: LaminaCoupling | None = None,
         bending: bool = False,
     ) -> StaticSolution | None:
-        """Solve the equilibrium under a load case; ``None`` where there is none."""
+        """Solve the equilibrium under a load case; ``None`` where there is none.
+
+        ``laminae``: as usual for the kind of bearing when left out.
+        """
+        if laminae == 0:
+            barrels = self.scene.bearing.self_aligning
+            laminae = FEWEST_OF_ELLIPSE if barrels else USUAL_LAMINAE
         key = (case, laminae, coupling, bending)
         if key not in self._known:
             self._known[key] = self._solve_case(*key)
@@ -69,7 +76,7 @@ class Statics:
         except np.linalg.LinAlgError:  # laminae that a profile keeps out of contact
             return None
         azimuth = 2.0 * np.pi * np.arange(bearing.roller_count) / bearing.roller_count
-        sine, cosine = np.sin(bearing.cup_angle), np.cos(bearing.cup_angle)
+        sine, cosine = np.sin(bearing.cup_slant), np.cos(bearing.cup_slant)
         sides = (-1.0, 1.0)[: self.scene.rows]
         there = Arrangement(azimuth.size, 1, self.scene.rows, self.scene.missing_places).present.ravel()
         normals = [

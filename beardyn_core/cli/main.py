@@ -67,7 +67,7 @@ def build_parser() -> argparse.ArgumentParser:
         prog="beardyn",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Real-time digital twin of a railway axlebox bearing: runs of double-row tapered\n"
-        "bearings and of cylindrical pairs; statics and the monitor of spherical ones too.",
+        "bearings, of spherical ones and of cylindrical pairs.",
     )
     parser.add_argument("--version", action="version", version=f"beardyn {program_version()}")
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True, help="one of those below")

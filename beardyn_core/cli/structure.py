@@ -70,7 +70,7 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; gives the exit code."""
     from beardyn_core.base.outputs import file_problems, write_whole
-    from beardyn_core.config.nouns import box_for, load_box, load_simulated_bearing
+    from beardyn_core.config.nouns import box_for, load_any_bearing, load_box
     from beardyn_core.record.viewer import require_display
     from beardyn_core.structure.box import Box
     from beardyn_core.structure.build import HIGHEST, MESH, modes_of
@@ -95,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
             )
         if args.bearing is not None and isinstance(box, Box):
             box = box_for(box, args.bearing)
-        bearing = load_simulated_bearing(box.bearing)
+        bearing = load_any_bearing(box.bearing)
         if args.view:
             require_display()
     built: Built | None = None

@@ -15,8 +15,6 @@ from beardyn_core.base.outputs import note_read
 from beardyn_core.bearing.any_bearing import (
     BEARING_OF_KIND,
     AnyBearing,
-    SimulatedBearing,
-    require_simulated,
     require_tapered,
 )
 from beardyn_core.bearing.consistency import check
@@ -47,11 +45,6 @@ def load_bearing(name: str | Path) -> Bearing:
         With every mistake and contradiction, or for a bearing of another kind with what that one can do.
     """
     return require_tapered(load_any_bearing(name), "estimates, forecasts and what is made of them")
-
-
-def load_simulated_bearing(name: str | Path) -> SimulatedBearing:
-    """Load a shipped bearing that a twin runs, or that of a file; see `load_bearing`."""
-    return require_simulated(load_any_bearing(name))
 
 
 def load_any_bearing(name: str | Path) -> AnyBearing:
@@ -135,8 +128,8 @@ def box_for(box: Box, bearing: str | Path, name: str | None = None) -> Box:
     name : str, optional
         Of the box; that of the other one and of the bearing when left out.
     """
-    carried = load_simulated_bearing(bearing)
-    fitted = fit_box(box, load_simulated_bearing(box.bearing), carried)
+    carried = load_any_bearing(bearing)
+    fitted = fit_box(box, load_any_bearing(box.bearing), carried)
     return replace(fitted, name=name or f"{box.name}_{carried.name}", bearing=str(bearing))
 
 

@@ -13,12 +13,13 @@ from pydantic_core import PydanticKnownError
 from beardyn_core.base.edge import NounError, Problem, alternatives, kinds_of, places, written_value
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.units import UNITS
-from beardyn_core.bearing.any_bearing import SimulatedBearing
+from beardyn_core.bearing.any_bearing import AnyBearing
 from beardyn_core.bearing.consistency import check
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY
-from beardyn_core.bearing.radial_bearing import MOST_CLEARANCE, MOST_PRELOAD
-from beardyn_core.bearing.roller_bearing import ROW_COUNT
+from beardyn_core.bearing.radial_bearing import MOST_CLEARANCE, MOST_PRELOAD, RadialBearing
+from beardyn_core.bearing.roller_bearing import ROW_COUNT, RollerBearing
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.config.file_model import FileModel
 from beardyn_core.config.keys import Name, Text, keys_of, reads
 from beardyn_core.config.part_files import choose_form
@@ -148,7 +149,7 @@ class SceneFile(FileModel):
         description="composite, in place of the bearing's; it counts in the film parameter only",
     )
     radial_clearance_mm: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-0.1, le=1.0)] | None = (
-        Field(None, description="total radial travel of a cylindrical pair, in place of the bearing's")
+        Field(None, description="total radial travel of cylinders or barrels, in place of the bearing's")
     )
     numerics: Annotated[
         Annotated[Literal["auto"], Tag("<name>")] | Annotated[keys_of(Numerics), Tag("<inline>")],  # type: ignore[valid-type]
@@ -179,21 +180,21 @@ class SceneFile(FileModel):
         bearing, um = given["bearing"], UNITS["um"]
         if self.roughness.raceway_um is not None:
             bearing = replace(bearing, raceway_roughness=um.to_si(self.roughness.raceway_um))
-        if self.roughness.rib_um is not None:
+        if self.roughness.rib_um is not None and not isinstance(bearing, SphericalBearing):
             bearing = replace(bearing, rib_roughness=um.to_si(self.roughness.rib_um))
-        if self.radial_clearance_mm is not None and isinstance(bearing, CylindricalBearing):
+        if self.radial_clearance_mm is not None and isinstance(bearing, RadialBearing):
             clearance = UNITS["mm"].to_si(self.radial_clearance_mm)
             bearing = replace(bearing, radial_clearance=clearance)
         defects = tuple(with_length(defect, bearing.effective_length) for defect in given["defects"])
         end_play = _mounted_end_play(given, bearing)
-        if isinstance(bearing, CylindricalBearing):
+        if isinstance(bearing, RadialBearing):
             bearing = replace(bearing, radial_clearance=bearing.radial_clearance + _closure(given, bearing))
         else:
             end_play += _closure(given, bearing)
         given |= {"bearing": bearing, "end_play": end_play, "defects": defects}
         return Scene(**{**given, "mounting": self._with_box_of_table(given, bearing)})
 
-    def _with_box_of_table(self, given: dict[str, Any], bearing: SimulatedBearing) -> Mounting:
+    def _with_box_of_table(self, given: dict[str, Any], bearing: AnyBearing) -> Mounting:
         """Take the box from the table of its modes, and find sensors that sit nowhere on it."""
         mounting: Mounting = given["mounting"]
         problems = []
@@ -251,9 +252,12 @@ class SceneFile(FileModel):
                     "box rings on its end at 2.7 kHz"
                 )
         yield from _axle_held_twice(given["operation"], given["mounting"])
-        if isinstance(given["bearing"], SimulatedBearing):
+        if isinstance(given["bearing"], AnyBearing):
             yield from _play_out_of_range(given, given["bearing"])
             yield from _not_of_this_kind(self.radial_clearance_mm, given, given["bearing"])
+            if self.roughness.rib_um is not None and given["bearing"].self_aligning:
+                named = f"{given['bearing'].name} is a {given['bearing'].words}"
+                yield Problem(f"{named}: it has no ribs", ("roughness", "rib_um"))
         reception = PASSBAND * max((sensor.rate for sensor in given["sensors"]), default=0.0)
         if given["vibration_to"] is not None and given["vibration_to"] > reception:
             yield (
@@ -265,13 +269,19 @@ class SceneFile(FileModel):
 
 
 def _not_of_this_kind(
-    clearance: float | None, given: dict[str, Any], bearing: SimulatedBearing
+    clearance: float | None, given: dict[str, Any], bearing: AnyBearing
 ) -> Iterator[Problem]:
     """Find a play that the bearing does not have, and an axle that nothing holds along its axis."""
-    if not isinstance(bearing, CylindricalBearing):
+    if not isinstance(bearing, RadialBearing):
         if clearance is not None:
             yield Problem(
                 f"{bearing.name} is a {bearing.words}; its play is end_play_mm", ("radial_clearance_mm",)
+            )
+        return
+    if not isinstance(bearing, CylindricalBearing):
+        if given["end_play"] is not None:
+            yield Problem(
+                f"{bearing.name} is a {bearing.words}; its play is radial_clearance_mm", ("end_play_mm",)
             )
         return
     if given["end_play"] is not None:
@@ -295,20 +305,20 @@ def _not_of_this_kind(
         )
 
 
-def _mounted_end_play(given: dict[str, Any], bearing: SimulatedBearing) -> float:
+def _mounted_end_play(given: dict[str, Any], bearing: AnyBearing) -> float:
     """Return the end play when mounted, [m]."""
     return float(bearing.end_play if given["end_play"] is None else given["end_play"])
 
 
-def _closure(given: dict[str, Any], bearing: SimulatedBearing) -> float:
+def _closure(given: dict[str, Any], bearing: RollerBearing) -> float:
     """Return what the temperatures of the parts add to it, [m]."""
     return float(given["temperatures"].closure(bearing)) if given["temperatures"] else 0.0
 
 
-def _play_out_of_range(given: dict[str, Any], bearing: SimulatedBearing) -> Iterator[Problem]:
+def _play_out_of_range(given: dict[str, Any], bearing: AnyBearing) -> Iterator[Problem]:
     """Find temperatures that open or close the bearing beyond what its contacts are for."""
     mm, mounted, closure = UNITS["mm"], _mounted_end_play(given, bearing), _closure(given, bearing)
-    if isinstance(bearing, CylindricalBearing):
+    if isinstance(bearing, RadialBearing):
         open_by = bearing.radial_clearance + closure
         if not -MOST_PRELOAD <= open_by <= MOST_CLEARANCE:
             yield Problem(

@@ -22,6 +22,7 @@ class LaminaCoupling:
         states="none",
         cost="high",
         validity="Contact width nearly constant along the roller; the free end faces are left out.",
+        bearings=("tapered", "cylindrical"),
         source="Teutsch and Sauer (2004), alternative slicing; rectangular patches after Love (1929)",
     )
 

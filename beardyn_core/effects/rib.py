@@ -67,6 +67,7 @@ class Rib:
         states="none",
         cost="medium",
         validity="Elliptic Hertz contact, of the stiffness of the face also on an edge.",
+        bearings=("tapered", "cylindrical"),
         source="Hertz (1881), fit of Hamrock and Brewe (1983)",
     )
 

@@ -36,6 +36,8 @@ lamina_springs     laminae as springs, summed (quasistatic tier)
 lamina_coupling    laminae that sink with each other, also partly over a patch
 raceway            contact of a roller with a raceway
 generator_line     contact line of a roller on a raceway
+barrel_line        contact line of a barrel on the spherical cup or on a groove of the cone
+slice_law          how a slice presses: after Palmgren, or as part of Hertz's ellipse of a barrel
 point_contact      contact with a ring at a point, which all ribs share
 waviness           waviness: its tables, its gap, and the force along a sloping gap
 rolling_waves      waviness under rollers that orbit kinematically (lumped tier)

@@ -12,7 +12,17 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.lanes.lane_math import sqrt
-from beardyn_core.physics.lanes.vectors import Vector, Wrench, add, add_scaled, cross, dot, scale, subtract
+from beardyn_core.physics.lanes.vectors import (
+    Twist,
+    Vector,
+    Wrench,
+    add,
+    add_scaled,
+    cross,
+    dot,
+    scale,
+    subtract,
+)
 
 
 class Line(NamedTuple):
@@ -25,6 +35,16 @@ class Line(NamedTuple):
     along: Vector  # of the generator
     approach: Any  # 4 factors of the penetration a0 + x (a1 + x (a2 + x a3)) [m]
     bend: Any  # turn of the normal towards `around` per abscissa [1/m]
+    curve: Any  # `Curve`, which only barrels use
+
+
+class Curve(NamedTuple):
+    """What the line of a barrel has besides: the normal turns along it, and it is an arc."""
+
+    moment: Vector  # of a unit of the normal force at x = 0 about the centre of mass [m]
+    turn: Vector  # change of the normal per abscissa [1/m]
+    moment_slope: Vector  # of that moment [-]
+    sag: Vector  # of the contact point per squared abscissa [1/m]
 
 
 class Slip(NamedTuple):
@@ -33,6 +53,7 @@ class Slip(NamedTuple):
     rate: Any  # of approach
     around: Any
     along: Any
+    sag: Any  # of `around` per squared abscissa, which only barrels use [1/(m s)]
 
 
 @inline
@@ -73,7 +94,21 @@ def generator_line(centre, axis, ring_axis, oversize, raceway, roller):
     )
     normal = add_scaled(scale(side_cosine, outward), -side_sine, ring_axis)
     along = add_scaled(scale(raceway.sine, outward), raceway.cosine, ring_axis)
-    return Line(arm, arm_slope, normal, around, along, approach, bend)
+    return Line(arm, arm_slope, normal, around, along, approach, bend, no_curve(0.0 * distance))
+
+
+@inline
+def no_curve(zero):
+    """Make the `Curve` of a straight line, which nothing uses."""
+    nothing = (zero, zero, zero)
+    return Curve(nothing, nothing, nothing, nothing)
+
+
+@inline
+def with_approach(line, approach):
+    """Give a line with other factors of its approach."""
+    arm, slope = line.arm, line.arm_slope
+    return Line(arm, slope, line.normal, line.around, line.along, approach, line.bend, line.curve)
 
 
 @inline
@@ -93,17 +128,28 @@ def _radial_direction(point, ring_axis):
 
 
 @inline
-def line_slip(line, centre, body, view):
-    """Work out the velocity of the roller against the ring along the generator: a `Slip`."""
+def line_slip(line, centre, body, view, barrel):
+    """Work out the velocity of the roller against the ring along the generator: a `Slip`.
+
+    ``barrel``: `BarrelParams`, or ``None`` along a straight line.
+    """
     relative_omega = subtract(body.omega, view.omega)
     at_centre = subtract(subtract(body.velocity, view.velocity), cross(view.omega, centre))
     at_middle = add(at_centre, cross(relative_omega, line.arm))
     slope = cross(relative_omega, line.arm_slope)
     around = dot(at_middle, line.around)
+    if barrel is None:
+        return Slip(
+            (dot(at_middle, line.normal), dot(slope, line.normal) + line.bend * around),
+            (around, dot(slope, line.around)),
+            (dot(at_middle, line.along), dot(slope, line.along)),
+            0.0 * around,
+        )
     return Slip(
-        (dot(at_middle, line.normal), dot(slope, line.normal) + line.bend * around),
+        normal_change(line, Twist(at_centre, relative_omega), barrel),
         (around, dot(slope, line.around)),
         (dot(at_middle, line.along), dot(slope, line.along)),
+        sag_change(line, relative_omega, barrel),
     )
 
 
@@ -112,6 +158,26 @@ def affine_change(line, direction, change):
     """Work out how a twist changes the velocity along a direction on the line, affine in the abscissa."""
     at_middle = add(change.velocity, cross(change.omega, line.arm))
     return dot(at_middle, direction), dot(cross(change.omega, line.arm_slope), direction)
+
+
+@inline
+def normal_change(line, change, barrel):
+    """Work out how a twist changes the rate of approach along the line, affine in the abscissa."""
+    if barrel is None:
+        return affine_change(line, line.normal, change)
+    curve = line.curve
+    return (
+        dot(change.velocity, line.normal) + dot(change.omega, curve.moment),
+        dot(change.velocity, curve.turn) + dot(change.omega, curve.moment_slope),
+    )
+
+
+@inline
+def sag_change(line, omega, barrel):
+    """Work out what an angular velocity adds to the slip along a barrel with x^2, [1/(m s)]."""
+    if barrel is None:
+        return 0.0 * omega[0]
+    return dot(cross(omega, line.curve.sag), line.around)
 
 
 @inline
@@ -134,18 +200,59 @@ def power(weights, a, b):
 
 
 @inline
-def line_wrench(line, normal_force, around_force, along_force):
+def weigh_around(weights, affine, sag, barrel):
+    """Sum the friction around the ring with x^0 and x^1, along a barrel with x^2, too; see `weigh_affine`.
+
+    ``weights``: the friction over slip with x^0 to x^4, of which straight lines use three.
+    """
+    if barrel is None:
+        sums = weigh_affine(weights, affine)
+        return sums[0], sums[1], 0.0 * sums[1]
+    a, b = affine
+    return (
+        weights[0] * a + weights[1] * b + weights[2] * sag,
+        weights[1] * a + weights[2] * b + weights[3] * sag,
+        weights[2] * a + weights[3] * b + weights[4] * sag,
+    )
+
+
+@inline
+def power_around(weights, first, other, sags, barrel):
+    """Sum the products of two slips around the ring; ``sags`` (2 numbers): of both with x^2."""
+    if barrel is None:
+        return power(weights, first, other)
+    sums = weigh_around(weights, first, sags[0], barrel)
+    return sums[0] * other[0] + sums[1] * other[1] + sums[2] * sags[1]
+
+
+@inline
+def line_wrench(line, normal_force, around_force, along_force, barrel):
     """Add up the force on the roller and its moment about the centre of mass: a `Wrench`.
 
     ``normal_force`` (3 numbers): sums of the normal force with x^0, x^1, x^2, pressing positive [N m^k];
-    ``around_force``, ``along_force`` (2 numbers): sums of the friction against the slip with x^0, x^1 [N
-    m^k].
+    ``around_force`` (3 numbers), ``along_force`` (2 numbers): sums of the friction against the slip with x^0,
+    x^1 and x^2, the last of which only barrels use [N m^k].
     """
+    if barrel is not None:
+        return _barrel_wrench(line, normal_force, around_force, along_force)
     around_0 = around_force[0] + line.bend * normal_force[1]
     around_1 = around_force[1] + line.bend * normal_force[2]
     force = _combine(line, normal_force[0], around_0, along_force[0])
     leverage = _combine(line, normal_force[1], around_1, along_force[1])
     return Wrench(force, add(cross(line.arm, force), cross(line.arm_slope, leverage)))
+
+
+@inline
+def _barrel_wrench(line, normal_force, around_force, along_force):
+    """Add up the `Wrench` of a barrel: its normal turns, and what is around acts on an arc."""
+    curve = line.curve
+    pressed = add_scaled(scale(-normal_force[0], line.normal), -normal_force[1], curve.turn)
+    turned = add_scaled(scale(-normal_force[0], curve.moment), -normal_force[1], curve.moment_slope)
+    rubbed = add_scaled(scale(-around_force[0], line.around), -along_force[0], line.along)
+    slope = add_scaled(scale(-around_force[1], line.around), -along_force[1], line.along)
+    moment = add(cross(line.arm, rubbed), cross(line.arm_slope, slope))
+    moment = add(moment, cross(curve.sag, scale(-around_force[2], line.around)))
+    return Wrench(add(pressed, rubbed), add(turned, moment))
 
 
 @inline

@@ -53,7 +53,7 @@ def coupling_params(
     bearing: RollerBearing, coupling: LaminaCoupling | None, count: int, arrangement: Arrangement
 ) -> CouplingParams | None:
     """Make matrices and work space for `count` laminae, or ``None`` without the effect."""
-    if coupling is None:
+    if coupling is None or not coupling.about.suits(bearing.kind):
         return None
     matrices = bearing_lamina_root(bearing, coupling, count)
     own = np.diag(matrices.stiffness).copy()

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.contact_law import line_contact_factor
+from beardyn_core.bearing.contact_law import barrel_ellipse, line_contact_factor
 from beardyn_core.bearing.film_thickness import line_film
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.effects import LineFilm
 from beardyn_core.physics.bodies import layout
 from beardyn_core.scene.scene import Scene
@@ -93,6 +94,14 @@ def log2_film_factor(
     return math.log2(film.constant_share * thickness)
 
 
+def _stiffness(bearing: RollerBearing) -> float:
+    """Take the factor of a whole contact, [N/m^(10/9)]; of barrels that of all slices at most, [N/m]."""
+    if isinstance(bearing, SphericalBearing):
+        stiffest = max(barrel_ellipse(bearing, ring).stiffness for ring in ("cup", "cone"))
+        return stiffest * bearing.effective_length
+    return line_contact_factor(bearing.material, bearing.effective_length)
+
+
 def lamina_table(scene: Scene) -> NDArray[np.float64]:
     """Tabulate lamina constants, shape [LAMINA_ROWS, lamina]; abscissae from the centre of mass."""
     bearing, count = scene.bearing, scene.numerics.laminae
@@ -102,7 +111,7 @@ def lamina_table(scene: Scene) -> NDArray[np.float64]:
     table = np.zeros((layout.LAMINA_ROWS, count))
     table[layout.LAMINA_PLACE] = place - bearing.roller_mass_offset
     table[layout.LAMINA_DROP] = bearing.lamina_drop(count)
-    table[layout.LAMINA_STIFFNESS] = line_contact_factor(bearing.material, bearing.effective_length) / count
+    table[layout.LAMINA_STIFFNESS] = _stiffness(bearing) / count
     table[layout.LAMINA_RADIUS] = bearing.radius_at(place)
     viscosity = scene.lubricant.dynamic_viscosity(scene.temperature)
     pressure_viscosity = scene.lubricant.pressure_viscosity_at(scene.temperature)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.friction_substeps import forget, held_friction, keep_friction, remember
-from beardyn_core.physics.bodies.layout import LAMINA_DROP, LAMINA_PLACE, LAMINA_STIFFNESS
+from beardyn_core.physics.bodies.layout import LAMINA_DROP, LAMINA_PLACE
 from beardyn_core.physics.bodies.stage_timer import mark_result
 from beardyn_core.physics.bodies.step_stages import CONTACT, FILM, TRACTION
 from beardyn_core.physics.defect import soften_by_edges, spring_damage, spring_slopes, springs_of
@@ -24,8 +24,9 @@ from beardyn_core.physics.lamina_coupling import (
     joint_share,
     joint_slopes,
 )
-from beardyn_core.physics.lanes.lane_math import at_least, magnitude, ninth_root, where_greater
+from beardyn_core.physics.lanes.lane_math import at_least, at_most, magnitude, where_greater
 from beardyn_core.physics.lanes.lanes import any_positive
+from beardyn_core.physics.slice_law import force_share, slice_tangent, stored_share
 from beardyn_core.physics.traction import LaminaContact, friction_rate, load_sharing_coefficient
 
 SMALLEST_APPROACH = 1e-15
@@ -48,7 +49,7 @@ class LaminaSums(NamedTuple):
 
     force: Any  # 3, elastic [N m^k]
     stiffness: Any  # 3, tangent [N/m m^k]
-    friction: Any  # 3, force over slip [N s/m m^k]
+    friction: Any  # 5, force over slip, of which only barrels use the last two [N s/m m^k]
     energy: Any  # elastic [J]
     lean: Any  # 2, force times slope of the gap over the azimuth in ring and roller [N m/rad]
     touches: bool  # whether any roller of the block may touch; else all sums are exactly zero
@@ -69,6 +70,7 @@ class Raceway(NamedTuple):
     turning: Any  # 2, rates of the contact's azimuth in ring and roller [rad/s], used near a patch
     times: Any  # 2, the step, and the time over which springs are implicit [s]
     held: Any  # Held
+    ellipse: Any  # EllipseParams of barrels, None for other rollers
 
 
 @inline
@@ -93,14 +95,27 @@ def lamina_sums(raceway, line, slip, log2_speed, near, damage):
 @inline
 def _sound_sums(raceway, line, slip, log2_speed):
     """Sum an intact contact: a block of rollers of which none touches costs one bound."""
-    if may_touch(raceway.lanes, line.approach, raceway.reach):
+    deepest = deepest_approach(line.approach, raceway.reach, raceway.ellipse)
+    if may_touch(raceway.lanes, deepest, raceway.reach):
         return _spring_sums(raceway, line, slip, log2_speed, None)
     zero = raceway.lanes.constant(0.0)
     forget(raceway.held, raceway.held.params)
     nothing = (zero, zero, zero)
     level = (zero, zero)
     gap = GapSums(level, level, level, zero)
-    return LaminaSums(nothing, nothing, nothing, zero, level, False, nothing, line.approach[0], gap)
+    return LaminaSums(
+        nothing, nothing, (zero, zero, zero, zero, zero), zero, level, False, nothing, deepest[0], gap
+    )
+
+
+@inline
+def deepest_approach(approach, reach, ellipse):
+    """Take factors of an approach that bounds what slices within a reach sink: of a barrel its deepest."""
+    if ellipse is None:
+        return approach
+    zero = 0.0 * approach[0]
+    place = at_most(at_least(-0.5 * approach[1] / approach[2], -reach), reach)
+    return approach[0] + place * (approach[1] + place * approach[2]), zero, zero, zero
 
 
 @inline
@@ -122,24 +137,27 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
     lean = (zero, zero)
     released = (zero, zero, zero)
     gap = GapSums(lean, lean, lean, zero)
-    deepest = approach[0] if damage is None else zero
+    deepest = deepest_approach(approach, raceway.reach, raceway.ellipse)[0] if damage is None else zero
     count = laminae.shape[1]
     prepare_coupling(lanes, approach, laminae, damage, effects.coupling)
     laminae, springs = springs_of(laminae, damage, effects.coupling)
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
-        share, depth, tangent, stored = contact_spring(lanes, approach, k, laminae, damage, effects.coupling)
+        share, depth, tangent, stored = contact_spring(
+            lanes, approach, k, laminae, damage, effects.coupling, raceway.ellipse
+        )
         touching = at_least(depth, SMALLEST_APPROACH)
         energy = energy + stored
         slopes = _slopes_of(lanes, k, touching, count, damage, effects.coupling)
         gap_rate = _gap_rate(slopes, raceway.turning, damage)
         rate = _less_gap_rate(slip.rate[0] + x * slip.rate[1], gap_rate, damage)
         pressing = _partial_contact_mean(touching, depth, rate, raceway.times)
-        push = _spring_push(pressing, rate, effects.damping)
-        whole = share * (0.9 * tangent * touching)
+        part = force_share(raceway.ellipse)
+        push = _spring_push(part, pressing, rate, effects.damping)
+        whole = share * (part * tangent * touching)
         tangent = where_greater(push, 0.0, tangent, 0.0 * depth)
-        lost = whole - share * (0.9 * tangent * touching)
-        elastic = 0.9 * tangent * pressing
+        lost = whole - share * (part * tangent * touching)
+        elastic = part * tangent * pressing
         load = tangent * push
         lanes.store(work, _LOADS, k, load)
         lean = _add_lean(lean, share * load, slopes, damage)
@@ -149,12 +167,12 @@ def _spring_sums(raceway, line, slip, log2_speed, damage):
         released = _release_gap(released, lost * gap_rate, damage)
         deepest = _deepest_so_far(deepest, share, depth, damage)
         force, stiffness = add_moments(force, elastic, x), add_moments(stiffness, tangent, x)
-    friction = _friction_sums(raceway, slip, log2_speed, (laminae, springs), damage)
+    friction = _friction_sums(raceway, slip, log2_speed, (laminae, springs), damage, raceway.ellipse)
     return LaminaSums(force, stiffness, friction, energy, lean, True, released, deepest, gap)
 
 
 @inline
-def _friction_sums(raceway, slip, log2_speed, table, damage):
+def _friction_sums(raceway, slip, log2_speed, table, damage, ellipse):
     """Sum the friction over slip of the springs with x^0, x^1, x^2, [N s/m m^k].
 
     ``table``: of the laminae of the springs, and how many there are.
@@ -164,16 +182,18 @@ def _friction_sums(raceway, slip, log2_speed, table, damage):
     )  # fmt: skip
     laminae, springs = table
     zero = lanes.constant(0.0)
-    friction = (zero, zero, zero)
+    friction = (zero, zero, zero, zero, zero)
     if held.recalled:
         for k in range(springs):
             rate = held_friction(held, k, lanes.load(work, _LOADS, k), held.params)
-            friction = add_moments(friction, rate, laminae[LAMINA_PLACE, k])
+            friction = _add_friction(friction, rate, laminae[LAMINA_PLACE, k], ellipse)
         return friction
     for k in range(springs):
         x = laminae[LAMINA_PLACE, k]
         load = lanes.load(work, _LOADS, k)
         around = slip.around[0] + x * slip.around[1]
+        if ellipse is not None:
+            around = around + x * (x * slip.sag)
         along = slip.along[0] + x * slip.along[1]
         square = around * around + along * along
         mark_result(effects.timers, CONTACT, square)
@@ -183,9 +203,25 @@ def _friction_sums(raceway, slip, log2_speed, table, damage):
         contact = LaminaContact(load, log2_force, square, log2_film, log2_speed[1], k, ring, laminae)
         rate = _friction_rate(contact, held, effects, held.params, damage)
         mark_result(effects.timers, TRACTION, rate)
-        friction = add_moments(friction, _share_of(lanes, k, damage, effects.coupling) * rate, x)
+        share = _share_of(lanes, k, damage, effects.coupling)
+        friction = _add_friction(friction, share * rate, x, ellipse)
     _remember(held, lanes.load(work, _LOADS, springs // 2), damage)
     return friction
+
+
+@inline
+def _add_friction(sums, value, x, ellipse):
+    """Add a value at an abscissa to its sums with x^0 to x^2, along a barrel to x^4."""
+    if ellipse is None:
+        return sums[0] + value, sums[1] + value * x, sums[2] + value * (x * x), sums[3], sums[4]
+    square, first = x * x, value * x
+    return (
+        sums[0] + value,
+        sums[1] + first,
+        sums[2] + value * square,
+        sums[3] + first * square,
+        sums[4] + value * (square * square),
+    )
 
 
 @inline
@@ -218,11 +254,14 @@ def add_moments(sums, value, x):
 
 
 @inline
-def _spring_push(approach, rate, damping):
-    """Add 9/10 of the approach (10/9 law) and the damping: tangent stiffness times this is force, [m]."""
+def _spring_push(part, approach, rate, damping):
+    """Add the part of the approach that presses and the damping: tangent stiffness times this is force, [m].
+
+    ``part``: of `slice_law.force_share`.
+    """
     if damping is None:
-        return 0.9 * approach
-    return 0.9 * approach + damping.time_constant * rate
+        return part * approach
+    return part * approach + damping.time_constant * rate
 
 
 @inline
@@ -287,10 +326,11 @@ def prepare_coupling(lanes, approach, laminae, damage, coupling):
 
 
 @inline
-def contact_spring(lanes, approach, k, laminae, damage, coupling):
+def contact_spring(lanes, approach, k, laminae, damage, coupling, ellipse):
     """Load one spring of a raceway contact.
 
-    ``approach`` (4 numbers): as in `Line` [m]; ``k``: the spring; ``laminae``: of its springs. Returns
+    ``approach`` (4 numbers): as in `Line` [m]; ``k``: the spring; ``laminae``: of its springs;
+    ``ellipse``: `EllipseParams` of barrels or ``None``. Returns
     ``share``, ``depth``, ``tangent``, ``energy``: share of its lamina [-], by which force, stiffness and
     damping of the contact are multiplied, penetration [m], tangent stiffness [N/m], energy [J].
     """
@@ -298,9 +338,9 @@ def contact_spring(lanes, approach, k, laminae, damage, coupling):
         share, gap = spring_damage(lanes, k, damage)
         depth = _geometric_depth(approach, gap, k, laminae)
         touching = at_least(depth, SMALLEST_APPROACH)
-        tangent = (10.0 / 9.0) * laminae[LAMINA_STIFFNESS, k] * ninth_root(touching)
+        tangent = slice_tangent(touching, k, laminae, ellipse)
         tangent = soften_by_edges(lanes, where_greater(depth, 0.0, tangent, 0.0 * depth), k, damage)
-        return share, depth, tangent, share * tangent * touching * touching * (0.9 * 9.0 / 19.0)
+        return share, depth, tangent, share * tangent * touching * touching * stored_share(ellipse)
     work = coupling.work
     share, energy = joint_share(lanes, k, damage), lanes.load(work, FORCE, k)
     return share, lanes.load(work, DEPTH, k) / share, lanes.load(work, SURFACE, k) * share, energy

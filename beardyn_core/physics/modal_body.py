@@ -93,7 +93,7 @@ def _body(
         2.0 * math.pi * modes.frequency,
         modes.damping_ratio,
         first_waves(raceway, WAVES_SEEN),
-        math.tan(bearing.cup_angle),
+        math.tan(bearing.cup_slant),
         _suspension(modes) if suspended else None,
         modes,
     )
@@ -144,7 +144,7 @@ def rings(bearing: RollerBearing, structure: RingStructure, rows: int) -> ModalB
         np.sqrt(stiffness / mass),
         np.full(len(orders), structure.damping_ratio),
         raceway,
-        math.tan(bearing.cup_angle),
+        math.tan(bearing.cup_slant),
     )
 
 

@@ -36,7 +36,7 @@ class KinematicParams(NamedTuple):
 
 def pure_rolling(bearing: RollerBearing) -> KinematicParams:
     """Work out the pure rolling of one roller of a bearing, without weight and without pockets."""
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    sine, cosine = math.sin(bearing.roller_slant), math.cos(bearing.roller_slant)
     offset = bearing.roller_mass_offset
     radius = bearing.roller_orbit_radius
     axial_inertia, transverse = bearing.roller_axial_inertia, bearing.roller_transverse_inertia

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from beardyn_core.base.jit import inline
+from beardyn_core.physics.barrel_line import barrel_line
 from beardyn_core.physics.bodies.contact_output import (
     ContactOutput,
     account,
@@ -27,13 +28,17 @@ from beardyn_core.physics.generator_line import (
     generator_line,
     line_slip,
     line_wrench,
+    normal_change,
     power,
+    power_around,
+    sag_change,
     weigh_affine,
+    weigh_around,
 )
-from beardyn_core.physics.laminae import LaminaSums, Raceway, lamina_sums, released_power
+from beardyn_core.physics.laminae import LaminaSums, Raceway, deepest_approach, lamina_sums, released_power
 from beardyn_core.physics.lanes.lane_math import at_least, at_most, sqrt
-from beardyn_core.physics.lanes.solve import add_line, add_line_everywhere
-from beardyn_core.physics.lanes.vectors import Vector, Wrench, add_scaled, dot, scale, subtract
+from beardyn_core.physics.lanes.solve import add_line, add_line_everywhere, add_twists
+from beardyn_core.physics.lanes.vectors import Vector, Wrench, add_scaled, cross, dot, scale, subtract
 from beardyn_core.physics.traction import traction_capacity
 from beardyn_core.physics.waviness import (
     add_leaning,
@@ -77,6 +82,7 @@ class RacewayContact(NamedTuple):
     body: Body
     damage: Any  # DamageParams, None on a surface without patches
     held: Any  # Held
+    barrel: Any  # BarrelParams, None for other rollers
 
 
 class Settled(NamedTuple):
@@ -97,24 +103,44 @@ def prepare_raceway(lanes, block, ring, body, oversize, azimuths, fresh, p):
     centre = subtract(body.place, view.origin)
     ring_wave, ring_climb = wave_gap(lanes, block, azimuths[0], faults.waves)
     roller_wave, roller_climb = wave_gap(lanes, block, azimuths[1], faults.roller_waves)
-    line = generator_line(centre, body.axis, view.axis, oversize, ring.raceway, p.roller)
+    barrel = ring.raceway.barrel
+    line = contact_line(centre, body.axis, view.axis, oversize, ring.raceway, p.roller, barrel)
     line = shift_line(line, ring_wave + roller_wave)
     crowns = p.effects.faults.crowns
     line = bend_line(line, crown_bend(lanes, block, crowns), crowns)
-    slip = line_slip(line, centre, body, view)
+    slip = line_slip(line, centre, body, view, barrel)
     surfaces = (faults.surface, faults.roller_surface)
     near = find_damage(lanes, block, azimuths, p.laminae.shape[1], surfaces, faults.damage)
-    held = hold_contact(lanes, block, ring.number, fresh or near, line.approach[0], p.held)
+    ellipse, reach = ellipse_of(barrel), p.roller.half_length + abs(p.roller.mass_offset)
+    middle = deepest_approach(line.approach, reach, ellipse)[0]
+    held = hold_contact(lanes, block, ring.number, fresh or near, middle, p.held)
     log2_speed = _log2_speed(lanes, entrainment_speed(line, centre, body, view), held, p.effects.film)
-    reach = p.roller.half_length + abs(p.roller.mass_offset)
     turning = contact_turning(body, view, faults.damage)
     times = (p.step, p.spring_time)
-    shared = Raceway(lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times, held)
+    shared = Raceway(
+        lanes, ring.number, p.laminae, p.lamina_loads, reach, p.effects, turning, times, held, ellipse
+    )
     sums = lamina_sums(shared, line, slip, log2_speed, near, faults.damage)
     lean = lean_wrench(
         lanes, body, sums, (ring_climb, roller_climb), faults.damage, faults.waves, faults.roller_waves
     )
-    return RacewayContact(line, slip, sums, lean, log2_speed, centre, body, faults.damage, held)
+    return RacewayContact(line, slip, sums, lean, log2_speed, centre, body, faults.damage, held, barrel)
+
+
+@inline
+def contact_line(centre, axis, ring_axis, oversize, raceway, roller, barrel):
+    """Work out the contact line of a roller on a raceway, of a cone or of a barrel: a `Line`."""
+    if barrel is None:
+        return generator_line(centre, axis, ring_axis, oversize, raceway, roller)
+    return barrel_line(centre, axis, ring_axis, oversize, raceway.side, barrel)
+
+
+@inline
+def ellipse_of(barrel):
+    """Take how the slices of a barrel press; ``None`` for other rollers."""
+    if barrel is None:
+        return None
+    return barrel.ellipse
 
 
 @inline
@@ -147,10 +173,18 @@ def stiffen_raceway(matrix, contact, p):
     line, stiffness, friction, step = contact.line, contact.sums.stiffness, contact.sums.friction, p.step
     time = step * implicit_time(p.spring_time, p.effects.damping)
     rough = scale(step, friction)
-    # friction resists in the tangent plane: in every direction less along the normal
-    stiff = subtract(scale(time, stiffness), rough)
     matrix = add_line_everywhere(matrix, line.arm, line.arm_slope, rough)
-    return add_line(matrix, line.normal, line.arm, line.arm_slope, stiff)
+    return _stiffen_normal(matrix, line, scale(time, stiffness), rough, contact.barrel)
+
+
+@inline
+def _stiffen_normal(matrix, line, stiff, rough, barrel):
+    """Add what the springs resist; friction resists in every direction less along the normal."""
+    if barrel is None:
+        return add_line(matrix, line.normal, line.arm, line.arm_slope, subtract(stiff, rough))
+    curve, normal = line.curve, cross(line.around, line.along)
+    matrix = add_line(matrix, normal, line.arm, line.arm_slope, scale(-1.0, rough))
+    return add_twists(matrix, (line.normal, curve.moment), (curve.turn, curve.moment_slope), stiff)
 
 
 @inline
@@ -158,8 +192,9 @@ def push_raceway(contact, damping):
     """Work out the wrench on the roller from the velocities at the beginning of the step."""
     slip, sums = contact.slip, contact.sums
     normal = _normal_sums(sums.force, sums.stiffness, slip.rate, (sums.gap, contact.damage), damping)
-    around, along = weigh_affine(sums.friction, slip.around), weigh_affine(sums.friction, slip.along)
-    return add_leaning(line_wrench(contact.line, normal, around, along), contact.lean)
+    around = weigh_around(sums.friction, slip.around, slip.sag, contact.barrel)
+    along = weigh_affine(sums.friction, slip.along)
+    return add_leaning(line_wrench(contact.line, normal, around, along, contact.barrel), contact.lean)
 
 
 @inline
@@ -240,8 +275,8 @@ def settled_contact(contact, change, step, spring_time, damping):
     Friction is that of the end of the step, contact damping that of its middle, and the spring takes in a
     share of what it changes by.
     """
-    line, slip, sums = contact.line, contact.slip, contact.sums
-    d_rate = affine_change(line, line.normal, change)
+    line, slip, sums, barrel = contact.line, contact.slip, contact.sums, contact.barrel
+    d_rate = normal_change(line, change, barrel)
     d_around = affine_change(line, line.around, change)
     d_along = affine_change(line, line.along, change)
     middle_rate = add_change(slip.rate, d_rate, 0.5)
@@ -253,14 +288,18 @@ def settled_contact(contact, change, step, spring_time, damping):
     )
     normal = _normal_sums(elastic, sums.stiffness, middle_rate, (sums.gap, contact.damage), damping)
     around, along = add_change(slip.around, d_around, 1.0), add_change(slip.along, d_along, 1.0)
-    friction_around = weigh_affine(sums.friction, around)
-    wrench = line_wrench(line, normal, friction_around, weigh_affine(sums.friction, along))
+    d_sag = sag_change(line, change.omega, barrel)
+    friction_around = weigh_around(sums.friction, around, slip.sag + d_sag, barrel)
+    wrench = line_wrench(line, normal, friction_around, weigh_affine(sums.friction, along), barrel)
     wrench = add_leaning(wrench, contact.lean)
     further = spring_time + 0.5 * damper_time(damping)
     wrench = add_leaning_change(wrench, sums.gap, d_rate, further, contact.body, contact.damage)
     around, along = add_change(slip.around, d_around, 0.5), add_change(slip.along, d_along, 0.5)
-    slid = power(sums.friction, around, around) + power(sums.friction, along, along)
-    numerical = 0.5 * (power(sums.friction, d_around, around) + power(sums.friction, d_along, along))
+    sag = slip.sag + 0.5 * d_sag
+    slid = power_around(sums.friction, around, around, (sag, sag), barrel)
+    slid = slid + power(sums.friction, along, along)
+    numerical = power_around(sums.friction, d_around, around, (d_sag, sag), barrel)
+    numerical = 0.5 * (numerical + power(sums.friction, d_along, along))
     damped = _damping_loss(sums, middle_rate, damping, contact.damage)
     damped = damped + released_power(sums.released, middle_rate)
     return Settled(wrench, normal, friction_around[0], step * slid, step * damped, step * numerical)

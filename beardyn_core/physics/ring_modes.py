@@ -239,7 +239,9 @@ def about_rigid_cup(contact, shift, structure):
     if structure is None:
         return contact
     c, centre = contact, add(contact.centre, shift)
-    return RacewayContact(c.line, c.slip, c.sums, c.lean, c.log2_speed, centre, c.body, c.damage, c.held)
+    return RacewayContact(
+        c.line, c.slip, c.sums, c.lean, c.log2_speed, centre, c.body, c.damage, c.held, c.barrel
+    )
 
 
 @inline

@@ -9,7 +9,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.jit import inline
 from beardyn_core.physics.bodies.arrangement import Arrangement
-from beardyn_core.physics.generator_line import Line
+from beardyn_core.physics.generator_line import with_approach
 from beardyn_core.physics.lanes.lane_math import floor, magnitude
 from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.lanes import any_positive
@@ -86,7 +86,7 @@ def shift_line(line, gap):
     """Take a gap off the approach of a contact line."""
     a = line.approach
     approach = (a[0] - gap, a[1], a[2], a[3])
-    return Line(line.arm, line.arm_slope, line.normal, line.around, line.along, approach, line.bend)
+    return with_approach(line, approach)
 
 
 @inline
@@ -107,7 +107,7 @@ def bend_line(line, bend, crowns):
         return line
     a = line.approach
     approach = (a[0], a[1], a[2] + bend, a[3])
-    return Line(line.arm, line.arm_slope, line.normal, line.around, line.along, approach, line.bend)
+    return with_approach(line, approach)
 
 
 @inline

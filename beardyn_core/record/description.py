@@ -50,6 +50,7 @@ class BearingShape:
     cone_ribs: A[str, "the same of the inner ring"] = "outer"
     cup_rib_height: A[float, "above the raceway"] = 0.0
     cone_rib_height: A[float, "above the raceway"] = 0.0
+    roller_profile_radius: A[float, "of the profile of a barrel; 0 where rollers are straight"] = 0.0
 
     @classmethod
     def of(cls, bearing: RollerBearing) -> BearingShape:
@@ -68,6 +69,16 @@ class BearingShape:
         return self.contact_angle == 0.0
 
     @property
+    def is_spherical(self) -> bool:
+        """Whether the rollers are barrels, whose outer ends lean towards the bearing axis."""
+        return self.roller_profile_radius > 0.0
+
+    @property
+    def slant(self) -> float:
+        """Angle of the roller axis to the bearing axis, positive where it opens outwards, [rad]."""
+        return -self.contact_angle if self.is_spherical else self.contact_angle
+
+    @property
     def apex_distance(self) -> float:
         """From the common apex of tapered rollers to the middle of one, along its axis, [m]."""
         return self.pitch_diameter / (2.0 * sin(self.contact_angle))
@@ -75,6 +86,8 @@ class BearingShape:
     @property
     def half_angle(self) -> float:
         """Half the cone angle of a roller, [rad]."""
+        if self.is_spherical:
+            return 0.0
         return atan(self.roller_diameter * sin(self.contact_angle) / self.pitch_diameter)
 
     @property
@@ -99,7 +112,8 @@ class BearingShape:
 
     def radius_at(self, place: float) -> float:
         """Compute the radius of a roller at a place along its axis, from its middle to the large end, [m]."""
-        return 0.5 * self.roller_diameter + place * tan(self.half_angle)
+        drop = 0.5 * place**2 / self.roller_profile_radius if self.is_spherical else 0.0
+        return 0.5 * self.roller_diameter + place * tan(self.half_angle) - drop
 
     @property
     def fault_frequencies(self) -> dict[str, float]:

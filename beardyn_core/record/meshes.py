@@ -1,4 +1,4 @@
-"""Triangle meshes of the parts of a tapered or cylindrical bearing, from its recorded shape.
+"""Triangle meshes of the parts of a tapered, cylindrical or spherical bearing, from its recorded shape.
 
 World axes: y along the bearing axis, azimuth from +z towards +x. Cup and cone meshes have their origin
 at the bearing centre, a cage at the centre of its row, a roller at its mid-length with x along its axis
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import cos, pi, sin, tan
+from math import cos, pi, sin
 from typing import Annotated as A
 
 import numpy as np
@@ -23,6 +23,7 @@ from beardyn_core.scene.patch import Patch
 CUT_OPEN = (np.deg2rad(20.0), np.deg2rad(140.0))
 ROW_SIDE = (-1.0, 1.0)
 MARK_COLOUR = (0.30, 0.32, 0.36)
+_ARC_POINTS = 9
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,13 @@ def raceway_radius(shape: BearingShape, ring: str, distance: float) -> tuple[flo
     """
     y, r = _on_pitch_cone(shape, distance)
     out = shape.radius_at(distance) * (1.0 if ring == "cup" else -1.0)
-    return y - out * sin(shape.contact_angle), r + out * cos(shape.contact_angle)
+    return y - out * sin(shape.slant), r + out * cos(shape.slant)
+
+
+def raceway_points(shape: BearingShape, ring: str, first: float, last: float) -> list[tuple[float, float]]:
+    """Compute `raceway_radius` at both ends of a stretch of a raceway, of barrels along its arc."""
+    count = _ARC_POINTS if shape.is_spherical else 2
+    return [raceway_radius(shape, ring, float(place)) for place in np.linspace(first, last, count)]
 
 
 def cup(shape: BearingShape) -> Mesh:
@@ -114,15 +121,14 @@ def cup(shape: BearingShape) -> Mesh:
         ribs = _ribs(shape, shape.cup_ribs, raceway - shape.cup_rib_height, raceway)
         return join_meshes(*(_sector(_rectangle(*each), azimuth) for each in (ring, *ribs)))
     half = shape.roller_length / 2.0
-    inner_small = raceway_radius(shape, "cup", -1.06 * half)
-    inner_large = raceway_radius(shape, "cup", 1.30 * half)
+    inner = raceway_points(shape, "cup", -1.06 * half, 1.30 * half)
+    inner_large = inner[-1]
     middle = shape.row_spacing / 2.0
     outer = shape.outer_diameter / 2.0
     edge, chamfer = middle + inner_large[0], 0.03 * outer
     right = [
         (edge, outer - chamfer),
-        (edge, inner_large[1]),
-        (max(middle + inner_small[0], 0.0), inner_small[1]),
+        *((max(middle + y, 0.0), r) for y, r in reversed(inner)),
     ]
     left = [(-y, r) for y, r in reversed(right)]
     profile = np.array([*left, (-edge + chamfer, outer), (edge - chamfer, outer), *right, left[0]])
@@ -135,16 +141,16 @@ def cone(shape: BearingShape) -> Mesh:
     """Build both cones with their ribs and the spacer, with a dark mark that shows the rotation."""
     azimuth = np.linspace(0.0, 2.0 * pi, 145)
     if shape.is_cylindrical:
-        raceway = raceway_radius(shape, "cone", 0.0)[1]
-        ring = (-0.5 * shape.width, 0.5 * shape.width, 0.5 * shape.bore, raceway)
+        radius = raceway_radius(shape, "cone", 0.0)[1]
+        ring = (-0.5 * shape.width, 0.5 * shape.width, 0.5 * shape.bore, radius)
         height = shape.cone_rib_height or 2.2 * shape.rib_contact_height
-        ribs = _ribs(shape, shape.cone_ribs, raceway, raceway + height)
+        ribs = _ribs(shape, shape.cone_ribs, radius, radius + height)
         mesh = join_meshes(*(revolve(_rectangle(*each), azimuth) for each in (ring, *ribs)))
         return mark_vertices(mesh, _in_sector(mesh, 0.06))
     half = shape.roller_length / 2.0
     bore, middle = shape.bore / 2.0, shape.row_spacing / 2.0
-    small = raceway_radius(shape, "cone", -1.04 * half)
-    large = raceway_radius(shape, "cone", 1.01 * half)
+    raceway = raceway_points(shape, "cone", -1.04 * half, 1.01 * half)
+    small, large = raceway[0], raceway[-1]
     rib = large[1] + 2.2 * shape.rib_contact_height
     land = small[1] + 0.6 * shape.rib_contact_height
     end = max(shape.width / 2.0, middle + large[0] + 0.004)
@@ -152,8 +158,7 @@ def cone(shape: BearingShape) -> Mesh:
         (max(middle + small[0] - 0.05 * half, 0.002), land - 0.5 * (land - bore)),
         (max(middle + small[0] - 0.05 * half, 0.002), land),
         (middle + small[0], land),
-        (middle + small[0], small[1]),
-        (middle + large[0], large[1]),
+        *((middle + y, r) for y, r in raceway),
         (middle + large[0] - 0.18 * (rib - large[1]), rib),
         (min(middle + large[0] + 0.008, end), rib),
         (min(middle + large[0] + 0.008, end), bore + 0.45 * (rib - bore)),
@@ -169,13 +174,13 @@ def roller(shape: BearingShape, segments: int = 40) -> Mesh:
     """Build a roller with a dark sector that shows its spin."""
     half, chamfer = shape.roller_length / 2.0, 0.04 * shape.roller_diameter
     large, small = shape.large_end_radius, shape.small_end_radius
+    places = np.linspace(chamfer - half, half - chamfer, _ARC_POINTS if shape.is_spherical else 2)
     profile = np.array(
         [
             (-half, 0.0),
             (-half, 0.35 * small),
             (-half, small - chamfer),
-            (-half + chamfer, small + chamfer * tan(shape.half_angle)),
-            (half - chamfer, large - chamfer * tan(shape.half_angle)),
+            *((float(place), shape.radius_at(float(place))) for place in places),
             (half, large - chamfer),
             (half, 0.35 * large),
             (half, 0.0),
@@ -280,5 +285,5 @@ def _in_sector(mesh: Mesh, half: float) -> NDArray[np.bool_]:
 
 
 def _on_pitch_cone(shape: BearingShape, distance: float) -> tuple[float, float]:
-    angle = shape.contact_angle
+    angle = shape.slant
     return distance * cos(angle), 0.5 * shape.pitch_diameter + distance * sin(angle)

@@ -8,9 +8,9 @@ from typing import Any, Literal
 
 from beardyn_core.base.edge import INTERNAL, SEED, At
 from beardyn_core.base.units import UNITS
-from beardyn_core.bearing.any_bearing import SimulatedBearing, require_simulated
-from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.any_bearing import AnyBearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.bearing.thermal import Temperatures
 from beardyn_core.effects import EffectSet
 from beardyn_core.scene.axleboxes import Axleboxes
@@ -67,7 +67,7 @@ class Scene:
 
     name: A[str, At(longest=80, key="scene"), "name of the scene"]
     purpose: A[str, "one line: what the scene is for"] = ""
-    bearing: A[SimulatedBearing, At(reference=True), "a shipped bearing, a path, or the keys of one"]
+    bearing: A[AnyBearing, At(reference=True), "a shipped bearing, a path, or the keys of one"]
     lubricant: A[Lubricant, At(reference=True), "a shipped lubricant, a path, or the keys of one"]
     temperature: A[float, At("C", ge=-60.0, le=200.0), "lubricant and bearing"] = 343.15
     end_play: A[
@@ -80,7 +80,7 @@ class Scene:
     )
     temperatures: A[
         Temperatures | None,
-        "of the parts; with them the end play, of cylinders the radial clearance, is that at assembly_C",
+        "of the parts; with them the end play, of others the radial clearance, is that at assembly_C",
     ] = None
     effects: A[
         EffectSet, At(reference=True, usual="auto"), "a preset, a path, which effects are on, or auto"
@@ -131,14 +131,13 @@ class Scene:
     # what it was chosen from, so that a changed scene is chosen for anew
     left_open: A[LeftOpen | None, INTERNAL] = field(default=None, compare=False)
 
-    def __post_init__(self) -> None:
-        require_simulated(self.bearing, f"scene {self.name}")
-
     def as_written(self, keys: dict[str, Any]) -> dict[str, Any]:
         """Write the play as mounted, before temperatures change it."""
+        if self.bearing.self_aligning:  # it has none along the axle
+            keys.pop("end_play_mm", None)
         if self.temperatures is not None:
             closure = self.temperatures.closure(self.bearing)
-            if isinstance(self.bearing, CylindricalBearing):
+            if isinstance(self.bearing, RadialBearing):
                 clearance = UNITS["mm"].to_edge(self.bearing.radial_clearance, closure)
                 keys["bearing"]["radial_clearance_mm"] = clearance
             else:
@@ -156,19 +155,19 @@ class Scene:
 
     @property
     def play(self) -> float:
-        """What temperatures change: the end play, or the radial clearance of cylinders, [m]."""
-        if isinstance(self.bearing, CylindricalBearing):
+        """What temperatures change: the end play, or the radial clearance of cylinders and barrels, [m]."""
+        if isinstance(self.bearing, RadialBearing):
             return self.bearing.radial_clearance
         return self.end_play
 
     def with_play(self, play: float) -> Scene:
         """Give the scene another play, see `play`, [m]."""
-        if isinstance(self.bearing, CylindricalBearing):
+        if isinstance(self.bearing, RadialBearing):
             return replace(self, bearing=replace(self.bearing, radial_clearance=play))
         return replace(self, end_play=play)
 
     @property
-    def mounted_bearing(self) -> SimulatedBearing:
+    def mounted_bearing(self) -> AnyBearing:
         """The bearing with the end play of the scene, where ribs leave it."""
         return self.bearing.mounted(self.end_play)
 

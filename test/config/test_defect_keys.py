@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.choice import load_scene, scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.config.yaml_text import write_mapping
@@ -69,6 +70,7 @@ def test_each_kind_of_defect_in_si(tmp_path: Path) -> None:
     assert math.sqrt(0.5 * (amplitudes @ amplitudes)) == pytest.approx(5e-7)
     np.testing.assert_allclose(amplitudes * np.array(band.orders), amplitudes[0] * 2)
     assert scene.bearing.raceway_roughness == pytest.approx(4e-7)
+    assert isinstance(scene.bearing, Bearing)
     assert scene.bearing.rib_roughness == pytest.approx(2.5e-7)
     assert "waviness" in scene.effect_names
 

@@ -67,6 +67,7 @@ def test_there_are_at_least_fourteen_operations_of_every_sort(scenes: list[Scene
         "METRO120x220",
         "WJ130x240",
         "WJ180x320",
+        "SRB120x260",
     }
 
 

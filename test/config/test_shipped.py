@@ -66,7 +66,7 @@ def test_the_preset_of_every_effect_is_found_by_its_former_name() -> None:
 
 @pytest.mark.parametrize("name", shipped_names("scenes"))
 def test_resolved_scene_loads_again_to_the_same_scene(name: str) -> None:
-    scene = load_scene(name, seed=7, laminae=9)
+    scene = load_scene(name, seed=7, laminae=11)
     again = scene_from_text(scene_text(scene))
     assert again == scene
     assert scene_text(again) == scene_text(scene)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from beardyn_core.bearing.any_bearing import SIMULATED_KINDS
+from beardyn_core.bearing.roller_bearing import KINDS
 from beardyn_core.cli.main import build_parser
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,8 +23,8 @@ PLACES = {  # file: what comes before its description, and after
 
 def check(text: str) -> None:
     assert "bearing" in text
-    named = [kind for kind in SIMULATED_KINDS if re.search(rf"\b{kind}\b", text)]
-    assert named in ([], list(SIMULATED_KINDS)), text
+    named = [kind for kind in KINDS if re.search(rf"\b{kind}\b", text)]
+    assert named in ([], list(KINDS)), text
 
 
 @pytest.mark.parametrize("file", PLACES)

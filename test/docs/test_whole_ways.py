@@ -99,8 +99,8 @@ def test_a_quantity_is_known_to_the_files_of_its_way_alone() -> None:
 
 
 def test_so_many_files_read_the_geometry_of_tapered_rollers_as_the_way_says() -> None:
-    angles = {"cup_angle", "cone_angle", "half_angle"}
-    found = sources({"angle"}, "beardyn_core", "beardyn_ros")
+    angles = {"cup_angle", "cone_angle", "half_angle", "cup_slant", "cone_slant", "slant"}
+    found = sources({"angle", "slant"}, "beardyn_core", "beardyn_ros")
     reading = {file for file, path in found.items() if known(path)[0] & angles}
     told = re.search(r"(\d+) files read the cone angles", section("kind of bearing"))
     assert told is not None

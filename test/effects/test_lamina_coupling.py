@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.profile import Profile
 from beardyn_core.effects import EffectSet, LaminaCoupling
 from test.effects.fresh_kernels import run_afresh
@@ -53,6 +54,7 @@ def test_absent_coupling_leaves_no_code() -> None:
 @cache
 def run(kind: str, coupling: LaminaCoupling | None, laminae: int) -> Record:
     scene = standard_scene()
+    assert isinstance(scene.bearing, Bearing)
     pressure = 1.0e9 if kind == "lundberg" else None
     return record(
         replace(

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import yaml
 
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.choice import scene_from_text
 from beardyn_core.config import scene_text
 from beardyn_core.effects import (
@@ -214,6 +215,7 @@ def numbers(scene: Scene) -> Float:
 
 def test_roughness_written_as_it_is_changes_nothing() -> None:
     bearing = standard_scene().bearing
+    assert isinstance(bearing, Bearing)
 
     def rough(factor: float) -> Float:
         written = yaml.safe_load(scene_text(standard_scene()))

@@ -9,8 +9,7 @@ import pytest
 
 import beardyn_core as bd
 from beardyn_core.cli.main import main
-from beardyn_core.config import load_any_bearing, load_bearing, read_scene
-from beardyn_core.config.folders import find
+from beardyn_core.config import load_any_bearing, load_bearing
 from beardyn_core.config.plates import load_plate
 from beardyn_core.follow.estimator_choice import estimator_for
 from test.bearings import CYLINDRICAL, SPHERICAL
@@ -81,53 +80,6 @@ def test_the_monitor_takes_their_bearing_data(name: str, tmp_path: Path) -> None
         assert plate.frequencies == load_any_bearing(name).frequencies
 
 
-@pytest.mark.parametrize("name", SPHERICAL)
-def test_runs_are_refused_by_one_sentence(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = scene_file(tmp_path, name)
-    for words in (
-        ("simulate", str(path)),
-        ("explain", str(path)),
-        ("ladder", str(path), "-o", str(tmp_path)),
-    ):
-        assert main([*words]) == 2
-        error = capsys.readouterr().err
-        assert refused(error, name), error
-        assert error.count("tapered and cylindrical roller bearings only") == 1
-    with pytest.raises(bd.InputError) as caught:
-        bd.simulate(str(path))
-    assert refused(str(caught.value), name)
-    with pytest.raises(bd.InputError) as caught:
-        bd.scene("cup_spall", bearing=bd.bearing(name))
-    assert refused(str(caught.value), name)
-    with pytest.raises(bd.InputError) as caught:
-        read_scene(path)
-    assert refused(str(caught.value), name)
-
-
-@pytest.mark.parametrize("name", SPHERICAL)
-def test_what_is_made_of_runs_is_refused(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    sweep, trial, box = (tmp_path / f"{kind}.yaml" for kind in ("sweep", "trial", "box"))
-    scene = tmp_path / "train.yaml"
-    text = find("scenes", "healthy_140").read_text(encoding="utf-8")
-    assert "bearing: HS130x230" in text
-    scene.write_text(text.replace("bearing: HS130x230", f"bearing: {name}"), encoding="utf-8")
-    sweep.write_text("sweep: mine\npurpose: x\nscene: train.yaml\nruns: 2\n", encoding="utf-8")
-    assert main(["sweep", str(sweep), "-o", str(tmp_path / "set")]) == 2
-    assert refused(capsys.readouterr().err, name)
-    assert main(["new", "quick", "--kind", "trials", "-o", str(trial)]) == 0
-    lines = trial.read_text(encoding="utf-8").splitlines()
-    changed = ["scene: train.yaml" if line.startswith("scene:") else line for line in lines]
-    trial.write_text("\n".join(changed) + "\n", encoding="utf-8")
-    assert main(["trial", str(trial), "-o", str(tmp_path / "trial")]) == 2
-    assert refused(capsys.readouterr().err, name)
-    assert main(["structure", "high_speed", "--bearing", name, "-o", str(box.with_suffix(".csv"))]) == 2
-    assert refused(capsys.readouterr().err, name)
-
-
 @pytest.mark.parametrize("name", OTHERS)
 def test_what_is_for_tapered_bearings_alone_is_refused(name: str) -> None:
     with pytest.raises(bd.InputError) as caught:
@@ -158,12 +110,16 @@ def test_thrust_on_a_pair_costs_what_its_ribs_rub() -> None:
     assert 1e-7 < float(films["cup"][films["cup"] > 0.0].min()) < 5e-6
 
 
-def test_a_scene_made_of_nouns_refuses_them() -> None:
-    from dataclasses import replace
+@pytest.mark.parametrize("name", SPHERICAL)
+def test_a_scene_takes_a_spherical_bearing_and_its_text_gives_it_back(name: str) -> None:
+    from beardyn_core.choice import scene_from_text
+    from beardyn_core.config import scene_text
 
-    with pytest.raises(bd.InputError) as caught:
-        replace(bd.scene("static_80kN"), bearing=bd.bearing("SRB120x260"))
-    assert refused(str(caught.value), "SRB120x260")
+    made = bd.scene(bearing=name, load_kN=60, speed_rpm=600, radial_clearance_mm=0.2)
+    assert isinstance(made.bearing, bd.SphericalBearing)
+    assert made.bearing.radial_clearance == pytest.approx(0.2e-3)
+    assert made.numerics.laminae >= 10
+    assert scene_from_text(scene_text(made)) == made
 
 
 @pytest.mark.parametrize("name", CYLINDRICAL)

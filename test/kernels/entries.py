@@ -127,14 +127,16 @@ def raceways(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         body, view = body_and_view(lanes, states, case, zero)
         centre, oversize = body.place, lanes.load(states, case, 21)
         line = generator_line(centre, body.axis, view.axis, oversize, raceway, p.roller)
-        slip = line_slip(line, centre, body, view)
+        slip = line_slip(line, centre, body, view, None)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         instant = (1e-12, 0.0)  # in so short a step no contact begins or ends
         held = Held(lanes, None, 0, False)
-        shared = Raceway(lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant, held)
+        shared = Raceway(
+            lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant, held, None
+        )
         sums = lamina_sums(shared, line, slip, log2_speed, False, None)
         level = Wrench((zero, zero, zero), (zero, zero, zero))
-        contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None, held)
+        contact = RacewayContact(line, slip, sums, level, log2_speed, centre, body, None, held, None)
         wrench = push_raceway(contact, p.effects.damping)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)

@@ -41,16 +41,16 @@ def in_pairs(lanes: Any, states: Any, out: Any, raceway: Any, ring: Any, speed: 
         zero = lanes.constant(0.0)
         body, view = body_and_view(lanes, states, case, zero)
         line = generator_line(body.place, body.axis, view.axis, zero, raceway, p.roller)
-        slip = line_slip(line, body.place, body, view)
+        slip = line_slip(line, body.place, body, view, None)
         log2_speed = log2_entrainment(lanes.constant(speed), p.effects.film)
         held = Held(lanes, p.held, ring, case % 2 == 1)
         instant = (1e-12, 0.0)  # in so short a step no contact begins or ends
         shared = Raceway(
-            lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant, held
+            lanes, ring, p.laminae, p.lamina_loads, 1.0, p.effects, (zero, zero), instant, held, None
         )  # fmt: skip
         sums = lamina_sums(shared, line, slip, log2_speed, False, None)
         level = Wrench((zero, zero, zero), (zero, zero, zero))
-        contact = RacewayContact(line, slip, sums, level, log2_speed, body.place, body, None, held)
+        contact = RacewayContact(line, slip, sums, level, log2_speed, body.place, body, None, held, None)
         wrench = push_raceway(contact, p.effects.damping)
         store_vector(lanes, out, case, 0, wrench.force)
         store_vector(lanes, out, case, 3, wrench.moment)

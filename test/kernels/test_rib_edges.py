@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from beardyn_core.bearing.contact_law import rib_contact
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.effects import EffectSet, Rib, RibMixedFilm, RibShearedFilm, SmallRib
 from beardyn_core.physics.lanes.lanes import Lanes
 from beardyn_core.physics.rib import RibParams
@@ -234,6 +235,7 @@ def moving_cases(count: int, seed: int) -> list[naive.Motion]:
 def test_lubricated_wrench_is_the_plain_formula(lubrication: Any, drilling: bool, lanes: Any) -> None:
     """Film, load sharing, friction and spin written out; roughness 0.418 um taken 20 times to mix."""
     scene = scene_with(replace(EffectSet(), rib=Rib(lubrication=lubrication, drilling=drilling)))
+    assert isinstance(scene.bearing, Bearing)
     scene = replace(scene, bearing=replace(scene.bearing, rib_roughness=8e-6))
     rib = parameters_of(scene).effects.rib
     assert rib is not None

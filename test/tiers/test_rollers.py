@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from beardyn_core.bearing.contact_law import line_contact_factor
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.physics.bodies.layout import CAGE_BODY, CONE_BODY, CUP_BODY, POSITION, TILT, TURN
 from beardyn_core.physics.statics.roller_contacts import ConePose, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import (
@@ -127,6 +128,7 @@ FIT = {"straight": 1e-5, "crowned": 0.04, "logarithmic": 0.04}
 def test_spring_of_a_roller_is_its_equilibrium_between_the_rings(kind: str) -> None:
     """From 100 N upwards; what the fit leaves below is of no weight in any load distribution."""
     bearing = scene_of("static_80kN", "lumped").bearing
+    assert isinstance(bearing, Bearing)
     bearing = replace(bearing, profile=replace(bearing.profile, kind=kind, drop=5e-6, design_pressure=3e9))
     approach, load = load_of_approach(bearing, 20)
     root = approach ** (1.0 / 9.0)
@@ -140,6 +142,7 @@ def test_spring_of_a_roller_is_its_equilibrium_between_the_rings(kind: str) -> N
 def test_a_crown_that_few_laminae_hardly_see_still_has_a_spring(laminae: int) -> None:
     """A single lamina has the mean drop: light loads find no contact at all, and the spring none either."""
     bearing = scene_of("static_80kN", "lumped").bearing
+    assert isinstance(bearing, Bearing)
     bearing = replace(bearing, profile=replace(bearing.profile, kind="logarithmic", design_pressure=1.5e9))
     approach, load = load_of_approach(bearing, laminae)
     assert (load == 0.0).any()

@@ -60,7 +60,7 @@ def cage_params(scene: Scene, step: float) -> CageParams | None:
     bearing, cage = scene.bearing, scene.effects.cage
     if cage is None:
         return None
-    sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
+    sine, cosine = math.sin(bearing.roller_slant), math.cos(bearing.roller_slant)
     radial = bearing.roller_orbit_radius
     axial = bearing.roller_mass_offset * cosine
     lean = cage.bar_inclination if isinstance(cage, Cage) else 0.0

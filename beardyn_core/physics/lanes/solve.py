@@ -42,6 +42,34 @@ def add_line(matrix, direction, arm, arm_slope, weights):
 
 
 @inline
+def add_twists(matrix, level, slope, weights):
+    """Add contacts along a line whose direction and lever change along it.
+
+    ``level``, ``slope`` (2 vectors): at abscissa x a velocity v and an angular velocity w are resisted where
+    v . (level[0] + x slope[0]) + w . (level[1] + x slope[1]) is not 0; ``weights``: as in `add_line`.
+    """
+    k0, k1, k2 = weights
+    d, p, e, r = level[0], level[1], slope[0], slope[1]
+    a, b = add_scaled(scale(k0, d), k1, e), add_scaled(scale(k1, d), k2, e)
+    f, g = add_scaled(scale(k0, p), k1, r), add_scaled(scale(k1, p), k2, r)
+    m = matrix
+    return (
+        m[0] + (a[0] * d[0] + b[0] * e[0]),
+        m[1] + (a[1] * d[0] + b[1] * e[0]), m[2] + (a[1] * d[1] + b[1] * e[1]),
+        m[3] + (a[2] * d[0] + b[2] * e[0]), m[4] + (a[2] * d[1] + b[2] * e[1]),
+        m[5] + (a[2] * d[2] + b[2] * e[2]),
+        m[6] + (f[0] * d[0] + g[0] * e[0]), m[7] + (f[0] * d[1] + g[0] * e[1]),
+        m[8] + (f[0] * d[2] + g[0] * e[2]), m[9] + (f[0] * p[0] + g[0] * r[0]),
+        m[10] + (f[1] * d[0] + g[1] * e[0]), m[11] + (f[1] * d[1] + g[1] * e[1]),
+        m[12] + (f[1] * d[2] + g[1] * e[2]), m[13] + (f[1] * p[0] + g[1] * r[0]),
+        m[14] + (f[1] * p[1] + g[1] * r[1]),
+        m[15] + (f[2] * d[0] + g[2] * e[0]), m[16] + (f[2] * d[1] + g[2] * e[1]),
+        m[17] + (f[2] * d[2] + g[2] * e[2]), m[18] + (f[2] * p[0] + g[2] * r[0]),
+        m[19] + (f[2] * p[1] + g[2] * r[1]), m[20] + (f[2] * p[2] + g[2] * r[2]),
+    )  # fmt: skip
+
+
+@inline
 def add_point(matrix, direction, arm, weight):
     """Add one contact that resists the velocity in one direction; arguments as in `add_line`."""
     p = cross(arm, direction)

@@ -49,7 +49,7 @@ def rest_under(
     speed : float
         Of the shaft, [rad/s].
     laminae, coupling :
-        As of `beardyn_core.physics.statics.static.solve`.
+        As of `beardyn_core.physics.statics.static.solve`; slices of barrels are not coupled.
 
     Raises
     ------
@@ -62,6 +62,8 @@ def rest_under(
     the journal, which depend on the bent box: a few passes settle both.
     """
     bearing, held = scene.bearing, scene.mounting
+    if coupling is not None and not coupling.about.suits(bearing.kind):
+        coupling = None
     box = mounting_params(bearing, held, np.zeros(6), None if body is None else body.modes)
     restraint = tilt_restraint(held, box)
     seats = None if body is None else body.suspension

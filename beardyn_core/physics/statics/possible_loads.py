@@ -10,6 +10,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
+from beardyn_core.bearing.spherical import FEWEST_OF_ELLIPSE
 from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.statics.roller_contacts import ContactModel
 
@@ -18,7 +19,6 @@ ACCEPTABLE = 1.0e-8
 ACCEPTABLE_FORCE = 1.0e-3
 # Along the axle, of the length of a roller: a prop that yields more lets a row slide off its raceways.
 _MOST_YIELD = 0.5
-_FEWEST_OF_ELLIPSE = 10
 
 
 def require_possible(
@@ -47,9 +47,9 @@ def require_possible(
             problems.append(
                 f"moment is {load[3]:g}, {load[4]:g} N m; {bearing.name} is self-aligning and carries none."
             )
-        if laminae < _FEWEST_OF_ELLIPSE:
+        if laminae < FEWEST_OF_ELLIPSE:
             problems.append(
-                f"laminae is {laminae}; a spherical roller bearing needs at least {_FEWEST_OF_ELLIPSE}, of "
+                f"laminae is {laminae}; a spherical roller bearing needs at least {FEWEST_OF_ELLIPSE}, of "
                 "which its contact ellipses are made."
             )
         if coupling is not None:

@@ -20,6 +20,7 @@ from beardyn_core.bearing.contact_law import LINE_EXPONENT, POINT_EXPONENT
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.rib_face import faces_of_ring
 from beardyn_core.bearing.roller_bearing import RollerBearing
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.physics.roller_spring import SpringParams, lever_of_cup
 from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import (
@@ -42,6 +43,8 @@ _SAMPLES = 31
 _SMALLEST_SHARE = 1.0e-3
 _SMALLEST_APPROACH, _USUAL_APPROACH, _LARGEST_APPROACH = 2.0e-7, 1.5e-5, 4.0e-4
 _SMALLEST_LEANING = 2.0e-6
+# of barrels light loads count less, so that the spring begins without a jump: rollers would strike
+_SMALLEST_OF_ELLIPSE, _SLICES_OF_ELLIPSE, _SHARE_OF_ELLIPSE = 2.0e-8, 60, 1.0e-2
 _FINE = 20  # laminae
 
 
@@ -74,14 +77,17 @@ def load_of_approach(bearing: RollerBearing, laminae: int) -> tuple[Float, Float
     """Work out the cup load of a roller over the approach of cone and cup along the cup's normal.
 
     Both cones of tapered rollers are pressed axially against one row, so that every roller of it has the same
-    approach; cylinders are clamped by a cup that is too narrow.
+    approach; cylinders and barrels are clamped by a cup that is too narrow.
 
     Returns ``approach`` [sample], [m], and ``load`` [sample], [N].
     """
-    low, high = _SMALLEST_APPROACH ** (1.0 / 9.0), _LARGEST_APPROACH ** (1.0 / 9.0)
-    nodes = np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)
+    smallest, samples = _SMALLEST_APPROACH, _SAMPLES
+    if bearing.self_aligning:
+        smallest, samples, laminae = _SMALLEST_OF_ELLIPSE, 2 * _SAMPLES, max(laminae, _SLICES_OF_ELLIPSE)
+    low, high = smallest ** (1.0 / 9.0), _LARGEST_APPROACH ** (1.0 / 9.0)
+    nodes = np.cos(np.pi * (np.arange(samples) + 0.5) / samples)
     approach = (0.5 * (low + high) + 0.5 * (high - low) * nodes) ** 9
-    load = np.empty(_SAMPLES)
+    load = np.empty(samples)
     for index, depth in enumerate(approach):
         load[index] = _pressed(bearing, laminae, depth).cup.force[-1].sum(axis=-1).mean()
     return approach, load
@@ -96,6 +102,8 @@ def _pressing(bearing: RollerBearing, laminae: int, depth: float) -> tuple[Conta
     if isinstance(bearing, Bearing):
         pose = np.array([0.0, -depth / np.sin(bearing.cup_angle), 0.0])
         return contact_model(bearing, 0.0, laminae, 0.0, 0.0), ConePose(pose, np.eye(3))
+    if isinstance(bearing, SphericalBearing):  # its play is a dimension of the sphere
+        bearing = replace(bearing, radial_clearance=-2.0 * depth / math.cos(bearing.cup_angle))
     model = contact_model(bearing, 0.0, laminae, 0.0, 0.0, rows=1)
     return replace(model, clearance=-depth), ConePose(np.zeros(3), np.eye(3))
 
@@ -114,12 +122,14 @@ def _fitted_spring(bearing: RollerBearing, laminae: int) -> SpringParams:
     Two line contacts in series with the rib in the force triangle nearly follow Q = K D^(10/9); what is
     left, the profile at small loads and the point contact of the rib, is smooth in D^(1/9): the fit is good
     to 1e-5 with straight rollers and, above a thousandth of the largest load, to 4 % with a profile that
-    takes ends of the roller out of contact, 12 % with too few laminae for it.
+    takes ends of the roller out of contact, 12 % with too few laminae for it. Of barrels the ends of the
+    roller cut the ellipse off: there it is good to 1.5 %.
     """
     approach, load = load_of_approach(bearing, laminae)
     root = approach ** (1.0 / 9.0)
     powers = root[:, None] ** np.arange(TERMS)
-    judged = np.maximum(load, _SMALLEST_SHARE * load.max())
+    smallest = _SHARE_OF_ELLIPSE if bearing.self_aligning else _SMALLEST_SHARE
+    judged = np.maximum(load, smallest * load.max())
     terms = np.linalg.lstsq(powers * (approach * root / judged)[:, None], load / judged, rcond=None)[0]
     # what leans on a cylinder from the side does not press it
     rib_angle = bearing.rib_angle if isinstance(bearing, Bearing) else 0.5 * math.pi
@@ -131,10 +141,17 @@ def _fitted_spring(bearing: RollerBearing, laminae: int) -> SpringParams:
         cone_share=cone_share,
         rib_share=rib_share,
         rib_centrifugal=roller_forces(0.0, *angles, centrifugal=1.0)[1],
-        idle=centrifugal_cup_load(1.0, bearing.cup_angle, rib_angle),
+        idle=_idle_share(bearing, rib_angle),
         give=float((approach[load > 0.0] / load[load > 0.0]).min()),
         reach=reach(bearing),
     )
+
+
+def _idle_share(bearing: RollerBearing, rib_angle: float) -> float:
+    """Compute the cup load of a roller that the cone does not press, over its centrifugal force."""
+    if bearing.self_aligning:  # the rest cage and guide ring take
+        return math.cos(bearing.cup_angle)
+    return centrifugal_cup_load(1.0, bearing.cup_angle, rib_angle)
 
 
 @cache
@@ -162,8 +179,10 @@ def reach(bearing: RollerBearing) -> float:
     Of a line of springs whose third of the square is the stiffness against tilt over that along the normal:
     for straight rollers half of their length. A profile that takes the ends out of contact leaves less, the
     more the lighter the load: taken at one in the middle of service, and with many laminae, for the spring
-    has none.
+    has none. 0 for barrels, which align themselves.
     """
+    if bearing.self_aligning:
+        return 0.0
     stiffness = _pressed(bearing, _FINE, _USUAL_APPROACH).cone_stiffness
     if stiffness[2, 2] <= 0.0:  # so much crown that nothing touches
         return 0.0

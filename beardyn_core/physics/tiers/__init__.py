@@ -16,6 +16,7 @@ tiers             what each tier computes with
 planar_roller     a roller between cup, cone and rib, implicit (quasistatic tier)
 planar_contacts   its contacts with raceways and rib as springs
 planar_flanges    ends of cylinders on the ribs of both rings (quasistatic tier)
+planar_barrel     a barrel between sphere and groove, implicit (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
 massless_flanges  axial springs of cylinders between ribs of both rings (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from beardyn_core.bearing.contact_law import LINE_EXPONENT
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.effects import LoadSharingTraction
+from beardyn_core.physics.barrel_line import BarrelParams, barrel_params
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
 from beardyn_core.physics.bodies.layout import (
     HELD_COEFFICIENT,
@@ -63,13 +64,15 @@ _MARGIN = 1.1  # on the frequency, for ribs and moving rings
 def highest_bounce(bearing: RollerBearing, stiffness: float) -> float:
     """Work out the rate at which a roller bounces between its raceways under the highest pressure, [rad/s].
 
-    ``stiffness``: factor of one raceway contact, all laminae together [N/m^(10/9)].
+    ``stiffness``: factor of one raceway contact, all laminae together [N/m^(10/9)], of barrels [N/m].
 
     References
     ----------
     Johnson, K. L. (1985), Contact Mechanics, eq. 4.45: p^2 = Q E' / (2 pi L R), here with the roller's own
     radius as R, and with 4 GPa, at which ISO 76 rates roller bearings statically.
     """
+    if bearing.self_aligning:  # slices of barrels are as stiff at any load
+        return math.sqrt(2.0 * stiffness / bearing.roller_mass)
     radius, length = 0.5 * bearing.roller_diameter, bearing.effective_length
     load = 2.0 * math.pi * length * radius * _PRESSURE**2 / bearing.material.contact_modulus
     one = LINE_EXPONENT * stiffness ** (1.0 / LINE_EXPONENT) * load ** (1.0 - 1.0 / LINE_EXPONENT)
@@ -107,13 +110,16 @@ def implicit_spring_share(bounce: float, step: float) -> float:
     return max(LEAST_SHARE, MOST_SHARE - 1.0 / (_MARGIN * bounce * step) ** 2)
 
 
-def raceway_params(angle: float, radius: float, side: float, gap: float) -> RacewayParams:
+def raceway_params(
+    angle: float, radius: float, side: float, gap: float, barrel: BarrelParams | None = None
+) -> RacewayParams:
     """Describe a raceway by its angle [rad], and its radius at the axial place from which it is measured [m].
 
-    ``side``: +1 of the cup, -1 of the cone; ``gap``: along its normal from the nominal roller [m].
+    ``side``: +1 of the cup, -1 of the cone; ``gap``: along its normal from the nominal roller [m];
+    ``barrel``: arcs of spherical roller bearings.
     """
     cosine = math.cos(angle)
-    return RacewayParams(math.sin(angle), cosine, side, gap + side * cosine * radius)
+    return RacewayParams(math.sin(angle), cosine, side, gap + side * cosine * radius, barrel)
 
 
 def roller_constants(
@@ -157,8 +163,7 @@ def build_parameters(
     offset = bearing.roller_mass_offset
     taper = math.tan(bearing.half_angle)
     coulomb, mixed, load_sharing = traction_params(scene)
-    cup_angle, cone_angle = bearing.cup_angle, bearing.cone_angle
-    laminae = lamina_table(scene)
+    laminae, count = lamina_table(scene), scene.numerics.laminae
     step = 1.0 / (WAVEFORM_RATE * scene.numerics.steps_per_sample)
     body = body_of(scene)
     return Parameters(
@@ -174,8 +179,16 @@ def build_parameters(
             half_length=0.5 * bearing.roller_length,
             mass_offset=offset,
         ),
-        cup=raceway_params(cup_angle, bearing.cup_line[0], 1.0, bearing.normal_gap(scene.end_play)),
-        cone=raceway_params(cone_angle, bearing.cone_line[0], -1.0, 0.0),
+        cup=raceway_params(
+            bearing.cup_slant,
+            bearing.cup_line[0],
+            1.0,
+            bearing.normal_gap(scene.end_play),
+            barrel_params(bearing, "cup", count),
+        ),
+        cone=raceway_params(
+            bearing.cone_slant, bearing.cone_line[0], -1.0, 0.0, barrel_params(bearing, "cone", count)
+        ),
         laminae=laminae,
         lamina_loads=aligned_zeros(1, 2 * laminae.shape[1], arrangement.width),
         rollers=roller_constants(arrangement, roller_oversize(scene), pocket_offsets(scene)),

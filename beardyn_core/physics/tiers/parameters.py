@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from beardyn_core.physics.barrel_line import BarrelParams
 from beardyn_core.physics.cage.parameters import CageParams
 from beardyn_core.physics.contact_damping import DampingParams
 from beardyn_core.physics.defect import FaultParams
@@ -32,6 +33,7 @@ class RacewayParams(NamedTuple):
     cosine: float
     side: float
     gap: float  # less what the raceway's radius is at the apex, with the sign of the side [m]
+    barrel: BarrelParams | None = None  # arcs of spherical roller bearings
 
 
 class RollerParams(NamedTuple):

@@ -46,7 +46,7 @@ class FlangeLoads(NamedTuple):
 
     each: Any  # 4, load on each rib, in the order of `FlangeParams` [N]
     total: Any  # of them [N]
-    on_cup: Any  # 3, radial and axial force, and moment about the bearing centre [N], [N m]
+    on_cup: Any  # 3, radial and axial force besides what `cup_wrench` has, and moment about the centre [N m]
 
 
 @inline
@@ -89,13 +89,14 @@ def flange_springs(place, centre, axis, ring_axis, motion, flight, raceways, lev
         _spring(centre, axis, ring_axis, motion, flight, flanges.cone_inner, damping),
         _spring(on_cup, axis, upright, rest, flight, flanges.cup_outer, damping),
         _spring(on_cup, axis, upright, rest, flight, flanges.cup_inner, damping),
-        (_grip(raceways[0], level, p.grip), _grip(raceways[1], level, p.grip)),
+        (raceway_grip(raceways[0], level, p.grip), raceway_grip(raceways[1], level, p.grip)),
         (flight[1], flight[1] - cone_slides),
     )
 
 
 @inline
-def _grip(load, level, grip):
+def raceway_grip(load, level, grip):
+    """Work out what a raceway resists sliding along it with, [N s/m]; see `sliding.creep_of`."""
     if grip is None:
         return 0.0 * load
     return creep_of(at_least(load, 0.0), level, grip)
@@ -248,17 +249,20 @@ def add_axial(axial, counted, loads):
 
 
 @inline
-def axial_sum(plain, axial, flanges):
-    """Take the sum that `axial_sine` turns into axial force: of cup loads, or of axial forces, [N]."""
-    if flanges is None:
+def axial_sum(plain, axial, direct):
+    """Take the sum that `axial_sine` turns into axial force: of cup loads, or of axial forces, [N].
+
+    ``direct``: ``None`` where the axial force of a roller goes with its cup load.
+    """
+    if direct is None:
         return plain
     return axial
 
 
 @inline
-def axial_sine(sine, flanges):
+def axial_sine(sine, direct):
     """Take the sine that goes with `axial_sum`: of the cup's angle, or -1 for forces along the axle."""
-    if flanges is None:
+    if direct is None:
         return sine
     return -1.0
 

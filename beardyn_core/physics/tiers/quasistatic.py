@@ -73,6 +73,12 @@ from beardyn_core.physics.tiers.kinematic_step import (
     copy_table,
     finish_step,
 )
+from beardyn_core.physics.tiers.planar_barrel import (
+    balance_barrels,
+    barrel_tangent,
+    guided_inertia,
+    pressed_outwards,
+)
 from beardyn_core.physics.tiers.planar_flanges import (
     add_axial,
     all_flanges,
@@ -127,18 +133,23 @@ def counted_waves(lanes, block, pockets, direction, loose):
 
 
 @inline
-def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns, speeds, due, shown, p):
+def balance_rollers(
+    lanes, rollers, sums, motion, shake, direction, cages, turns, speeds, due, shown, p, barrel
+):
     """Move all rollers over a step and sum their loads by row.
 
     ``rollers`` [block, ROLLER_FIELDS, lane]: places, axes, radial and axial velocity and tangential angular
     momentum changed in place; everything else written when `shown`; ``shake`` (3 numbers): acceleration of
     the cup as its ring sees it: up, forward, outward [m/s^2]; ``cages``: of `see_cages`; ``sums`` [1,
     SUM_FIELDS, lane]: written: ``LOAD_COSINE`` and following; ``due``: whether to work out the torque of the
-    contacts; ``shown``: whether to write what a block of channels shows.
+    contacts; ``shown``: whether to write what a block of channels shows; ``barrel``: of the
+    cup, ``None`` for other rollers.
     """
     k, rate, turning = p.kinematic, p.motion.rate, p.base.roller.transverse_inertia
     orbit_squared = speeds[1] * speeds[1]
     inertia = (k.centrifugal * orbit_squared, k.gyroscopic * orbit_squared)
+    if barrel is not None:
+        inertia = guided_inertia(inertia, p.base.cup)
     side = lanes.load(p.sides, 0, 0)
     zero = lanes.constant(0.0)
     # sums over the rollers: plain, times cosine, times sine
@@ -178,11 +189,18 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         shaken = (shake[0] * cosine + shake[1] * sine, side * shake[2])
         before = moved
         flight, beside = free_flight(moved, shaken, inertia, p)
+        if barrel is not None:
+            beside = pressed_outwards(beside, inertia, p.base.cup)
         place = (place[0] + p.step * flight[0], place[1] + p.step * flight[1])
         axis = turned_axis(axis, p.step * flight[2])
-        move, cup, cone, rib, lever, deepest, ends = balance(
-            lanes, block, place, axis, flight, beside, view, azimuths, opening, grip, p
-        )
+        if barrel is None:
+            move, cup, cone, rib, lever, deepest, ends = balance(
+                lanes, block, place, axis, flight, beside, view, azimuths, opening, grip, p
+            )
+        else:
+            move, cup, cone, rib, lever, deepest, ends = balance_barrels(
+                lanes, block, place, axis, flight, beside, view, azimuths, opening, grip, p
+            )
         moved = (
             damp_reversal(before[0], flight[0] + move[0] * rate),
             damp_reversal(before[1], flight[1] + move[1] * rate),
@@ -231,6 +249,8 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
             one_rib = sliding_torque(rib, speeds, p.kinematic, p.base.cone, p.base.effects.rib)
             sliding = sliding + counted * flanges_torque(one_rib, ends, speeds[0], p.base.effects.flanges)
             tangent = counted * pressed_tangent(cone[0], p.tangent)
+            if barrel is not None:
+                tangent = counted * barrel_tangent(cone[0], p.tangent)
             stiff = add_stiffness(stiff, tangent, pocket_cosine, pocket_sine)
             slowed = counted * creep_of(cup[0], level, p.slide)
             creep = add_stiffness(creep, slowed, pocket_cosine, pocket_sine)
@@ -248,7 +268,7 @@ def balance_rollers(lanes, rollers, sums, motion, shake, direction, cages, turns
         sums,
         0,
         LOAD_COSINE,
-        (loads[1], loads[2], side * axial_sum(loads[0], axial, p.base.effects.flanges)),
+        (loads[1], loads[2], side * axial_sum(loads[0], axial, p.direct)),
     )
     store_vector(lanes, sums, 0, MOMENT_COSINE, (side * moments[1], side * moments[2], rib_sum))
     store_vector(lanes, sums, 0, KEPT_COSINE, (kept[0], kept[1], side * kept[2]))
@@ -319,7 +339,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
         cages = see_cages(lanes, bodies, lanes.load(p.sides, 0, 0), loose)
         balance_rollers(
             lanes, rollers, sums[0], motion, shake, direction, cages, turns, speeds, due,
-            shown, p,
+            shown, p, p.base.cup.barrel,
         )  # fmt: skip
         turn_reaction(sums, direction, bending)
         totals = (
@@ -329,7 +349,7 @@ def advance_quasistatic(lanes, state, work, loads, output, p):
             lane_total(sums, MOMENT_COSINE),
             lane_total(sums, MOMENT_SINE),
         )
-        sine = axial_sine(p.base.cup.sine, p.base.effects.flanges)
+        sine = axial_sine(p.base.cup.sine, p.direct)
         wrench = cup_wrench(totals, direction, p.base.cup.cosine, sine)
         kept = with_cages(kept_wrench(sums, direction), sums, bodies, loose)
         rib = lane_total(sums, RIB_SUM)

@@ -94,7 +94,7 @@ def slide_params(scene: Scene) -> SlideParams | None:
     x, y = (axis.ravel() for axis in np.meshgrid(np.log2(load), np.log2(speed), indexing="ij"))
     terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
     found = np.linalg.lstsq(terms, np.log2(creep), rcond=None)[0]
-    angle = scene.bearing.cup_angle
+    angle = scene.bearing.cup_slant
     radial, axial = place_on_cup(scene.bearing)
     level, by_load, by_speed, load_squared, both, speed_squared = found.tolist()
     lever = axial * math.sin(angle) - radial * math.cos(angle)

@@ -48,12 +48,13 @@ def initial_state(
     """
     lanes = arrangement.to_lanes
     rollers = aligned_zeros(arrangement.block_count, layout.ROLLER_FIELDS, arrangement.width)
-    angle = bearing.contact_angle + lanes(static.roller_tilt)
+    angle = bearing.roller_slant + lanes(static.roller_tilt)
     offset = bearing.roller_mass_offset
-    radius = 0.5 * bearing.pitch_diameter + lanes(static.roller_radial) + offset * np.sin(angle)
+    radial, axial = _places_in_cup(bearing, static)
+    radius = 0.5 * bearing.pitch_diameter + lanes(radial) + offset * np.sin(angle)
     rollers[:, layout.RADIUS] = radius
     rollers[:, layout.ANGLE] = parameters.rollers[:, layout.POCKET_ANGLE]
-    rollers[:, layout.AXIAL] = 0.5 * bearing.row_spacing + lanes(static.roller_axial) + offset * np.cos(angle)
+    rollers[:, layout.AXIAL] = 0.5 * bearing.row_spacing + lanes(axial) + offset * np.cos(angle)
     rollers[:, layout.VELOCITY + 1] = cage_speed * radius
     sine, cosine = np.sin(angle), np.cos(angle)
     rollers[:, layout.AXIS], rollers[:, layout.AXIS + 2] = sine, cosine
@@ -81,6 +82,17 @@ def initial_state(
     return State(rollers, bodies, np.zeros(ENERGY_TERMS), flex, axle)
 
 
+def _places_in_cup(bearing: RollerBearing, static: StaticSolution) -> tuple[Float, Float]:
+    """Place the rollers against the cup, radially and axially, [row, roller] [m]; barrels follow the cone."""
+    radial, axial = static.roller_radial, static.roller_axial
+    if not bearing.self_aligning:
+        return radial, axial
+    azimuth = 2.0 * math.pi * np.arange(radial.shape[1]) / radial.shape[1]
+    outward = np.array([-1.0, 1.0])[: len(axial), None]
+    x, y, z = static.displacement
+    return radial + x * np.sin(azimuth) + z * np.cos(azimuth), axial + outward * y
+
+
 def _shift_of_cages(
     bearing: RollerBearing, arrangement: Arrangement, parameters: Parameters, static: StaticSolution
 ) -> Float:
@@ -92,7 +104,7 @@ def _shift_of_cages(
     rows, pockets = arrangement.rows, parameters.effects.faults.pockets
     longer = 0.0 if pockets is None else arrangement.to_rollers(pockets[:, 1])
     room = 0.5 * bearing.cage.axial_clearance + longer
-    shift = static.roller_axial[:rows]
+    shift = _places_in_cup(bearing, static)[1][:rows]
     least = np.max(shift - room, axis=1, where=arrangement.present, initial=-math.inf)
     most = np.min(shift + room, axis=1, where=arrangement.present, initial=math.inf)
     return np.where(least <= most, np.clip(0.0, least, most), 0.5 * (least + most))

@@ -59,6 +59,12 @@ class LumpedParameters(NamedTuple):
     thrust: ThrustParams | None  # of cylinders
 
 
+class DirectParams(NamedTuple):
+    """Axial forces of the rollers on the cup are summed by themselves: ribs push, and normals turn."""
+
+    summed: float
+
+
 class QuasistaticParameters(NamedTuple):
     """Everything constant during a quasistatic run."""
 
@@ -73,8 +79,9 @@ class QuasistaticParameters(NamedTuple):
     highest_wave: float  # bound of what waviness of cone and roller brings them nearer by [m]
     bending: BendingParams | None
     loose: LooseParams | None  # ``None``: rollers stay in the middle of their pockets
-    slide: SlideParams | None  # ``None``: without a film, and of cylinders
-    grip: SlideParams | None  # of cylinders, which slide along both raceways by themselves
+    slide: SlideParams | None  # ``None``: without a film, and of cylinders and barrels
+    grip: SlideParams | None  # of cylinders and barrels, which slide along both raceways by themselves
+    direct: DirectParams | None  # ``None`` where the cup is pushed along its nominal normal alone
 
 
 def without_roller_dynamics(base: Parameters) -> Parameters:

@@ -61,6 +61,7 @@ def spring_laminae(scene: Scene) -> int:
 
 def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedParameters:
     """Build the kernel parameters of the lumped tier."""
+    floating = base.effects.flanges is not None or scene.bearing.self_aligning
     base = tier_parameters.flatten_profiles(base, scene)
     # springs are measured from their own raceway
     base = base._replace(cup=base.cup._replace(gap=scene.bearing.normal_gap(scene.end_play)))
@@ -83,13 +84,14 @@ def lumped_parameters(scene: Scene, base: Parameters) -> tier_parameters.LumpedP
         waves=rolling_wave_params(base.effects.faults, base.rollers, spring.cone_share),
         highest=highest_points(base.effects.faults, every_patch(scene.defects, scene.bearing)),
         bending=bending_params(scene, base, response.give, response.lever, sides),
-        slide=along_both(slide_params(scene)) if base.effects.flanges else slide_params(scene),
+        slide=along_both(slide_params(scene)) if floating else slide_params(scene),
         thrust=thrust_params(scene.mounted_bearing, spring_laminae(scene)) if base.effects.flanges else None,
     )
 
 
 def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.QuasistaticParameters:
     """Build the kernel parameters of the quasistatic tier."""
+    floating = base.effects.flanges is not None or scene.bearing.self_aligning
     motion = tier_parameters.ring_motion_params(base)
     lever, sides = (
         lever_of_cup(scene.bearing),
@@ -108,8 +110,9 @@ def quasistatic_parameters(scene: Scene, base: Parameters) -> tier_parameters.Qu
         highest_wave=highest_wave(base.effects.faults),
         bending=bending_params(scene, base, response.give, response.lever, sides),
         loose=loose_params(scene, base.step),
-        slide=None if base.effects.flanges else slide_params(scene),
-        grip=slide_params(scene) if base.effects.flanges else None,
+        slide=None if floating else slide_params(scene),
+        grip=slide_params(scene) if floating else None,
+        direct=tier_parameters.DirectParams(1.0) if floating else None,
     )
 
 
