@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from beardyn_core.choice.reference_solution import MOST_DB, Evidence, decibels
+from beardyn_core.choice.reference_solution import MOST_DB, REFERENCE_LAMINAE, Evidence, decibels
 from beardyn_core.choice.rule import FAST, FULL, Alternative, Rule, absent, on_or_off, percent
 from beardyn_core.physics.cage.rubbing import bar_weight
 
@@ -17,6 +17,8 @@ _UNDAMPED = 0.2  # of deflection and load after strikes; 7 and 17 % with a flat,
 # What independent laminae add to third octaves behind a fault in `full`: 1.5 dB at 8 kHz (`cup_spall`), 1.6
 # at 10 kHz and 0.5 at 5 kHz (`roller_spall`, where the whole choice was 2.8 dB off).
 _UNCOUPLED_FROM, _UNCOUPLED_BELOW_DB, _UNCOUPLED_DB = 5000.0, 0.5, 2.8
+# The same where slices are the loudest: `waviness`, 40 of them.
+_QUIET_UNCOUPLED_DB = 2.8
 
 
 def gravity(evidence: Evidence) -> Rule:
@@ -104,7 +106,9 @@ def lamina_coupling(evidence: Evidence) -> Rule:
     effect = evidence.scene.effects.lamina_coupling
     if effect is None or not effect.about.suits(evidence.scene.bearing.kind):
         return absent("lamina_coupling")
-    change = evidence.difference({"coupling": None}, {"coupling": effect}, heavy=True)
+    # a cup that bends leans against its rollers: along the axle it moves with their stiffness against tilt
+    many = {"laminae": REFERENCE_LAMINAE, "bending": evidence.statics.flexible}
+    change = evidence.difference({**many, "coupling": None}, {**many, "coupling": effect}, heavy=True)
     influence = change.influence()
     reason = (
         f"coupled laminae change the deflection by {percent(change.deflection)} and the largest roller load "
@@ -113,6 +117,8 @@ def lamina_coupling(evidence: Evidence) -> Rule:
     louder = 0.0
     if evidence.patches:
         louder = _UNCOUPLED_DB if evidence.band > _UNCOUPLED_FROM else _UNCOUPLED_BELOW_DB
+    elif evidence.shaken_by_slices:
+        louder = _QUIET_UNCOUPLED_DB
     cost = evidence.costs.extra("lamina_coupling")
     on, off = on_or_off("lamina_coupling", effect, reason, influence, cost).alternatives
     beyond = {**influence, "vibration": influence.get("vibration", 0.0) + louder}

@@ -26,6 +26,10 @@ from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.sensor import PASSBAND, RATES
 
 MOST_DB = 20.0
+REFERENCE_LAMINAE = 40
+_SLICES_FROM = (
+    60.0  # turns of the shaft, above which slices can be the loudest: `waviness` at 400 and 1165 rpm
+)
 
 
 @dataclass(frozen=True)
@@ -112,9 +116,15 @@ class Evidence:
         return bool(operation.wheel_defects or operation.rail_defects)
 
     @property
-    def runs_quietly(self) -> bool:
-        """Whether nothing shakes the box at high frequencies: fault, surface, wheel, rail, background."""
+    def shaken_by_slices(self) -> bool:
+        """Whether slices that meet a raceway one after the other are the loudest that a box rings with.
+
+        No fault, surface, wheel, rail or background shakes its modes at the frequencies that are asked for.
+        """
         scene = self.scene
+        turns = abs(self.loads.typical.speed) / (2.0 * math.pi)
+        if not isinstance(scene.effects.structure, ModalStructure) or self.band <= _SLICES_FROM * turns:
+            return False
         steady = isinstance(scene.operation, ConstantOperation | SteppedOperation)
         made = scene.scattered is not None and scene.scattered.made_surface != "none"
         forces = scene.background is not None and scene.background.forces

@@ -20,6 +20,7 @@ from beardyn_core.effects import (
     RibMixedFilm,
     RotatingCage,
 )
+from beardyn_core.scene.operation import ConstantOperation
 from beardyn_core.scene.scene import Scene
 from beardyn_core.scene.tier import TIERS
 from test.choice.scenes import HELD, SPALL, constant, reasons, variant
@@ -225,14 +226,14 @@ def test_hot_oil_brings_the_asperities_together_so_that_a_light_load_does_not_sk
     assert "at a film of 0.71 times the roughness" in reasons(hot)["traction"]
 
 
-def test_a_crowned_roller_that_no_spring_follows_leads_to_the_quasistatic_tier() -> None:
+def test_a_crowned_roller_of_many_slices_leads_to_the_quasistatic_tier() -> None:
     shipped = read_file(config_folder() / "bearings" / "HS130x230.yaml")
     scene = variant(
         bearing={**shipped, "profile": {"kind": "crowned", "drop_um": 20}},
         effects={"preset": "auto", "structure": False},
         operation=constant([0, 15, 60], 600),
         quantities=["deflection", "roller_load"],
-        accuracy_percent=3.0,
+        accuracy_percent=2.0,
         mounting=HELD,
     )
     assert scene.tier == "quasistatic"
@@ -378,12 +379,41 @@ def test_third_octaves_that_fast_tiers_miss_need_the_full_one(name: str, to: flo
 
 
 def test_many_slices_where_nothing_but_they_shakes_a_box_that_rings() -> None:
-    """With 4 slices third octaves of `waviness` were 12 dB too loud at 10 kHz, of `smooth_run` right."""
+    """With 4 slices third octaves of `waviness` were up to 11 dB too loud, of `smooth_run` right."""
     quiet, loud = (load_scene(name, effects="auto") for name in ("waviness", "smooth_run"))
     assert quiet.numerics.laminae >= 16
+    assert quiet.effects.lamina_coupling is not None  # without it 40 of them were 2.8 dB too quiet
     assert "shake the box" in reasons(quiet)["laminae"]
     assert loud.numerics.laminae <= 6
     assert load_scene("waviness", effects="auto", vibration_to=1000.0).numerics.laminae <= 6
+    scene = load_scene("waviness", effects="auto", vibration_to=2000.0)
+    assert isinstance(scene.operation, ConstantOperation)
+    # 4 slices were 8 dB too loud there
+    slow = replace(scene.operation, speed=scene.operation.speed * 400.0 / 1165.0)
+    every = replace(load_effects("all"), structure=scene.effects.structure)
+    assert choose(replace(scene, operation=slow, effects=every)).laminae >= 16
     rings = load_scene("waviness", effects="auto").effects.structure
     assert isinstance(rings, ModalStructure)
     assert load_scene("waviness", effects={"preset": "auto", "structure": False}).numerics.laminae <= 6
+
+
+def test_a_cup_that_bends_moves_along_the_axle_with_the_slices() -> None:
+    """In runs the deflection of `smooth_run` was 3.7 % off with two slices, of rigid rings 0.1."""
+    box = {"kind": "modes", "table": "high_speed"}
+    scene = load_scene("smooth_run", effects={"preset": "all", "structure": box})
+    found = choose(replace(scene, quantities=("force", "deflection", "roller_load", "torque"), accuracy=0.05))
+    assert found.laminae == 2
+    assert 0.037 < found.expected["deflection"] < 0.05
+
+
+def test_torque_of_barrels_takes_the_full_tier_and_its_law_of_friction() -> None:
+    """They slide along their ellipses: `quasistatic` gave 3.3 N m of 6.1, 16 % too little were stated."""
+    keys = {"bearing": "SRB120x260", "end_play_mm": None, "operation": constant([0, 0, 80], 600)}
+    keys |= {"effects": {"preset": "auto", "structure": False}, "mounting": HELD, "quantities": ["torque"]}
+    scene = variant(**keys, accuracy_percent=20.0)
+    assert scene.tier == "full"
+    assert isinstance(variant(**keys, accuracy_percent=5.0).effects.traction, LoadSharingTraction)
+    fast = variant(**keys, tier="quasistatic")
+    stated = re.search(r"at most \(bounds\) torque (\d+) %", " ".join(fast.chosen))
+    assert stated is not None
+    assert float(stated[1]) > 47.0
