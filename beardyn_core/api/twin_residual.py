@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite, pi
+from math import isfinite, nan, pi
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,8 @@ def residual_beside(
 def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> Scene:
     """Give the scene of a twin at the state that is known; what is not given stays that of `base`.
 
+    A spall of which the least width alone is known has that one.
+
     Raises
     ------
     InputError
@@ -72,8 +74,13 @@ def scene_beside(base: Scene, known: Estimates, tier: str, duration: float) -> S
     if "temperature" in told:
         keys["temperature_C"] = told["temperature"] - ZERO_CELSIUS
     faults: list[Mapping[str, Any]] = []
-    if part not in ("", HEALTHY) and "width" in told:
+    width = told.get("width", _least_width(known))
+    if part not in ("", HEALTHY) and isfinite(width):
         length = 1e3 * told["length"] if "length" in told else _USUAL_LENGTH_MM
-        size = {"width_mm": 1e3 * told["width"], "length_mm": length, "depth_um": _DEPTH_UM}
+        size = {"width_mm": 1e3 * width, "length_mm": length, "depth_um": _DEPTH_UM}
         faults = [{"on": part, **size}]
     return make_scene(base, tier=tier, duration=duration, faults=faults, **keys)
+
+
+def _least_width(known: Estimates) -> float:
+    return next((each.at_least for each in known.quantities if each.quantity.name == "width"), nan)

@@ -198,11 +198,14 @@ def _judging(
     """Give the truth of a quantity on the scale of learning, and which runs judge it.
 
     A width is judged by the runs whose number would be reported, whatever they are: of passages like those
-    learnt from, and taken for narrow spalls.
+    learnt from, and taken for narrow spalls. Where no number is reported, the narrower of two readings is
+    judged, of all passages like those learnt from, by the folded width.
     """
     values, inside = true_values(quantity, runs)
     learnt, wide = estimator.regressions.get(quantity.name), estimator.wide
     if wide is not None and quantity.of_passages and learnt is not None:
+        if not wide.gives_numbers:
+            return _training_values(quantity, runs, wide)[0], inside & estimator.knows(standard)
         value, doubt = learnt.value(standard), learnt.expected_error(standard)
         ends = (quantity.restored(each) for each in (value, value - doubt, value + doubt))
         inside = inside & (wide.chance(standard, *ends) <= wide.narrow) & estimator.knows(standard)

@@ -14,6 +14,7 @@ from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.judging import is_held, judged_by, judged_crosswise
 from beardyn_core.follow.labelled import (
+    Described,
     check_alike,
     check_unseen,
     describe_runs,
@@ -23,6 +24,7 @@ from beardyn_core.follow.labelled import (
     sampling_of,
 )
 from beardyn_core.follow.learning import FEWEST, calibrate_intervals, train_estimator, widen_intervals
+from beardyn_core.follow.quantities import BY_NAME
 from beardyn_core.population.labelled_set import TEST, TRAIN, VALIDATION, LabelledSet
 
 
@@ -69,9 +71,7 @@ def train(
         )
     found = train_estimator(seen, plate_of(runs), axes, *sampling_of(runs))
     learnt, held = found, join_sets([describe_runs(each, None, axes) for each in calibration] or [own])
-    found = calibrate_intervals(learnt, held, straightened=bool(calibration))
-    if calibration:
-        found = widen_intervals(found, own)
+    learnt, found = _calibrate_width(learnt, held, own if calibration else None)
     if across:
         judged = judged_crosswise(learnt, held, own=own)
     else:
@@ -100,6 +100,32 @@ def train(
         "licence": about["licence"],
     }
     return replace(found, card=card)
+
+
+def _calibrate(learnt: Estimator, held: Described, own: Described | None) -> Estimator:
+    """Set the intervals by runs of a truer tier and by `own`, or without these by runs of the same tier."""
+    found = calibrate_intervals(learnt, held, straightened=own is not None)
+    return found if own is None else widen_intervals(found, own)
+
+
+def _calibrate_width(
+    learnt: Estimator, held: Described, own: Described | None
+) -> tuple[Estimator, Estimator]:
+    """Calibrate, without numbers of widths where too few runs set their interval; what was learnt, and it."""
+    found = _calibrate(learnt, held, own)
+    if learnt.wide is None or _has_interval(found, learnt):
+        return learnt, found
+    learnt = replace(learnt, wide=learnt.wide.without_numbers())
+    return learnt, _calibrate(learnt, held, own)
+
+
+def _has_interval(found: Estimator, learnt: Estimator) -> bool:
+    """Tell whether enough spalls are taken for narrow ones to set the interval of their width."""
+    return all(
+        name in found.regressions and bool(np.isfinite(found.regressions[name].reach).all())
+        for name in learnt.regressions
+        if BY_NAME[name].of_passages
+    )
 
 
 def withhold(estimator: Estimator, names: Sequence[str]) -> Estimator:

@@ -19,6 +19,7 @@ LEAST_FOLDED = 1.2e-3  # at which two events can be resolved, [m]
 LEAST_OF_TWO = 2.8e-3  # width from which a spall makes two events, [m]
 _FAR_SHARE = 1.15  # of the half distance: wider spalls may not be taken for narrow ones
 NARROW, WIDE = 0.05, 0.9  # chances that decide at the most and at the least
+_NEVER = -1.0  # chance below which a spall is narrow where no number is reported
 _MISSED = 0.03  # share of wide spalls that are taken for narrow ones, and of narrow ones for wide ones
 _APART, _APART_SHARE = 1.5e-3, 0.12  # between the way of two events and the width, [m] and of the width
 _BEYOND = 1.02  # of the widest spall learnt from: wider ones are left out
@@ -66,6 +67,15 @@ class WideRule:
             return self
         narrow, wide = float(np.quantile(far, _MISSED)), float(np.quantile(near, 1.0 - _MISSED))
         return replace(self, narrow=min(narrow, NARROW), wide=max(wide, WIDE))
+
+    @property
+    def gives_numbers(self) -> bool:
+        """Tell whether a number is reported of any spall."""
+        return self.narrow >= 0.0
+
+    def without_numbers(self) -> WideRule:
+        """Take no spall for a narrow one: each is wide, or has two readings."""
+        return replace(self, narrow=_NEVER)
 
     def _read(self, standardised: Float) -> Float:
         return np.asarray(self.readings @ standardised.T + self.offsets[:, None], np.float64)

@@ -1,7 +1,7 @@
 """Judge an estimator by hidden runs of `full`, by size, speed, noise, box, in docs/evidence/estimator.md.
 
-``python -m evidence.follow.judged --train runs --hidden hidden``, sets that ``beardyn sweep
-high_speed_axlebox -o runs`` and ``beardyn sweep high_speed_hidden --runs 320 -o hidden`` have made.
+``python -m evidence.follow.judged --train runs --hidden hidden``: the parts ``learnt`` and ``full`` of the
+runs of ``beardyn train --bearing HS130x230``, or sets of ``beardyn sweep``.
 """
 
 from __future__ import annotations

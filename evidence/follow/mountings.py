@@ -127,7 +127,7 @@ def section(own: Path, boxes: Path) -> str:
         HEAD.format(runs=len(usual), turn=NEAR[TURNED], gain=NEAR[GAIN], outcomes=" | ".join(OUTCOMES))
         + "".join(lines)
         + f"\n{of_others} {others[FAMILIAR]} are familiar, {others[UNEXPLAINED]} are strange without a "
-        + f"reason, and {accused} are said to be mounted wrongly. {TAIL}"
+        + f"reason, and {accused} {'is' if accused == 1 else 'are'} called wrongly mounted. {TAIL}"
     )
 
 

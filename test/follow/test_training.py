@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,8 +18,9 @@ from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_plate
 from beardyn_core.follow import judging, labelled, training
+from beardyn_core.follow.wide_spall import WideRule
 from test.cli.json_page import check
-from test.follow.synthetic import PLATE, RATE, STRETCH, drawn, taught
+from test.follow.synthetic import NAMES, PLATE, RATE, STRETCH, drawn, taught
 
 ABOUT = {"sweep": "made", "code": "digest", "licence": "CC-BY-4.0"}
 PARTS = {"train": 80, "validation": 40, "test": 60, None: 50}
@@ -89,6 +91,28 @@ def test_sets_that_calibrate_judge_themselves_crosswise(runs: Any, monkeypatch: 
     assert sum(count for _, count in judged_by) == PARTS[None]
     assert len(judged_by) == judging.CROSSWISE
     assert len({least for least, _ in judged_by}) > 1  # each by the others
+
+
+@pytest.mark.parametrize("enough", [True, False])
+def test_a_width_that_too_few_runs_prove_has_both_readings_and_no_number(
+    enough: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    learnt = taught(drawn(200, 1))
+    rule = WideRule(np.zeros((3, len(NAMES))), np.zeros(3), np.array([39e-3, 29e-3]), 34e-3)
+    reach = np.array([1.0, 2.0 if enough else np.inf])
+    few = replace(learnt, wide=rule, regressions={"width": replace(learnt.regressions["width"], reach=reach)})
+    calibrated: list[Any] = []
+
+    def noted(estimator: Any, *_: Any) -> Any:
+        calibrated.append(estimator.wide)
+        return few
+
+    monkeypatch.setattr(training, "_calibrate", noted)
+    used, found = training._calibrate_width(replace(learnt, wide=rule), drawn(50, 2), None)
+    assert found is few
+    assert [each.gives_numbers for each in calibrated] == ([True] if enough else [True, False])
+    assert used.wide is not None
+    assert used.wide.gives_numbers is enough
 
 
 @pytest.mark.parametrize("one", [False, True])

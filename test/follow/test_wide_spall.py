@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from beardyn_core.follow.event_order import CONTRASTS, WAY
 from beardyn_core.follow.labelled import Described
 from beardyn_core.follow.learning import calibrate_intervals, train_estimator
 from beardyn_core.follow.wide_spall import (
+    LEAST_FOLDED,
     NARROW,
     UNKNOWN,
     WIDE,
@@ -147,3 +149,23 @@ def test_events_that_lie_elsewhere_than_the_width_decide_nothing() -> None:
 def test_of_equal_odds_the_narrow_spall_is_the_likelier(odds: float, way: float) -> None:
     chance = chance_of(np.array([odds]), np.array([way]), np.array([CONE]))[0]
     assert chance < 1.0 / (1.0 + np.exp(-odds))
+
+
+def test_where_too_few_are_taken_for_narrow_no_number_is_reported_and_both_readings_are() -> None:
+    learnt = train_estimator(spalled(240, 1), DRAWING, AXES, RATE, STRETCH)
+    assert learnt.wide is not None
+    found = calibrate_intervals(replace(learnt, wide=learnt.wide.without_numbers()), spalled(150, 2))
+    runs = spalled(300, 3)
+    told = [found.estimates(row[None])["width"] for row in runs.descriptors]
+    assert all(np.isnan(each.value) for each in told)
+    least = np.array([each.at_least for each in told])
+    given_ = np.isfinite(least)
+    assert given_.mean() > 0.8
+    assert np.mean(least[given_] <= runs.truth["width"][given_]) > 0.9
+    # the narrower reading holds the folded width as often as its interval promises
+    spacing = np.where(runs.conditions == "cone", CONE, CUP)
+    folded = np.log(np.maximum(fold_widths(runs.truth["width"], spacing), LEAST_FOLDED))
+    standard = found.standardise(runs.descriptors)
+    guess, known = found.regressions["width"].guess(standard), found.knows(standard)
+    held = (guess.low[-1] <= folded) & (folded <= guess.high[-1])
+    assert abs(held[known].mean() - 0.9) < 4.0 * np.sqrt(0.09 * (1 / known.sum() + 1 / 140))
