@@ -84,7 +84,7 @@ def laminae(evidence: Evidence, count: int, tier: str) -> Verdict:
         shortest = 1e3 * min(patch.length for patch in partial)
         reason += f"; a patch of {shortest:.3g} mm tilts its roller {percent(lever)} wrong"
         coupling = evidence.scene.effects.lamina_coupling
-        if coupling is not None:
+        if coupling is not None and coupling.about.suits(evidence.scene.bearing.kind):
             taken = max(taking_error(patch, evidence.scene.bearing, coupling, count) for patch in partial)
             influence["vibration"] += decibels(1.0 + taken)
             reason += f" and takes {percent(taken)} too much or too little from it"

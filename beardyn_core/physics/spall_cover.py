@@ -1,8 +1,10 @@
 """Share of each lamina that counts as lost over a patch, so that a contact loses what a half-space loses.
 
-A lamina is a spring of its own and loses its whole part over a hole; on a half-space the ends next to a hole
-take over a part of it. What counts is a smaller share of a larger gap: share times gap stays, which decides
-where the floor still presses, and a roller over a deep hole loses what `bearing.holed_line` finds.
+A lamina of a line contact is a spring of its own and loses its whole part over a hole; on a half-space the
+ends next to a hole take over a part of it. What counts is a smaller share of a larger gap: share times gap
+stays, which decides where the floor still presses, and a roller over a deep hole loses what
+`bearing.holed_line` finds. Slices of a barrel count as they are: that line has an even load along the whole
+roller, an ellipse may end within a hole.
 """
 
 from __future__ import annotations
@@ -51,7 +53,8 @@ def counted_cover(
 
     A roller meets the strips of one pit one after the other, the widest first: each counts for what the
     half-space loses more with it than without it. Strips that a roller does not meet together count by
-    themselves, and a patch on others counts there as they do.
+    themselves, and a patch on others counts there as they do. Slices of self-aligning bearings lose all
+    that is covered.
 
     Parameters
     ----------
@@ -63,6 +66,8 @@ def counted_cover(
         Coupled laminae lose less than others by themselves, and are corrected by less.
     """
     cover = np.array([lamina_cover(bearing, patch, count) for patch in patches]).reshape(-1, count)
+    if bearing.self_aligning:
+        return cover
     shared = _all_shared(bearing, patches, count)
     order = sorted(range(len(patches)), key=lambda index: -patches[index].width)
     counted, fresh, law = np.zeros_like(cover), np.zeros_like(cover), _lost_by_law(bearing, count, coupling)

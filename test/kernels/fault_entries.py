@@ -15,7 +15,7 @@ from beardyn_core.physics.defect import (
     spring_damage,
     spring_slopes,
 )
-from beardyn_core.physics.lamina_springs import cup_springs
+from beardyn_core.physics.lamina_springs import cup_springs, lamina_springs
 from beardyn_core.physics.laminae import released_power
 from beardyn_core.physics.lanes.lane_tables import gather_pair
 from beardyn_core.physics.lanes.vectors import Twist, dot, scale
@@ -198,3 +198,16 @@ def massless_rollers(lanes: Any, cases: Any, out: Any, p: Any) -> None:
         turns = (zero, zero, cases[case, 2, 0])
         load = faulted_load(lanes, 0, approach, zero, angle, turns, p.faults, p)
         lanes.store(out, case, 0, load)
+
+
+@entry
+def barrel_springs(lanes: Any, cases: Any, out: Any, reach: Any, p: Any) -> None:
+    """Cup contact of barrels in tier quasistatic: azimuth in the cup and approach; output: force."""
+    for case in range(cases.shape[0]):
+        zero, faults, barrel = lanes.constant(0.0), p.effects.faults, p.cup.barrel
+        both, approach = (lanes.load(cases, case, 0), zero), (lanes.load(cases, case, 1), zero)
+        patches, bend = (faults.cup, faults.roller, faults.cup_damage), (zero - barrel.sharpness, zero)
+        forces, _stiffness = lamina_springs(
+            lanes, 0, approach, bend, both, p.laminae, reach, patches, None, barrel.ellipse
+        )
+        lanes.store(out, case, 0, forces[0])

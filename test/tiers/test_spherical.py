@@ -17,6 +17,7 @@ from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.choice import scene_from_mapping
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.physics.tiers.tiers import spring_laminae
+from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from test.runs import blocks_of
@@ -191,6 +192,22 @@ def test_rollers_that_start_skewed_come_back_under_load() -> None:
     load = np.linalg.norm(joined(blocks[-3:], "contacts")[..., 0, 3:6], axis=-1)
     heaviest = float(np.mean([each.largest_roller_load for each in statics_of("full", (0.0, 0.0, 80.0))]))
     assert load.max(axis=(1, 2)).mean() == pytest.approx(heaviest, rel=0.03)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", ["lumped", "quasistatic"])
+def test_over_a_deep_spall_longer_than_the_ellipse_a_roller_carries_nothing(tier: str) -> None:
+    """What is left is its centrifugal force, 1 % of the load in the healthy bearing."""
+    spall = Patch(on="cup", row=0, azimuth=0.0, width=12e-3, depth=3e-4, length=20e-3)
+
+    def load_at_the_bottom(scene: Scene) -> float:
+        later = blocks_of(replace(scene, snapshot_rate=3200.0), 0.3)[1:]
+        load = np.linalg.norm(joined(tuple(later), "contacts")[:, 0, :, 0, 3:6], axis=-1)
+        place = joined(tuple(later), "body_pose")[:, 4 : 4 + load.shape[1], :3]
+        return float(load[np.abs(np.arctan2(place[..., 0], place[..., 2])) < 0.007].mean())
+
+    healthy = scene_of(tier, (0.0, 0.0, 8.0))
+    assert load_at_the_bottom(replace(healthy, defects=(spall,))) < 0.01 * load_at_the_bottom(healthy)
 
 
 def test_fewer_slices_than_an_ellipse_needs_are_refused() -> None:

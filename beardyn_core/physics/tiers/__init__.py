@@ -18,6 +18,7 @@ planar_contacts   its contacts with raceways and rib as springs
 planar_flanges    ends of cylinders on the ribs of both rings (quasistatic tier)
 planar_barrel     a barrel between sphere and groove, implicit (quasistatic tier)
 massless_roller   a roller as one spring (lumped tier)
+massless_barrel   a barrel over patches as one spring (lumped tier)
 massless_flanges  axial springs of cylinders between ribs of both rings (lumped tier)
 kinematic_rings   rings of the fast tiers on the springs of all rollers
 sliding           rollers that slide along the cup, by the traction law (fast tiers)

@@ -53,6 +53,7 @@ from beardyn_core.physics.tiers.kinematic_rollers import (
     show_roller,
     watch_loads,
 )
+from beardyn_core.physics.tiers.massless_barrel import over_barrel_patches
 from beardyn_core.physics.tiers.massless_flanges import (
     add_thrust,
     outward_waves,
@@ -116,7 +117,7 @@ def _push(pressed, rate, damping):
 def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
     """Work out the cup load with the gaps of patches; without patches as `spring_load`.
 
-    See `over_patches`. Neglects the tilt of the roller that follows.
+    See `over_patches` and `massless_barrel`. Neglects the tilt of the roller that follows.
     """
     if faults is None:
         return spring_load(approach, rate, p.spring, p.base.effects.damping)
@@ -126,16 +127,26 @@ def faulted_load(lanes, block, approach, rate, angle, turns, faults, p):
     on_cone = (azimuth - turns[1], lanes.constant(_PI - spin))
     cup_near = find_damage(lanes, block, on_cup, count, (faults.cup, faults.roller), faults.cup_damage)
     cone_near = find_damage(lanes, block, on_cone, count, (faults.cone, faults.roller), faults.cone_damage)
-    zero = lanes.constant(0.0)
+    near = cup_near, cone_near
+    approach, part = _damaged_approach(lanes, approach, near, faults, p, p.base.cup.barrel)
+    return spring_load(approach, part * rate, p.spring, damping)
+
+
+@inline
+def _damaged_approach(lanes, approach, near, faults, p, barrel):
+    if barrel is not None:
+        return over_barrel_patches(
+            lanes, approach, near, faults, p.base.laminae, (barrel, p.base.cone.barrel)
+        )
+    count, zero = p.base.laminae.shape[1], lanes.constant(0.0)
     covered, lost, gap = zero, zero, zero
     for k in range(count):
-        cup = gap_moments(lanes, cup_near, k, count, faults.cup_damage)
-        cone = gap_moments(lanes, cone_near, k, count, faults.cone_damage)
+        cup = gap_moments(lanes, near[0], k, count, faults.cup_damage)
+        cone = gap_moments(lanes, near[1], k, count, faults.cone_damage)
         covered = covered + (cup[0] + cone[0])
         lost = lost + (cup[1] + cone[1])
         gap = gap + (cup[2] + p.spring.cone_share * cone[2])
-    approach, part = over_patches(approach, (covered / count, lost / count, gap / count))
-    return spring_load(approach, part * rate, p.spring, damping)
+    return over_patches(approach, (covered / count, lost / count, gap / count))
 
 
 @inline

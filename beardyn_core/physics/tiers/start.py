@@ -8,8 +8,6 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
-from beardyn_core.bearing.cylindrical import CylindricalBearing
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.physics.bodies import layout
 from beardyn_core.physics.bodies.arrangement import Arrangement, aligned_zeros
@@ -122,6 +120,7 @@ def at_rest(rows: int, roller_count: int, modes: int) -> StaticSolution:
 
 
 def settle_lumped(
+    bearing: RollerBearing,
     p: LumpedParameters,
     pose: Float,
     bent: Float,
@@ -229,10 +228,9 @@ def settle_lumped(
     else:
         size = float(np.abs(missing / scale).max())
         if not size <= _ACCEPTABLE * most + _ACCEPTABLE_FORCE:
-            kind = Bearing if float(cup.sine) != 0.0 else CylindricalBearing
             raise ValidityError(
                 f"the lumped tier found no static equilibrium under the first load in {_ITERATIONS} steps: "
-                f"{size:.3g} N are left. Check load, {kind.play_words} and preload; "
-                f"{kind.single_row_hint}; tier quasistatic finds its equilibrium by itself"
+                f"{size:.3g} N are left. Check load, {bearing.play_words} and preload; "
+                f"{bearing.single_row_hint}; tier quasistatic finds its equilibrium by itself"
             )
     return np.concatenate([found[:held], pose[held:]]), found[held:]

@@ -150,6 +150,7 @@ def _start_lumped(
             seats = fitted.body.suspension
             modal_load += (parameters.base.mounting.preload - box.stiffness @ (seats @ bent)) @ seats
     pose, state.flex[0] = settle_lumped(
+        scene.bearing,
         parameters,
         np.array([*static.displacement, *static.tilt]),
         bent,
