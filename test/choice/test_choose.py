@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -408,8 +409,9 @@ def test_a_cup_that_bends_moves_along_the_axle_with_the_slices() -> None:
 
 def test_torque_of_barrels_takes_the_full_tier_and_its_law_of_friction() -> None:
     """They slide along their ellipses: `quasistatic` gave 3.3 N m of 6.1, 16 % too little were stated."""
-    keys = {"bearing": "SRB120x260", "end_play_mm": None, "operation": constant([0, 0, 80], 600)}
-    keys |= {"effects": {"preset": "auto", "structure": False}, "mounting": HELD, "quantities": ["torque"]}
+    keys: dict[str, Any] = {"bearing": "SRB120x260", "end_play_mm": None, "mounting": HELD}
+    keys |= {"operation": constant([0, 0, 80], 600), "quantities": ["torque"]}
+    keys |= {"effects": {"preset": "auto", "structure": False}}
     scene = variant(**keys, accuracy_percent=20.0)
     assert scene.tier == "full"
     assert isinstance(variant(**keys, accuracy_percent=5.0).effects.traction, LoadSharingTraction)
