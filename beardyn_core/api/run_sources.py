@@ -56,13 +56,13 @@ def read_source(
         if bearing is not None and not isinstance(bearing, str | NamePlate):
             bearing = NamePlate.of(bearing)
         return read_measured(source, bearing=bearing, **options)
-    if options:
-        raise InputError(f"{', '.join(options)}: for measured files; {source} is a recording, or not there")
+    if options and Path(source).exists():
+        raise InputError(f"{', '.join(options)}: for measured files; {source} is a recording")
     return read_run(source, box)
 
 
 def is_measured_file(path: Path) -> bool:
-    """Tell whether a file is no recording, neither by its ending nor by its first bytes."""
+    """Check whether a file is no recording, neither by its ending nor by its first bytes."""
     from beardyn_core.record.mcap_scanning import MAGIC
 
     if not path.is_file() or path.suffix.lower() in (".mcap", ".yaml"):
