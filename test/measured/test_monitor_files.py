@@ -177,8 +177,12 @@ def test_python_says_what_a_measured_file_lacks(tmp_path: Path) -> None:
     run = bd.read_measured(path, speed_rpm=1800, bearing="6205")
     with pytest.raises(bd.InputError, match=r"speed_rpm: for measured files; .* is read already"):
         bd.monitor(run, speed_rpm=1800)
+    recording = tmp_path / "run.mcap"
+    with pytest.raises(bd.InputError, match="No such file"):
+        bd.monitor(recording, speed_rpm=1800)
+    recording.touch()
     with pytest.raises(bd.InputError, match=r"speed_rpm: for measured files; .*run.mcap is a recording"):
-        bd.monitor(tmp_path / "run.mcap", speed_rpm=1800)
+        bd.monitor(recording, speed_rpm=1800)
 
 
 def test_a_measured_file_is_sent_to_the_commands_that_take_it(
