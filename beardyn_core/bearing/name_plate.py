@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isnan, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 from typing import Annotated as A
 
 from beardyn_core.base.edge import At, refuse
@@ -26,6 +26,8 @@ class NamePlate:
     Of a bearing with several rows they are those of one row. Inner dimensions (number, both diameters,
     contact angle), maker's factors, or both; what is not known is NaN, a number of rolling elements 0.
     """
+
+    has_barrels: ClassVar[bool] = False
 
     name: A[str, At(longest=80), "of the bearing"] = "bearing data"
     description: A[str, "what it is, in a few words"] = ""
@@ -102,7 +104,8 @@ class NamePlate:
     @classmethod
     def of(cls, bearing: RollerBearing) -> NamePlate:
         """Take from a whole bearing what its fault frequencies need."""
-        return cls(
+        plate = BarrelPlate if bearing.self_aligning else cls
+        return plate(
             name=bearing.name,
             description=bearing.description,
             roller_count=bearing.roller_count,
@@ -158,3 +161,9 @@ class NamePlate:
         from beardyn_core.bearing.factors import derive
 
         return derive(self._factors)
+
+
+class BarrelPlate(NamePlate):
+    """Data of a bearing whose rollers are known to be barrels; a plate alone does not state it."""
+
+    has_barrels: ClassVar[bool] = True

@@ -138,6 +138,8 @@ def severity_of(
             "mm on, not of "
             f"{1e3 * plate.roller_diameter:.3g} mm"
         )
+    if plate.has_barrels:
+        return unmeasured("how way and width belong together is known of line contacts, not of barrels")
     spacing = spacing_of(fault, plate)
     events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
     if events is None:

@@ -1,10 +1,13 @@
 """The width of a spall follows from its two events, and is not measurable where there is one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.config import load_any_bearing
 from beardyn_core.monitor import streaming
 from beardyn_core.monitor.chain import REFERENCE, MonitorResult
 from beardyn_core.monitor.severity import ENTRY_AND_EXIT, NOT_MEASURABLE, severity_near, severity_of
@@ -46,6 +49,19 @@ def test_width_follows_from_entry_and_exit_on_the_cup(width):
     assert found.low <= width <= found.high
     assert found.width == pytest.approx(width, abs=0.3e-3)
     assert found.grade == ("incipient" if width < 4e-3 else "developed")
+
+
+def test_of_barrels_no_width_is_stated():
+    """Runs of `freight_spherical_cup` gave 2.7 mm for 6 mm: the way is not of a line contact."""
+    signal, angle, order = _passages("cup", 5e-3)
+    plate = replace(NamePlate.of(load_any_bearing("SRB120x260")), name="barrels")
+    assert plate.has_barrels
+    alike = {key: getattr(PLATE, key) for key in ("roller_count", "roller_diameter", "pitch_diameter")}
+    found = severity_of(signal, RATE, angle, "cup", order, replace(plate, **alike, contact_angle=0.0))
+    assert found.grade == NOT_MEASURABLE
+    assert "not of barrels" in found.reason
+    assert severity_of(signal, RATE, angle, "cup", order, PLATE).grade != NOT_MEASURABLE
+    assert not NamePlate.of(load_any_bearing("WJ130x240")).has_barrels
 
 
 @pytest.mark.parametrize("beyond", [3e-3, 3.75e-3, 4.75e-3, 8e-3, 9.75e-3])
