@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,13 +13,13 @@ import pytest
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.kinematics import fault_frequencies
-from beardyn_core.choice import scene_from_mapping
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.physics.suspension import mounting_params, tilt_restraint
 from beardyn_core.physics.tiers.tiers import spring_laminae
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from test.runs import blocks_of
+from test.tiers.steady import Force, steady_scene
 
 TIERS = ("lumped", "quasistatic", "full")
 FAST = TIERS[:2]
@@ -28,26 +27,12 @@ NAME = "WJ130x240"
 RPM = 600.0
 SPEED = RPM * math.pi / 30.0
 PHASES = 8
-Force = tuple[float, float, float]
 
 
 @cache
 def scene_of(tier: str, force: Force, tilt: str = "locked") -> Scene:
     """A pair under a steady load, the cup held, with the standard effects."""
-    return scene_from_mapping(
-        {
-            "scene": "pair",
-            "bearing": NAME,
-            "lubricant": "L055",
-            "effects": "standard",
-            "tier": tier,
-            "numerics": {"laminae": 8},
-            "operation": {"kind": "constant", "force_kN": list(force), "speed_rpm": RPM},
-            "mounting": {"cup": "held", "journal_tilt": tilt},
-        },
-        "pair",
-        Path(),
-    )
+    return steady_scene(NAME, tier, force, RPM, tilt, numerics={"laminae": 8})
 
 
 @cache

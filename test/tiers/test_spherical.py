@@ -21,32 +21,20 @@ from beardyn_core.scene.patch import Patch
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
 from test.runs import blocks_of
+from test.tiers.steady import Force, steady_scene
 
 TIERS = ("lumped", "quasistatic", "full")
 NAME = "SRB120x260"
 RPM = 600.0
 SPEED = RPM * math.pi / 30.0
 PHASES = 8
-Force = tuple[float, float, float]
 Array = np.ndarray[Any, Any]
 
 
 @cache
 def scene_of(tier: str, force: Force, tilt: str = "locked") -> Scene:
     """A bearing under a steady load, the cup held, with the standard effects."""
-    return scene_from_mapping(
-        {
-            "scene": "barrels",
-            "bearing": NAME,
-            "lubricant": "L055",
-            "effects": "standard",
-            "tier": tier,
-            "operation": {"kind": "constant", "force_kN": list(force), "speed_rpm": RPM},
-            "mounting": {"cup": "held", "journal_tilt": tilt},
-        },
-        "barrels",
-        Path(),
-    )
+    return steady_scene(NAME, tier, force, RPM, tilt)
 
 
 @cache
