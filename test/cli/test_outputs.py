@@ -123,7 +123,8 @@ def ended_by_a_full_disk(path: Path, words: list[str], room: int) -> None:
     )
     done = subprocess.run(
         [sys.executable, "-c", script, *words],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        # a compiled module that the limit cuts off would stay so
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True,
         text=True,
         timeout=300,
