@@ -75,7 +75,7 @@ def test_a_choice_is_found_for_every_valid_scene(given_keys: dict[str, Any]) -> 
 
 
 @pytest.mark.slow
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.fixed_dictionaries(SCENES))
 def test_a_choice_is_found_for_many_valid_scenes(given_keys: dict[str, Any]) -> None:
     assert_a_choice_is_found(**given_keys)
