@@ -51,7 +51,7 @@ def equilibrium(
     Parameters
     ----------
     bearing : Bearing or str
-        Name of a shipped bearing or path of a YAML file, or a bearing of any kind.
+        Name of a shipped bearing of any kind or path of a YAML file; in Python also a bearing.
     load_kN : float or 3 floats
         Force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80. A
         number alone is upwards.
