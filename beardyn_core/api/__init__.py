@@ -15,6 +15,7 @@ sensitivity   the smallest spall that a healthy record would have shown
 exporting     signals of a recording for other programs
 measuring     read measured files, make recordings of them
 statics       stiffness, torque, life, film and load distribution, no run needed
+static_inputs what these are asked for: bearing, play, lubricant, load, speed, in SI
 sweeping      sets of labelled runs over a population of bearings
 estimating    load, end play and spall from a run, what remains; an estimator of a set of runs
 training      the estimators of a bearing, whose runs are simulated first

@@ -31,13 +31,13 @@ _NO_PATCH = ("diameter", "field_spall", "worn_pocket")  # kinds of faults withou
 
 
 def bearing(
-    name: str | Path | RollerBearing | None = None, *, rollers: int | None = None, **keys: Any
+    source: str | Path | RollerBearing | None = None, /, *, rollers: int | None = None, **keys: Any
 ) -> Any:
     """Give a shipped bearing, one of a file, or one made in code, with changes.
 
     Parameters
     ----------
-    name : str, Path or bearing, optional
+    source : str, Path or bearing, optional
         Shipped bearing, YAML file, or a bearing. Without it a tapered bearing is made of ``rollers``,
         ``pitch_diameter_mm``, ``roller_diameter_mm``, ``roller_length_mm`` and ``contact_angle_deg``; every
         other number is derived from them as docs/python.md lists, and marked so in ``bearing.sources``. In a
@@ -46,7 +46,7 @@ def bearing(
         Per row.
     **keys
         Keys of a bearing file in its units, in place of what the file or the derivation gives:
-        ``end_play_mm=0.1``.
+        ``end_play_mm=0.1``, ``name="mine"``.
 
     Returns
     -------
@@ -66,15 +66,18 @@ def bearing(
     if rollers is not None:
         keys = {"roller_count": rollers, **keys}
     keys = _plain(keys)
-    if isinstance(name, RollerBearing):
-        made = bearing_from_mapping({**write_noun(name), **keys}, f"bearing {name.name}")
-        kept = (
-            (key, source) for key, source in made.sources if getattr(made, key, 0) == getattr(name, key, 0)
-        )
+    if isinstance(source, RollerBearing):
+        made = bearing_from_mapping({**write_noun(source), **keys}, f"bearing {source.name}")
+        kept = ((key, text) for key, text in made.sources if getattr(made, key, 0) == getattr(source, key, 0))
         return replace(made, sources=tuple(kept))  # a changed number is not of its source any more
-    if name is not None:
-        path = find("bearings", str(name))
+    if source is not None:
+        path = find("bearings", str(source))
         return bearing_from_mapping({**read_file(path), **keys}, str(path))
+    if set(keys) == {"name"}:
+        given = repr(keys["name"])
+        raise InputError(
+            f"name is {given}, and no number is given; the bearing of this name is bearing({given})"
+        )
     derive = {"derive": True} if keys.get("kind", Bearing.kind) == Bearing.kind else {}
     return bearing_from_mapping({**derive, **keys}, "bearing made in code")
 
@@ -136,17 +139,17 @@ def _unsaved(noun: Any) -> list[str]:
     return [f"{found}; save takes a bearing, bearing data, a lubricant or a scene"]
 
 
-def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
+def name_plate(source: str | Path | None = None, /, **keys: Any) -> NamePlate:
     """Give bearing data of the catalogue, of a file, of a bearing, or made in code.
 
     Parameters
     ----------
-    name : str or Path, optional
+    source : str or Path, optional
         Designation in the catalogue, shipped bearing, or YAML file.
     **keys
         Inner dimensions ``roller_count``, ``roller_diameter_mm``, ``pitch_diameter_mm``,
         ``contact_angle_deg`` (default 0), or maker's factors ``bpfo``, ``bpfi``, ``bsf``, ``ftf``, or both,
-        in place of what the name gives. What is not given and does not follow is NaN in ``frequencies``.
+        in place of what the source gives. What is not given and does not follow is NaN in ``frequencies``.
 
     Raises
     ------
@@ -160,7 +163,7 @@ def name_plate(name: str | Path | None = None, **keys: Any) -> NamePlate:
     >>> name_plate(bpfo=8.24, bpfi=10.76).roller_count
     19
     """
-    known = {} if name is None else write_noun(load_plate(name))
+    known = {} if source is None else write_noun(load_plate(source))
     known.pop("sources", None)
     made: NamePlate = read_noun(NamePlate, {**known, **_plain(keys)}, "bearing data")
     return made

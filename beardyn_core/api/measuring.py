@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from beardyn_core.base.errors import in_python
+
 if TYPE_CHECKING:
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.measured.about import Mounted
@@ -57,7 +59,7 @@ def read_measured(files: Files, *, bearing: Plates | None = None, **options: Any
     found = with_found_speed(_survey_files(files, options), mounted)
     run = run_of(found, mounted)
     for sentence in run.measured["warnings"][len(found.warnings) :]:
-        warnings.warn(sentence, stacklevel=2)
+        warnings.warn(in_python(sentence), stacklevel=2)
     return run
 
 
@@ -94,7 +96,7 @@ def import_measured(
         with_found_speed(_survey_files(files, options), mounted), recording, mounted, force=force
     )
     for sentence in made.warnings:
-        warnings.warn(sentence, stacklevel=2)
+        warnings.warn(in_python(sentence), stacklevel=2)
     return made.path
 
 
@@ -130,7 +132,7 @@ def _survey_files(files: Files, options: Mapping[str, Any]) -> Survey:
     paths = [files] if isinstance(files, str | Path) else list(files)
     found = survey(paths, Reading.of(**options))
     for sentence in found.warnings:
-        warnings.warn(sentence, stacklevel=3)
+        warnings.warn(in_python(sentence), stacklevel=3)
     return found
 
 

@@ -33,6 +33,7 @@ __all__ = ["envelope_spectrum", "load_zone", "spectrum", "stiffness_curve", "tor
 
 _AXES = ("x", "y", "z")
 _SEGMENT_S = 1.0  # of the parts of a spectrum, which then has lines of 1 Hz
+_PARTS = 8  # that overlap by half, at least: of fewer the lines scatter too much to be read
 _SPEEDING = 1.05  # fastest over slowest speed from which a run is drawn over its speed
 _SAME_SPEED = 2e-3  # of the fastest, below which two segments are drawn as one
 _END_PLAYS_MM = tuple(np.round(np.linspace(-0.1, 0.3, 9), 3).tolist())
@@ -105,7 +106,7 @@ def spectrum(
     Returns
     -------
     matplotlib.axes.Axes
-        Amplitude spectral density after Welch, parts of 1 s or of the whole run.
+        Amplitude spectral density after Welch: parts of 1 s, of a short run eight that overlap by half.
     """
     from scipy.signal import welch
 
@@ -113,7 +114,7 @@ def spectrum(
     if not axes or set(axes) - set(_AXES):
         raise InputError(f"axes is {axes!r}; give one or more of x, y and z")
     signal = vibration_of(run_from(source), sensor)
-    length = min(len(signal), round(_SEGMENT_S * signal.rate))
+    length = min(2 * len(signal) // (_PARTS + 1), round(_SEGMENT_S * signal.rate))
     frequency, power = welch(np.nan_to_num(signal.values), signal.rate, nperseg=length, axis=0)
     known = np.asarray(np.isfinite(signal.values).all(axis=0))
     chosen = [name for name in _AXES if name in axes and known[_AXES.index(name)]]

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.monitor.chain import Algorithm, MonitorSettings
     from beardyn_core.record.run import Run
     from beardyn_core.study.inspection import Inspection
@@ -24,7 +24,7 @@ def report(
     train: str = "",
     axlebox: str = "",
     box: str | None = None,
-    bearing: Bearing | NamePlate | str | None = None,
+    bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
     algorithm: Algorithm | None = None,
     settings: MonitorSettings | None = None,
@@ -86,7 +86,7 @@ def _path_of(run: Run | Path | str) -> Path | None:
 def _inspections_of(
     run: Run | Path | str,
     box: str | None,
-    bearing: Bearing | NamePlate | str | None,
+    bearing: RollerBearing | NamePlate | str | None,
     sensor: str,
     algorithm: Algorithm | None,
     settings: MonitorSettings | None,
@@ -94,14 +94,14 @@ def _inspections_of(
 ) -> list[Inspection]:
     """Let the monitor judge every bearing of a run, of one axlebox or of all."""
     from beardyn_core.api.run_sources import read_source
-    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.config import load_plate
     from beardyn_core.measured.about import USUAL_LABEL, Mounted
     from beardyn_core.monitor.chain import REFERENCE
     from beardyn_core.study.inspection import inspect_boxes, inspect_run
 
     plate = load_plate(bearing) if isinstance(bearing, str) else bearing
-    if isinstance(plate, Bearing):
+    if isinstance(plate, RollerBearing):
         from beardyn_core.bearing.name_plate import NamePlate
 
         plate = NamePlate.of(plate)

@@ -113,6 +113,6 @@ def resolve_source(
                 if known
                 else "does not name its bearing"
             )
-            raise InputError(f"{run.label}: {several}; give bearing")
+            raise InputError(f"{run.label}: {several}; give --bearing")
         bearing, sensor = known[0].plate, sensor or known[0].sensor
     return run, bearing, sensor

@@ -3,28 +3,35 @@
 Every function takes a bearing of any kind or its name, a load in kN upwards on the journal or along x, y,
 z, and a scalar or a sequence of what it is asked over. Rings bend unless ``rings="rigid"``: the cup in a
 housing with a wall of 25 mm, as the effect ``structure`` of kind ``rings`` has it in runs. Torque and film
-are those of tapered bearings.
+are those of tapered and cylindrical bearings.
 """
 
 from __future__ import annotations
 
 import math
-import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
+from beardyn_core.api.static_inputs import (
+    answer_each,
+    find_bearing,
+    find_lubricant,
+    find_with_lines,
+    find_with_play,
+    limit_problem,
+    read_film,
+    read_force,
+    read_shaft_speed,
+    read_temperature,
+)
 from beardyn_core.base.errors import InputError
-from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
-    from beardyn_core.bearing.cylindrical import CylindricalBearing
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.roller_bearing import RollerBearing
-    from beardyn_core.effects import LineFilm
     from beardyn_core.physics.statics.rating_life import RatingLife
     from beardyn_core.physics.statics.static import StaticSolution
 
@@ -32,7 +39,6 @@ Load = float | Sequence[float]
 
 _KN, _MM, _RPM = 1e3, 1e3, math.pi / 30.0
 _SLOWEST = 1e-6  # [m/s]
-LIMITS = {"temperature_C": (-60.0, 200.0, " degrees Celsius"), "contamination": (0.0, 1.0, "")}
 
 
 def equilibrium(
@@ -51,7 +57,7 @@ def equilibrium(
     Parameters
     ----------
     bearing : Bearing or str
-        Name of a shipped bearing or path of a YAML file, or a bearing of any kind.
+        Name of a shipped bearing of any kind or path of a YAML file; in Python also a bearing.
     load_kN : float or 3 floats
         Force on the cone, axlebox frame (x forward, y left along the axle, z up), kN; default 0 0 80. A
         number alone is upwards.
@@ -86,14 +92,14 @@ def equilibrium(
     from beardyn_core.physics.modal_body import bending_rings
     from beardyn_core.physics.statics.static import solve
 
-    chosen, end_play = _played(bearing, end_play_mm, radial_clearance_mm)
+    chosen, end_play = find_with_play(bearing, end_play_mm, radial_clearance_mm)
     return solve(
         chosen,
-        _force(chosen, load_kN),
+        read_force(chosen, load_kN),
         end_play=end_play,
         tilt=tilt,
         laminae=chosen.usual_laminae if laminae is None else laminae,
-        speed=_shaft_speed(speed_rpm),
+        speed=read_shaft_speed(speed_rpm),
         body=bending_rings(chosen, rings),
     )
 
@@ -137,10 +143,10 @@ def stiffness(
     if end_play_mm is None and radial_clearance_mm is None:
         return one()
     if radial_clearance_mm is None:
-        return _each("end_play_mm", end_play_mm, lambda play: one(end_play_mm=play))
+        return answer_each("end_play_mm", end_play_mm, lambda play: one(end_play_mm=play))
     if end_play_mm is not None and not isinstance(end_play_mm, Real):
         raise InputError("end_play_mm is a sequence; with radial_clearance_mm it must be a number")
-    return _each(
+    return answer_each(
         "radial_clearance_mm",
         radial_clearance_mm,
         lambda play: one(radial_clearance_mm=play, end_play_mm=end_play_mm),
@@ -188,9 +194,9 @@ def torque(
     from beardyn_core.physics.rolling_resistance import oil_supply
     from beardyn_core.physics.statics.torque import running_torque
 
-    chosen = _with_lines(bearing, "torques")
-    oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
-    found = oil_supply(_film(supply))
+    chosen = find_with_lines(bearing, "torques")
+    oil, kelvin = find_lubricant(lubricant), read_temperature(temperature_C)
+    found = oil_supply(read_film(supply))
     rib = Rib(lubrication=RibMixedFilm()) if rib_friction is None else Rib(friction=rib_friction)
     # no step needs the corner of friction at rest rounded
     rib = replace(rib, drilling=True, regularisation_speed=_SLOWEST)
@@ -209,7 +215,7 @@ def torque(
             rib=rib,
         ).total
 
-    return _each("speed_rpm", speed_rpm, one)
+    return answer_each("speed_rpm", speed_rpm, one)
 
 
 def life(
@@ -259,13 +265,13 @@ def life(
     cleanliness = USUAL_CONTAMINATION if contamination is None else contamination
     if problem := limit_problem("contamination", cleanliness):
         raise InputError(problem)
-    chosen, end_play = _played(bearing, end_play_mm, radial_clearance_mm)
-    x, y, z = _force(chosen, load_kN)
+    chosen, end_play = find_with_play(bearing, end_play_mm, radial_clearance_mm)
+    x, y, z = read_force(chosen, load_kN)
     rated = rating_life(
         chosen,
-        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(_shaft_speed(speed_rpm))),),
-        _lubricant(lubricant),
-        _kelvin(temperature_C),
+        (LoadClass(1.0, (x, y, z), (0.0, 0.0, 0.0), abs(read_shaft_speed(speed_rpm))),),
+        find_lubricant(lubricant),
+        read_temperature(temperature_C),
         end_play=end_play,
         tilt=tilt,
         contamination=cleanliness,
@@ -317,11 +323,11 @@ def film(
     from beardyn_core.physics.lamina_table import equivalent_radius
     from beardyn_core.physics.statics.torque import entrainment_speeds
 
-    chosen = _with_lines(bearing, "films")
-    oil, kelvin = _lubricant(lubricant), _kelvin(temperature_C)
+    chosen = find_with_lines(bearing, "films")
+    oil, kelvin = find_lubricant(lubricant), read_temperature(temperature_C)
     static = equilibrium(chosen, load_kN, end_play_mm=end_play_mm, speed_rpm=speed_rpm, rings=rings)
     viscosity, found = oil.dynamic_viscosity(kelvin), {}
-    oil_layer = _film(supply).oil_layer
+    oil_layer = read_film(supply).oil_layer
     speeds = entrainment_speeds(chosen, speed_rpm * _RPM)
     for ring, loads, speed in zip(("cup", "cone"), (static.cup_load, static.cone_load), speeds, strict=True):
         loading = thermal_loading(viscosity, oil.temperature_coefficient, speed, oil.thermal_conductivity)
@@ -354,105 +360,5 @@ def fault_frequencies(bearing: RollerBearing | str, speed_rpm: float | None = No
     """
     from beardyn_core.bearing.kinematics import fault_frequencies as frequencies_per_rev
 
-    hertz = 1.0 if speed_rpm is None else abs(_shaft_speed(speed_rpm)) / (2.0 * math.pi)
-    return {name: hertz * value for name, value in frequencies_per_rev(_bearing(bearing)).by_name.items()}
-
-
-def _bearing(bearing: RollerBearing | str) -> RollerBearing:
-    from beardyn_core.bearing.roller_bearing import RollerBearing
-    from beardyn_core.config import load_any_bearing
-
-    return bearing if isinstance(bearing, RollerBearing) else load_any_bearing(bearing)
-
-
-def _with_lines(bearing: RollerBearing | str, what: str) -> Bearing | CylindricalBearing:
-    from beardyn_core.bearing.any_bearing import refuse_kind
-    from beardyn_core.bearing.cylindrical import CylindricalBearing
-    from beardyn_core.bearing.geometry import Bearing
-
-    chosen = _bearing(bearing)
-    if not isinstance(chosen, Bearing | CylindricalBearing):
-        refuse_kind(chosen.name, chosen.kind, what, kinds=(Bearing.kind, CylindricalBearing.kind))
-    return chosen
-
-
-def _played(
-    bearing: RollerBearing | str, end_play_mm: float | None, radial_clearance_mm: float | None
-) -> tuple[RollerBearing, float | None]:
-    """Find the bearing with the radial clearance, and the end play in metres, that are asked for."""
-    from beardyn_core.bearing.any_bearing import change_play
-
-    end_play = None if end_play_mm is None else end_play_mm / _MM
-    clearance = None if radial_clearance_mm is None else radial_clearance_mm / _MM
-    return change_play(_bearing(bearing), end_play, clearance)
-
-
-def _lubricant(lubricant: Lubricant | str) -> Lubricant:
-    from beardyn_core.bearing.lubricant import Lubricant
-    from beardyn_core.config import load_lubricant
-
-    return lubricant if isinstance(lubricant, Lubricant) else load_lubricant(lubricant)
-
-
-def _force(bearing: RollerBearing, load_kN: Any) -> tuple[float, float, float]:
-    """Turn a load into newtons; refuse what no bearing can be meant to carry, warn of what is unusual."""
-    from beardyn_core.bearing.life import load_doubts
-
-    several = (0.0, 0.0, load_kN) if isinstance(load_kN, Real) else load_kN
-    if not isinstance(several, Iterable) or isinstance(several, str):
-        several = ()
-    numbers = [float(each) * _KN for each in several if isinstance(each, Real)]
-    if len(numbers) != 3:
-        raise InputError(f"load_kN is {load_kN!r}; give one number, upwards, or three along x, y, z")
-    problem, doubt = load_doubts(bearing, numbers)
-    if problem:
-        raise InputError(f"load_kN: {problem}")
-    if doubt:
-        warnings.warn(f"load_kN: {doubt}", stacklevel=4)
-    return numbers[0], numbers[1], numbers[2]
-
-
-def _shaft_speed(speed_rpm: float) -> float:
-    """Turn a shaft speed into [rad/s]; refuse what a scene refuses."""
-    from beardyn_core.scene.operation import MOST_RPM
-
-    if not isinstance(speed_rpm, Real) or not abs(speed_rpm) <= MOST_RPM:
-        raise InputError(f"speed_rpm is {speed_rpm!r}; give a number from {-MOST_RPM:g} to {MOST_RPM:g}")
-    return float(speed_rpm) * _RPM
-
-
-def _each(name: str, values: Any, answer: Callable[[float], Any]) -> Any:
-    """Answer for a number, or for each of a sequence; refuse what is no number."""
-    import numpy as np
-
-    several = list(values) if np.ndim(values) else [values]
-    for value in several:
-        if not isinstance(value, Real):
-            raise InputError(f"{name} is {value!r}; give a number or a sequence of numbers")
-    answers = [answer(float(value)) for value in several]
-    return np.array(answers) if np.ndim(values) else answers[0]
-
-
-def limit_problem(name: str, value: float, shown: str = "") -> str:
-    """Say why an argument cannot have a value, empty where it can; it can be `shown` by another name."""
-    least, most, unit = LIMITS[name]
-    return (
-        ""
-        if least <= value <= most
-        else f"{shown or name} is {value:g}; it must be from {least:g} to {most:g}{unit}"
-    )
-
-
-def _kelvin(temperature_C: float) -> float:
-    if problem := limit_problem("temperature_C", temperature_C):
-        raise InputError(problem)
-    return temperature_C + ZERO_CELSIUS
-
-
-def _film(supply: str) -> LineFilm:
-    from beardyn_core.effects import LineFilm
-    from beardyn_core.effects.grease import LAYERS
-
-    if supply not in LAYERS:
-        raise InputError(f"supply is {supply!r}; allowed are {', '.join(LAYERS)}")
-    return LineFilm(supply=supply)
+    hertz = 1.0 if speed_rpm is None else abs(read_shaft_speed(speed_rpm)) / (2.0 * math.pi)
+    return {name: hertz * value for name, value in frequencies_per_rev(find_bearing(bearing)).by_name.items()}

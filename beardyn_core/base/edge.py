@@ -246,7 +246,7 @@ def outside(noun: Any) -> Iterator[Problem]:
         if value is None or is_absent(place, value):
             continue
         if place.at.one_of and isinstance(value, str) and value not in place.at.one_of:
-            yield Problem(f"{place.key} is {value!r}; allowed are {', '.join(place.at.one_of)}")
+            yield Problem(f"{place.key} is {value!r}; allowed are {', '.join(filter(None, place.at.one_of))}")
         elif isinstance(value, float | int):
             yield from _number_outside(place.key, value, place.at)
         elif isinstance(value, tuple):

@@ -2,24 +2,50 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 _Made = TypeVar("_Made")
+_COMMAND_OR_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
 class InputError(Exception):
     """Bad input, with every problem found, one sentence each.
 
+    The command prints ``problems``; as text, for programs, options are named as arguments (`in_python`).
+
     Parameters
     ----------
     problems : sequence of str
-        Each names the file, the key, the value and what is allowed.
+        Each names the file, the key, the value and what is allowed; options as on the command line.
     """
 
     def __init__(self, problems: Sequence[str] | str) -> None:
         self.problems = [problems] if isinstance(problems, str) else list(problems)
         super().__init__("\n".join(self.problems))
+
+    def __str__(self) -> str:
+        return in_python("\n".join(self.problems))
+
+
+def in_python(sentence: str) -> str:
+    """Name options as arguments: ``--rate-hz`` is ``rate_Hz``. Commands between backticks stay.
+
+    Examples
+    --------
+    >>> in_python("give --rate-hz; --force replaces it; `beardyn train --bearing FILE` makes one")
+    'give rate_Hz; force=True replaces it; `beardyn train --bearing FILE` makes one'
+    """
+
+    def argument(found: re.Match[str]) -> str:
+        if found[1] is None:
+            return found[0]
+        if found[1] == "force":
+            return "force=True"
+        return re.sub(r"_hz$", "_Hz", found[1].replace("-", "_"))
+
+    return _COMMAND_OR_OPTION.sub(argument, sentence)
 
 
 def collect_problems(problems: list[str], make: Callable[[], _Made]) -> _Made | None:

@@ -88,7 +88,7 @@ def file_problems(
     if path.is_file() and is_being_written(path):
         return [f"{where}: another process is writing this file; wait for its end or give another name"]
     if path.is_file() and not force:
-        return [f"{where}: the file exists; --force replaces it (in Python force=True), or give another name"]
+        return [f"{where}: the file exists; --force replaces it, or give another name"]
     if ending and path.suffix.lower() != ending:
         return [f"{where}: let its name end in {ending}, by which programs that read it know it"]
     return []

@@ -36,6 +36,8 @@ calibrate        the scene of one measured axlebox, fitted to its healthy record
 export           signals of a recording as Parquet, CSV, NPZ, HDF5 or WAV
 bearing          static answers about one bearing
 bearing_options  load, end play and speed that they are for
+bearing_report   geometry, fault frequencies and static solution as JSON
+bearing_table    the same as text
 structure        modes of an axlebox
 trend            levels of many records: `beardyn monitor --trend`
 which_bearing    bearings that fit a vibration: `beardyn monitor --which-bearing`

@@ -6,7 +6,7 @@ import argparse
 import math
 from typing import NamedTuple
 
-from beardyn_core.api.statics import limit_problem
+from beardyn_core.api.static_inputs import limit_problem
 from beardyn_core.base.errors import InputError
 from beardyn_core.cli.quantities import read_quantity
 

@@ -77,7 +77,7 @@ def folder_of_set_problems(folder: Path, scenes: SweepScenes, *, force: bool) ->
         ]
     if different:
         what = ", ".join("the scene" if name == "base" else name for name in different)
-        return [f"{folder}: its {count} runs are of another sweep ({what} differ); {lose}"]
+        return [f"{folder}: its {count} runs are of another sweep (different: {what}); {lose}"]
     if about["code"] != simulator_digest():
         return [
             f"{folder}: its {count} runs are of other code (digest {about['code']}, this is "

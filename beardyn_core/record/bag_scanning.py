@@ -116,7 +116,7 @@ class BagScan:
             try:
                 scan = McapScan(file)
             except InputError as error:
-                problems.append(str(error))
+                problems += error.problems
                 self.metadata.pop(END_RECORD, None)
                 continue
             yield from scan.messages()

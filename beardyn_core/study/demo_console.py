@@ -49,12 +49,16 @@ class Progress:
 
     def receive(self, verdict: str) -> None:
         """Keep the latest verdict of the monitor."""
+        from beardyn_core.monitor.chain.explanations import PART_NAMES
+
         self._monitor = {
             "waiting": "no verdict yet",
             "healthy": "no fault",
-            "not_diagnosable": "cannot tell",
+            "not_diagnosable": "not diagnosable",
             "unexplained": "strikes that fit no part",
-        }.get(verdict, f"{verdict} fault")
+            "hot_box": "hot box",
+            **{part: f"fault of the {name}" for part, name in PART_NAMES.items()},
+        }.get(verdict, verdict)
 
     def show(self, simulated: float, real_time_factor: float) -> None:
         """Show where the run is, in simulated seconds."""

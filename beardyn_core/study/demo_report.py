@@ -166,7 +166,7 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
         rows.append(("late blocks", str(pace.late_blocks)))
     finding = conclusion.finding
     if finding is None:
-        rows.append(("monitor", "has not had enough signal for a verdict"))
+        rows.append(("monitor", "no verdict yet, the run is too short"))
     elif finding.is_fault:
         rows += [
             (
@@ -193,6 +193,8 @@ def result_lines(run: Run, conclusion: Conclusion, pace: Pace) -> list[str]:
 def truth_sentence(defects: tuple[Defect, ...], conclusion: Conclusion) -> str:
     """Write which fault the bearing really has, and whether the monitor is right."""
     there = " and ".join(defect.described() for defect in defects)
+    if conclusion.finding is None:
+        return there or "no defect"
     right = conclusion.verdict in ({d.on for d in defects} or {HEALTHY})
     return f"{there or 'no defect'}: the monitor is {'right' if right else 'wrong'}"
 

@@ -148,9 +148,9 @@ def inspect_run(
     problems = [] if bearings else [f"{run.label}: does not name its bearing; give --bearing"]
     if run.measured and len(run.vibration) and not len(run.shaft):
         problems.append(
-            f"{run.label}: was imported without the speed of the shaft, and a monitor needs it; import the "
-            "file that it is of again with one of --speed-rpm, --speed-kmh, --speed-channel, "
-            "--tacho-channel, --speed-range-rpm"
+            f"{run.label}: has no speed of the shaft, and a monitor needs it; import the measured file "
+            "again, or read it, with one of --speed-rpm, --speed-kmh, --speed-channel, --tacho-channel, "
+            "--speed-range-rpm"
         )
     if problems:
         raise InputError(problems)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib import pyplot
+from matplotlib import patheffects, pyplot
 from matplotlib.axes import Axes
 from matplotlib.projections.polar import PolarAxes
 
@@ -130,9 +130,11 @@ def draw_waterfall(
         axes.plot(line[inside], place[inside], color="white", linestyle=_STYLES[name], linewidth=0.8)
         if len(inside):  # at heights of their own: 2 BSF is close to BPFO
             at = inside[int((0.98 - 0.07 * level) * (len(inside) - 1))]
-            axes.annotate(
-                f" {name}", (line[at], place[at]), color="white", fontsize="x-small", ha="left", va="top"
-            )
+            text = axes.annotate(
+                name, (line[at], place[at]), (4, 0), textcoords="offset points", color="white",
+                fontsize="x-small", va="top",
+            )  # fmt: skip
+            text.set_path_effects([patheffects.withStroke(linewidth=1.2, foreground="black")])
     axes.set(xlabel="frequency [Hz]", ylabel=label, xlim=(0.0, float(frequency[-1])))
 
 

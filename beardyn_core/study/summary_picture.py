@@ -119,7 +119,7 @@ def orient_load_zone(axes: PolarAxes, largest: float) -> None:
     axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
     axes.set_xticklabels(["0° (+z, up)", "45°", "90°\n(+x)", "135°", "180°", "225°", "270°", "315°"])
     axes.set_ylim(0.0, 1.1 * largest or 1.0)
-    axes.set_rlabel_position(112.0)
+    axes.set_rlabel_position(157.5)  # the housing may press rollers at the sides, none below
 
 
 def _draw_load_zone(axes: PolarAxes, data: SummaryData, row: int) -> None:

@@ -22,8 +22,8 @@ from beardyn_core.twin import Twin
 
 LOADS_KN = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 80.0, 150.0)
 SPEEDS_RPM = (20.0, 300.0, 1165.0, 2500.0)
-SETS = ("full", "standard", "dry")
-# `full` in the fast tier whose rollers and cages move by themselves.
+SETS = ("all", "standard", "dry")
+# `all` in the fast tier whose rollers and cages move by themselves.
 FAST = "quasistatic"
 # Where what 5 % of accuracy need leaves out most: a dry rib and no rolling resistance, or the latter alone.
 AUTO = "auto"

@@ -30,6 +30,7 @@ PICTURE = PICTURES / "light.png"
 MINIMUM_SHARE = 0.02
 TOLD_FROM = 1.01
 COLOURS = 32
+TITLES = {FAST: f"tier {FAST}, effects all"}
 
 
 def write(points: list[Point], chosen: list[Point]) -> None:
@@ -73,14 +74,19 @@ def table(points: list[Point], effects: str) -> str:
 def draw(points: list[Point], minimum: float, target: Path) -> None:
     """Draw the slip against the load."""
     shown = (*SETS, FAST)
-    figure, axes = plt.subplots(1, len(shown), figsize=(12.0, 3.6), sharey=True, layout="constrained")
+    figure, axes = plt.subplots(1, len(shown), figsize=(11.0, 3.6), sharey=True, layout="constrained")
     for axis, effects in zip(axes, shown, strict=True):
         for speed in SPEEDS_RPM:
             line = [each for each in points if (each.effects, each.speed_rpm) == (effects, speed)]
             slip = [100.0 * (1.0 - each.ratio) for each in line]
             axis.plot([each.load_kn for each in line], slip, "o-", ms=3, label=f"{speed:g} rpm")
         axis.axvline(minimum, color="0.5", ls="--", lw=1)
-        axis.set(xscale="log", yscale="symlog", title=effects, xlabel="radial load [kN]")
+        axis.set(
+            xscale="log",
+            yscale="symlog",
+            title=TITLES.get(effects, f"tier full, effects {effects}"),
+            xlabel="radial load [kN]",
+        )
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("slip of the cages [%]")
     axes[0].legend(fontsize=8)

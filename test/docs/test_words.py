@@ -30,7 +30,7 @@ GIVEN_UP = {  # and what is said instead
     r"\bheard less twin\b": "measured minus twin",
     r"\bin \d+ of 100\b": "90 % interval",
     r"\bpreset `?full\b": "preset `all`",
-    r"\beffects full\b": "effects all",
+    r"\beffects(=\")? ?full\b": "effects all",
     r"\bexpected errors?\b": "differs from the full model by at most",
     r"\ban accuracy of \d+ %": "within 5 % of the full model",
     r"\bof its variance is explained\b": "not identifiable from these sensors",

@@ -13,7 +13,9 @@ import pytest
 import beardyn_core as bd
 from beardyn_core import run as run_module
 from beardyn_core.base.edge import write_noun
+from beardyn_core.base.errors import in_python
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.cli.main import main
 from beardyn_core.config import shipped_names
 from beardyn_core.config.folders import find
 from beardyn_core.config.nouns import bearing_from_mapping
@@ -217,6 +219,33 @@ def test_what_a_bearing_in_code_assumes_stands_beside_it() -> None:
         bd.bearing(
             rollers=17, pitch_diameter_mm=185, roller_diameter_mm=-1, roller_length_mm=52, contact_angle_deg=9
         )
+
+
+def test_a_bearing_with_changes_has_a_name_of_its_own() -> None:
+    shipped = bd.bearing("HS130x230")
+    assert bd.bearing("HS130x230", name="mine").name == "mine"
+    assert bd.bearing(shipped, name="mine").pitch_diameter == shipped.pitch_diameter
+    assert bd.name_plate("6205", name="mine").name == "mine"
+    with pytest.raises(bd.InputError, match=r"the bearing of this name is bearing\('HS130x230'\)"):
+        bd.bearing(name="HS130x230")
+
+
+def test_messages_name_options_of_the_command_there_and_arguments_in_python(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "box.csv"
+    file.write_text("acc_z\n" + "\n".join(f"{number % 7 - 3}" for number in range(5000)), encoding="utf-8")
+    with pytest.raises(bd.InputError) as refused:
+        bd.read_measured(file)
+    assert "give unit, one of" in str(refused.value)
+    assert "give rate_Hz or time_channel" in str(refused.value)
+    assert "--" not in str(refused.value)
+    assert main(["monitor", str(file), "--bearing", "6205", "--speed-rpm", "1800"]) == 2
+    printed = capsys.readouterr().err
+    assert "give --unit, one of" in printed
+    assert "give --rate-hz or --time-channel" in printed
+    kept = in_python("--force replaces it, `beardyn train --bearing FILE` makes one, 3--4, a --b-hz")
+    assert kept == "force=True replaces it, `beardyn train --bearing FILE` makes one, 3--4, a b_Hz"
 
 
 @pytest.mark.parametrize("name", shipped_names("bearings"))

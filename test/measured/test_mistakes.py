@@ -169,7 +169,7 @@ def test_stamps_without_a_unit_that_cannot_be_seconds_are_asked_about(
 @pytest.mark.parametrize("name", ["time_s", "Seconds", "sec", "Time (s)"])
 def test_slow_stamps_that_say_their_unit_are_taken(name: str, tmp_path: Path) -> None:
     path = table(tmp_path / "a.csv", {name: np.arange(COUNT) / 100.0, "az_g": noise()[:, 0]})
-    with pytest.warns(UserWarning, match="100 Hz, slow for a vibration; give --time-unit if"):
+    with pytest.warns(UserWarning, match="100 Hz, slow for a vibration; give time_unit if"):
         assert bd.read_measured(path).vibration.rate == 100.0
 
 
@@ -203,8 +203,8 @@ def test_a_recording_without_speed_is_told_to_be_imported_again(
     assert main(["monitor", made]) == BAD_INPUT
     said = capsys.readouterr().err
     assert "does not name its bearing; give --bearing" in said
-    assert "was imported without the speed of the shaft" in said
-    assert "import the file that it is of again with one of --speed-rpm" in said
+    assert "has no speed of the shaft" in said
+    assert "import the measured file again, or read it, with one of --speed-rpm" in said
     assert main(["monitor", made, "--speed-rpm", "1800", "--bearing", "6205"]) == BAD_INPUT
     assert "--speed-rpm is for measured files; " in capsys.readouterr().err
 
