@@ -62,6 +62,21 @@ def test_a_clear_fault_is_never_healthy_nor_another_part_whatever_the_stated_spe
     assert told(fault, error, uncertain).verdict in (fault, "unexplained", "not_diagnosable")
 
 
+@pytest.mark.parametrize(
+    ("fault", "whole"), [("cup", 7), ("cone", 9), ("cone", 10), ("roller", 6), ("roller", 7)]
+)
+def test_a_fault_that_a_wrong_speed_puts_on_a_whole_order_is_not_taken_for_the_wheel(
+    fault: str, whole: int
+) -> None:
+    order = {"cup": ORDERS.bpfo, "cone": ORDERS.bpfi, "roller": 2.0 * ORDERS.bsf}[fault]
+    found = told(fault, order / whole - 1.0, uncertain=True)
+    assert found.verdict in (fault, "unexplained", "not_diagnosable")
+    if fault == "cup":  # it has no sidebands that would show it
+        assert found.verdict == "not_diagnosable"
+        assert "a comb of order 7.00" in found.reason
+        assert "outer ring (cup) of this bearing at 115" in found.reason
+
+
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("error", [-0.03, 0.0, 0.03])
 def test_an_uncertain_speed_is_searched_and_the_one_that_fits_is_stated(fault: str, error: float) -> None:

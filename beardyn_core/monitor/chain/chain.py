@@ -22,7 +22,7 @@ from beardyn_core.monitor.chain.cage_turns import score_with_turns
 from beardyn_core.monitor.chain.confidence import confidence_of, grounds_of
 from beardyn_core.monitor.chain.diagnosable import NOT_DIAGNOSABLE, doubt, live_axes, unmeasured
 from beardyn_core.monitor.chain.explanations import PART_NAMES
-from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines
+from beardyn_core.monitor.chain.fault_lines import FAULTS, FaultLines, fault_patterns
 from beardyn_core.monitor.chain.impulsiveness import with_strikes
 from beardyn_core.monitor.chain.inputs import MonitorSettings, Stretch
 from beardyn_core.monitor.chain.kurtogram import Band
@@ -38,6 +38,7 @@ from beardyn_core.monitor.chain.speed_drift import (
 from beardyn_core.monitor.chain.tracking import by_angle, logarithm_by_angle
 from beardyn_core.monitor.chain.verdict import HEALTHY, UNEXPLAINED, Verdict, strongest_pattern
 from beardyn_core.monitor.chain.whitening import by_cepstrum, whole_band
+from beardyn_core.monitor.chain.whole_orders import fault_on_the_shaft, other_speeds
 
 _NOTHING_LEFT = 60.0  # [dB]
 
@@ -113,10 +114,10 @@ class Chain:
         stretch, dead = live_axes(stretch)
         band = self.select_band(stretch, settings)
         power = self.envelope(self.whiten(stretch, settings), band)
-        tracked = self.track(power, stretch, settings)
+        tracked = lined = self.track(power, stretch, settings)
         found = self.score(tracked, orders, roller_count, speed, settings)
         found = with_strikes(found, stretch, band, settings)
-        verdict, lined = self.decide(found, stretch, settings), tracked
+        verdict = self.decide(found, stretch, settings)
         if verdict.name not in (*FAULTS, UNEXPLAINED) and found.deepest >= settings.clockwork_depth:
             # what strikes like clockwork is a comb of tones, and whitening takes them away: where it is deep
             # it is read as measured
@@ -138,6 +139,11 @@ class Chain:
             drift = speed_drift(tracked, settings)
             change, level = drift.change, level_change(stretch, (band.low, band.high))
             verdict = _doubt_speed(verdict, drift, level, level_fall(levels, stretch.earlier))
+        if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
+            why = self._on_the_shaft(power, band, stretch, orders, roller_count, settings)
+            verdict = (
+                replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}") if why else verdict
+            )
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
@@ -195,6 +201,25 @@ class Chain:
             temperature_state=verdict.temperature_state,
             spectrum=found.spectrum,
         )
+
+    def _on_the_shaft(
+        self,
+        power: Float,
+        band: Band,
+        stretch: Stretch,
+        orders: FaultFrequencies,
+        roller_count: int,
+        settings: MonitorSettings,
+    ) -> str:
+        """Say which fault may be among the lines of the shaft, at a speed a little off; empty without one."""
+        patterns = fault_patterns(orders)
+        for other in other_speeds(stretch, patterns, settings):
+            tracked = self.track(power, other, settings)
+            found = self.score(tracked, orders, roller_count, other.shaft_frequency, settings)
+            there = self.decide(with_strikes(found, other, band, settings), other, settings)
+            if why := fault_on_the_shaft(there, other, stretch, patterns, settings):
+                return why
+        return ""
 
 
 def _doubt_speed(verdict: Verdict, drift: Drift, level: float, fall: float) -> Verdict:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated as A
 
@@ -60,6 +60,12 @@ class Stretch:
         """Samples between the ramps."""
         first, last = np.searchsorted(self.shaft_angle, self.shaft_angle[[0, -1]] + [np.pi, -np.pi])
         return slice(int(first), int(last))
+
+    def at_speed(self, ratio: float) -> Stretch:
+        """Give the same vibration with a shaft that turns faster by a ratio; envelopes are shared."""
+        other = replace(self, shaft_angle=ratio * self.shaft_angle)
+        other.__dict__.update(spectrum=self.spectrum, _envelopes=self._envelopes)
+        return other
 
     @cached_property
     def spectrum(self) -> NDArray[np.complex128]:
