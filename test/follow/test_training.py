@@ -139,9 +139,7 @@ def test_a_set_of_bearings_that_are_not_tapered_is_refused_before_it_is_read() -
     """`estimate` and `follow` refuse such bearings: forty runs would teach what nothing reads."""
     kinds = {"bearing": ["HS130x230", "SRB120x260"], "bearing_kind": ["tapered", "spherical"]}
     runs: Any = SimpleNamespace(folder="mixed", about=ABOUT, table=pd.DataFrame(kinds))
-    with pytest.raises(
-        InputError, match="mixed: SRB120x260 is a spherical roller bearing; estimators"
-    ):
+    with pytest.raises(InputError, match="mixed: SRB120x260 is a spherical roller bearing; estimators"):
         training.train(runs)
 
 
