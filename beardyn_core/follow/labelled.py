@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.any_bearing import refuse_kind
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.descriptors import AXES, describe, names_of
@@ -75,8 +77,11 @@ def plate_of(runs: LabelledSet) -> NamePlate:
     Raises
     ------
     InputError
-        They are of several drawings.
+        They are not tapered, or of several drawings.
     """
+    for kind in sorted({*runs.table.get("bearing_kind", ())} - {None, "", Bearing.kind}):
+        of_kind = runs.table["bearing"][runs.table["bearing_kind"] == kind]
+        refuse_kind(str(of_kind.iloc[0]), str(kind), "estimators", str(runs.folder))
     keys = {"roller_count": "roller_count", "roller_diameter": "roller_diameter_m",
             "pitch_diameter": "pitch_diameter_m", "contact_angle": "contact_angle_rad"}  # fmt: skip
     several = runs.table["bearing"].nunique() > 1

@@ -51,10 +51,10 @@ def train(
     Raises
     ------
     InputError
-        There are too few runs, or bearings of several drawings; another set is of another bearing,
-        sampling rate or length, or of bearings that were learnt from.
+        There are too few runs, bearings of several drawings or none that are tapered; another set is of
+        another bearing, sampling rate or length, or of bearings that were learnt from.
     """
-    about = runs.about
+    about, plate = runs.about, plate_of(runs)
     for place, other in enumerate([*calibration, *([] if test is None else [test])]):
         check_alike(runs, other)
         check_unseen([runs, *calibration[:place]], other)
@@ -69,7 +69,7 @@ def train(
         raise InputError(
             f"{runs.folder}: has {len(seen.bearings)} complete runs to learn from; {FEWEST} are needed"
         )
-    found = train_estimator(seen, plate_of(runs), axes, *sampling_of(runs))
+    found = train_estimator(seen, plate, axes, *sampling_of(runs))
     learnt, held = found, join_sets([describe_runs(each, None, axes) for each in calibration] or [own])
     learnt, found = _calibrate_width(learnt, held, own if calibration else None)
     if across:

@@ -9,6 +9,7 @@ from typing import Any
 from beardyn_core.base.edge import write_noun
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.config.yaml_text import write_mapping
 from beardyn_core.population.difficulty import card_lines
 from beardyn_core.population.sweep_scenes import SweepScenes
@@ -17,6 +18,7 @@ from beardyn_core.population.table import unit_in
 _MODELLED = {
     Bearing.kind: "a double-row tapered roller bearing",
     CylindricalBearing.kind: "a pair of cylindrical roller bearings",
+    SphericalBearing.kind: "a spherical roller bearing",
 }
 _LIMITS = (
     "What the model leaves out is not in the signals; `docs/evidence/validation.md` and "

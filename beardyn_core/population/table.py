@@ -21,7 +21,7 @@ _WORDS = {
     "status": "complete, or failed",
     "reason": "how a failed run ended, in a sentence",
     "bearing_id": "name of the bearing by drawing and scatter; no bearing is in two parts",
-    "bearing_kind": "tapered or cylindrical",
+    "bearing_kind": "tapered, cylindrical or spherical",
     "split": "part of the set: train, validation or test",
     "condition": "parts with a fault, healthy without",
 }

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.scene.load import WRENCH_AXES
 from beardyn_core.scene.operation import QuarterVehicleOperation
 from beardyn_core.scene.scene import Scene
@@ -24,8 +25,9 @@ def scene_labels(scene: Scene) -> dict[str, Any]:
     -------
     dict
         JSON-able, units in the keys: ``condition`` (the parts with a fault, ``healthy`` without),
-        ``geometry``, ``temperature_K``, ``end_play_m``, ``sampling_rate_Hz``, ``wheel_diameter_m`` (null
-        where no wheel belongs to the operation), ``duration_s``.
+        ``geometry``, ``temperature_K``, ``end_play_m`` and ``radial_clearance_m`` (null where the kind of
+        bearing has none), ``sampling_rate_Hz``, ``wheel_diameter_m`` (null where no wheel belongs to the
+        operation), ``duration_s``.
     """
     bearing, operation = scene.bearing, scene.operation
     return {
@@ -39,7 +41,8 @@ def scene_labels(scene: Scene) -> dict[str, Any]:
         },
         "lubricant": scene.lubricant.name,
         "temperature_K": scene.temperature,
-        "end_play_m": scene.end_play,
+        "end_play_m": None if bearing.self_aligning else scene.end_play,
+        "radial_clearance_m": bearing.radial_clearance if isinstance(bearing, RadialBearing) else None,
         "sampling_rate_Hz": {
             "vibration": {sensor.name: sensor.rate for sensor in scene.sensors},
             "force_waveform": scene.waveform_rate,

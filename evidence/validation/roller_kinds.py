@@ -73,12 +73,14 @@ def rest(bearing: CylindricalBearing | SphericalBearing, *force: float, **condit
     return solve(bearing, force, **{"end_play": None, "laminae": LAMINAE, **conditions})
 
 
-def standard_slices(bearing: CylindricalBearing, radial: float, constant: float = ISO_ROLLER) -> Float:
+def standard_slices(
+    bearing: CylindricalBearing, radial: float, constant: float = ISO_ROLLER, phase: float = 0.0
+) -> Float:
     """Compute the slice loads [roller, slice] of one row by ISO/TS 16281, roller between both raceways."""
     place = (np.arange(LAMINAE) + 0.5) / LAMINAE - 0.5
     drop = 0.00035 * bearing.roller_diameter * -np.log(1.0 - (2.0 * place) ** 2)
     factor = constant * (1e3 * bearing.effective_length) ** (8.0 / 9.0) / LAMINAE
-    cosine = np.cos(2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count)
+    cosine = np.cos(phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count)
 
     def loads(shift: float) -> Float:
         approach = shift * cosine - 0.5 * bearing.radial_clearance
@@ -91,9 +93,9 @@ def standard_slices(bearing: CylindricalBearing, radial: float, constant: float 
     return loads(brentq(lacking, 0.0, 1e-3, xtol=1e-15))
 
 
-def standard_loads(bearing: CylindricalBearing, radial: float) -> Float:
+def standard_loads(bearing: CylindricalBearing, radial: float, phase: float = 0.0) -> Float:
     """Add up the slices of `standard_slices`, [roller]."""
-    return np.asarray(standard_slices(bearing, radial).sum(axis=1))
+    return np.asarray(standard_slices(bearing, radial, phase=phase).sum(axis=1))
 
 
 def written_out_life(bearing: CylindricalBearing | SphericalBearing, inner: Float, outer: Float) -> float:
@@ -124,11 +126,11 @@ def hertz_of(bearing: SphericalBearing, ring: str) -> ExactPointContact:
     return ExactPointContact(*radii, bearing.material.contact_modulus)
 
 
-def hertz_rows(bearing: SphericalBearing, force: Float) -> Float:
+def hertz_rows(bearing: SphericalBearing, force: Float, phase: float = 0.0) -> Float:
     """Compute the loads [row, roller] of rigid rings on springs: two Hertz contacts in series."""
     factors = np.array([hertz_of(bearing, ring).factor for ring in ("cup", "cone")])
     series = float((factors ** (-2.0 / 3.0)).sum() ** -1.5)
-    azimuth = 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
+    azimuth = phase + 2.0 * math.pi * np.arange(bearing.roller_count) / bearing.roller_count
     sine, cosine = math.sin(bearing.contact_angle), math.cos(bearing.contact_angle)
     along = np.ones(azimuth.size)
     rows = [[cosine * np.sin(azimuth), side * sine * along, cosine * np.cos(azimuth)] for side in (-1.0, 1.0)]
@@ -327,6 +329,7 @@ def spin_factor(name: str) -> float:
 _RATINGS = (
     ("WJ130x240", "WJ 130 x 240", 550.0, 780.0, KRW, 0.01),
     ("WJ120x240", "WJ 120 x 240", 560.0, 760.0, KRW, 0.01),
+    ("WJ180x320", "WJ 180 x 320 x 86", 714.0, 1083.0, KRW, 0.01),
     ("WJ130x240", "PLC 410-33, 130 x 240", 539.6, 775.4, KINEX, 0.03),
     ("WJ120x240", "PLC 410-13, 120 x 240", 553.8, 742.5, KINEX, 0.03),
     ("SRB120x260", "22324RHR", 896.0, 1130.0, KOYO, 0.01),
@@ -364,7 +367,7 @@ ANCHORS: tuple[Anchor, ...] = (
             partial(largest_over_standard, name, radial),
             tolerance=0.03,
         )
-        for name in ("WJ130x240", "WJ120x240")
+        for name in ("WJ130x240", "WJ120x240", "WJ180x320")
         for radial in (20e3, 80e3, 200e3)
     ),
     *(
@@ -378,7 +381,7 @@ ANCHORS: tuple[Anchor, ...] = (
             tolerance=0.03,
             misses=misses,
         )
-        for name in ("WJ130x240", "WJ120x240")
+        for name in ("WJ130x240", "WJ120x240", "WJ180x320")
         for radial in (80e3, 200e3)
         for whose, constant, misses in (
             ("Palmgren's", PALMGREN_ROLLER, ""),
@@ -455,6 +458,6 @@ ANCHORS: tuple[Anchor, ...] = (
             partial(rated_life_of_half_loaded_ring, name),
             tolerance=0.03,
         )
-        for name in ("WJ130x240", "WJ120x240", "SRB120x260", "SRB130x280")
+        for name in ("WJ130x240", "WJ120x240", "WJ180x320", "SRB120x260", "SRB130x280")
     ),
 )  # fmt: skip

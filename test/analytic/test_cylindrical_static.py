@@ -143,7 +143,16 @@ def test_a_pair_without_ribs_of_the_inner_ring_carries_no_axial_load() -> None:
 
 
 @pytest.mark.parametrize(
-    "force", [(0.0, 60e3, 20e3), (0.0, 0.0, 100.0), (0.0, 30e3, 2e3), (50e3, -20e3, -90e3), (0.0, 5e3, 700e3)]
+    "force",
+    [
+        (0.0, 60e3, 20e3),
+        (0.0, 0.0, 100.0),
+        (0.0, 500.0, 1e3),
+        (0.0, 1e3, 500.0),
+        (0.0, 30e3, 2e3),
+        (50e3, -20e3, -90e3),
+        (0.0, 5e3, 700e3),
+    ],
 )
 @pytest.mark.parametrize("tilt", ["locked", "free"])
 def test_hard_cases_converge(force: tuple[float, float, float], tilt: str) -> None:

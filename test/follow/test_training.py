@@ -135,6 +135,14 @@ def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, one: bool
         )
 
 
+def test_a_set_of_bearings_that_are_not_tapered_is_refused_before_it_is_read() -> None:
+    """`estimate` and `follow` refuse such bearings: forty runs would teach what nothing reads."""
+    kinds = {"bearing": ["HS130x230", "SRB120x260"], "bearing_kind": ["tapered", "spherical"]}
+    runs: Any = SimpleNamespace(folder="mixed", about=ABOUT, table=pd.DataFrame(kinds))
+    with pytest.raises(InputError, match="mixed: SRB120x260 is a spherical roller bearing; estimators"):
+        training.train(runs)
+
+
 @pytest.mark.parametrize("key", ["scatter_seed", "bearing_id"])
 def test_a_lot_is_known_by_the_seed_of_its_scatter_and_without_by_its_drawing(key: str) -> None:
     table = bearings_made(0)

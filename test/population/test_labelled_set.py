@@ -219,6 +219,7 @@ def test_a_set_bigger_than_the_memory_streams_where_it_cannot_be_loaded(tmp_path
     [
         (["tapered"], "of a double-row tapered roller bearing in"),
         (["cylindrical"], "of a pair of cylindrical roller bearings in"),
+        (["spherical"], "of a spherical roller bearing in"),
         (
             ["cylindrical", "tapered"],
             "of a double-row tapered roller bearing or a pair of cylindrical roller bearings in",
@@ -236,12 +237,16 @@ def test_the_card_names_the_kinds_of_bearing_of_the_set(
     assert f"by a model {words} an axlebox." in card_text(planned(), about, [*rows, given])
 
 
-@pytest.mark.slow  # kernels of pairs are compiled
-def test_a_run_of_a_cylindrical_pair_is_labelled_so() -> None:
+@pytest.mark.slow  # kernels of pairs and of barrels are compiled
+@pytest.mark.parametrize("kind", ["cylindrical", "spherical"])
+def test_a_run_of_another_kind_is_labelled_so_with_its_own_play(kind: str) -> None:
     plan = planned(
-        scene="freight_cylindrical", runs=1,
-        vary=[{"key": "temperature_C", "kind": "uniform", "low": 50, "high": 60}],
+        scene=f"freight_{kind}", runs=1,
+        vary=[{"key": "bearing.radial_clearance_mm", "kind": "uniform", "low": 0.11, "high": 0.12}],
         set={"tier": "lumped", "effects": "standard", "duration_s": 0.05},
     )  # fmt: skip
-    (made,) = run_batch(rows_of(plan.sweep), plan)
-    assert (made.labels["status"], made.labels["bearing_kind"]) == ("complete", "cylindrical")
+    row = rows_of(plan.sweep)[0]
+    (made,) = run_batch([row], plan)
+    assert (made.labels["status"], made.labels["bearing_kind"]) == ("complete", kind)
+    assert 1.1e-4 < made.labels["radial_clearance_m"] < 1.2e-4
+    assert (made.labels["end_play_m"] is None) is (kind == "spherical")

@@ -13,8 +13,10 @@ import pytest
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.kinematics import fault_frequencies
+from beardyn_core.physics.statics.initial_equilibrium import weight_on_cone
 from beardyn_core.physics.statics.static import StaticSolution, solve
 from beardyn_core.physics.suspension import mounting_params, tilt_restraint
+from beardyn_core.physics.tiers.status import is_fatal
 from beardyn_core.physics.tiers.tiers import spring_laminae
 from beardyn_core.scene.scene import Scene
 from beardyn_core.sensors.block import Block
@@ -128,6 +130,24 @@ def test_thrust_lifts_the_axle_in_the_lumped_tier_too(force: Force, within: floa
     assert (pose[:, 1, 2] - pose[:, 0, 2]).mean() == pytest.approx(displacement[2], rel=within)
     load = np.linalg.norm(joined(blocks, "contacts")[..., 0, 3:6], axis=-1)
     assert load.max(axis=(1, 2)).mean() == pytest.approx(heaviest, rel=max(0.05, within))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", TIERS)
+@pytest.mark.parametrize(
+    "force", [(0.0, 0.5, 1.0), (0.0, 1.0, 0.5), (5.0, 20.0, 60.0), (0.0, 60.0, 20.0), (0.0, 20.0, 1.0)]
+)
+def test_light_loads_and_thrust_beyond_the_limit_run(tier: str, force: Force) -> None:
+    """Rollers tip and bear on the edges of ribs, which the status says; forces stay in balance."""
+    scene = scene_of(tier, force)
+    blocks = blocks_of(scene, 0.3)
+    assert not any(is_fatal(block.status) for block in blocks)
+    later = blocks[len(blocks) // 2 :]
+    for name in ("force_waveform", "body_pose", "contacts"):
+        assert np.isfinite(joined(later, name)).all()
+    carried = 1e3 * np.array(force) - np.array([0.0, 0.0, weight_on_cone(scene)])
+    mean = joined(later, "force_waveform").mean(axis=0)[:3]
+    assert mean == pytest.approx(carried, abs=0.02 * 1e3 * float(np.linalg.norm(force)))
 
 
 @pytest.mark.slow
