@@ -42,6 +42,16 @@ def require_possible(
             f"{bearing.name} carries no axial load, and {load[1]:g} N are given: no row has a rib of the "
             "inner ring with one of the outer ring at the other end of its rollers (cone_ribs, cup_ribs)."
         )
+    radial = math.hypot(load[0], load[2])
+    if (
+        isinstance(bearing, CylindricalBearing)
+        and laminae < 2
+        and abs(load[1]) > bearing.largest_thrust * radial
+    ):
+        problems.append(
+            f"laminae is 1, and the axial load of {load[1]:g} N is more than {bearing.largest_thrust:g} of "
+            "the radial one: it tips the rollers, which takes 2 laminae or more."
+        )
     if bearing.self_aligning:
         if load[3] or load[4]:
             problems.append(
