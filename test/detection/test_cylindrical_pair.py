@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from beardyn_core.choice import load_scene
 from test.detection.wagons import assert_named, last_verdicts, scene_of
 
 WAGON, ABOVE = "freight_cylindrical_cup", 170.0
@@ -31,6 +32,13 @@ def test_a_spall_of_each_part_is_named(tier: str, defect: dict[str, Any]) -> Non
 @pytest.mark.parametrize("tier", ["quasistatic", "lumped"])
 def test_a_healthy_pair_is_named_healthy(tier: str) -> None:
     assert set(last_verdicts(scene_of(tier, WAGON, ABOVE))) == {"healthy"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [71, 72, 73, 74])
+def test_a_healthy_pair_as_shipped_is_named_healthy_in_full(seed: int) -> None:
+    scene = load_scene("freight_cylindrical", tier="full", seed=seed, effects="auto")
+    assert set(last_verdicts(scene, count=6)) == {"healthy"}
 
 
 @pytest.mark.slow
