@@ -303,7 +303,7 @@ ANCHORS = (
             CREST,
             partial(sound_crest, speed),
             absolute=0.7,
-            misses=STILL,
+            misses=STILL if speed == min(BOTH) else "",
             slow=True,
             measured=True,
             by_chance=0.08,  # of a median of nine that scatter by 0.2

@@ -91,7 +91,9 @@ def test_a_steady_run_has_load_and_deflection_of_the_statics(tier: str, force: F
     displacement, heaviest, _ = of_statics(tier, force, tilt)
     pose = joined(blocks, "body_pose")
     moved = (pose[:, 1, :3] - pose[:, 0, :3]).mean(axis=0)
-    np.testing.assert_allclose(moved[1:], displacement[1:], atol=0.01 * float(np.linalg.norm(displacement)))
+    # without thrust nothing holds the axle within its float, in which it may creep
+    scale = float(np.linalg.norm(displacement)) if force[1] else scene_of(tier, force, tilt).end_play
+    assert moved[1] == pytest.approx(displacement[1], abs=0.01 * scale)
     assert moved[2] == pytest.approx(displacement[2], rel=0.01)
     contacts = joined(blocks, "contacts")
     load = np.linalg.norm(contacts[..., 0, 3:6], axis=-1)

@@ -131,6 +131,6 @@ def test_a_monitor_finds_the_spall_of_the_shipped_bogie_in_its_box_alone(
     assert [line.split(":")[0] for line in told] == [
         "axle_1_left healthy",
         "axle_1_right healthy",
-        "axle_2_left cup",
+        "axle_2_left outer ring (cup)",
         "axle_2_right healthy",
     ]
