@@ -18,6 +18,16 @@ USUAL_SENSOR = "accelerometer"
 _AXIS_NAME = re.compile(
     r"(?:^|[^a-z])(?:a|acc|accel|acceleration|vib|vibration)?[_ .\-]?([xyz])(?:$|[^a-z0-9])", re.I
 )
+# along the track, along the axle, upwards; a name with more in it may be a load
+_KIND = r"(?:a|acc\w*|vib\w*|beschleunigung|schwingung)?"
+_AXIS_WORDS = {
+    axis: re.compile(rf"{_KIND}[_ .\-]*(?:{word})[_ .\-]*{_KIND}\s*(?:[\[(].*)?", re.I)
+    for axis, word in (
+        ("x", "longitudinal|l(?:ä|ae)ngs"),
+        ("y", "lateral|transvers(?:e|al)|quer"),
+        ("z", "verti[ck]al"),
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -141,8 +151,11 @@ def _columns_of_an_array(candidates: Sequence[Channel]) -> dict[str, str]:
 
 
 def _axis_in(name: str) -> str:
-    found = _AXIS_NAME.search(name)
-    return found[1].lower() if found else ""
+    """Give the axis that the name of a channel has, as a letter or in one word; empty without one."""
+    if found := _AXIS_NAME.search(name):
+        return found[1].lower()
+    said = [axis for axis, word in _AXIS_WORDS.items() if word.fullmatch(name)]
+    return said[0] if len(said) == 1 else ""
 
 
 def _factor(work: Choosing, channel: Channel) -> float:

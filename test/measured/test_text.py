@@ -75,6 +75,16 @@ def test_separator_decimal_header_and_unit_are_understood(
     assert f"{separator} between, decimal {decimal}" in told
 
 
+def test_words_for_the_axes_are_understood_and_a_load_is_none(tmp_path: Path) -> None:
+    path, signal = tmp_path / "a.csv", noise(axes=3)
+    names = ["Zeit_s", "Schwingung vertikal [g]", "längs (g)", "acc_lateral [g]", "vertical_load"]
+    time = np.arange(len(signal)) / 2048.0
+    table = np.column_stack([time, signal, np.full(len(signal), 8e4)])
+    np.savetxt(path, table, delimiter=";", header=";".join(names), comments="", encoding="utf-8")
+    run = bd.read_measured(path)
+    np.testing.assert_allclose(run.vibration.values, signal[:, [1, 2, 0]] * G)
+
+
 def test_a_table_without_a_header_has_columns_by_number(tmp_path: Path) -> None:
     path = tmp_path / "a.txt"
     path.write_text("".join(f"9,39,{k},0.5,{k % 5}.25,{k % 3}.5\n" for k in range(100)))
