@@ -63,8 +63,8 @@ def test_a_worker_with_another_beardyn_is_refused(
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        ({"workers": 0}, "--workers 0: allowed is 1 to"),
-        ({"scheduler": "host"}, "--scheduler host: it must be an address"),
+        ({"workers": 0}, "workers 0: allowed is 1 to"),
+        ({"scheduler": "host"}, "scheduler host: it must be an address"),
         ({"scheduler": "tcp://host:1", "workers": 2}, "a scheduler has its own workers"),
     ],
 )

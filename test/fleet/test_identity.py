@@ -38,7 +38,7 @@ def test_a_path_states_vehicle_axle_side_and_date() -> None:
 
 @pytest.mark.parametrize("text", ["{wagon}/{date}.csv", "plain.csv", "{vehicle/{date}.csv"])
 def test_a_pattern_that_names_nothing_or_something_unknown_is_refused(text: str) -> None:
-    with pytest.raises(InputError, match="--pattern"):
+    with pytest.raises(InputError, match="pattern"):
         PathPattern(text)
 
 

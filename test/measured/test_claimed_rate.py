@@ -309,7 +309,7 @@ def test_whole_rates_of_wav_files_are_warned_of_where_they_may_be_rounded(tmp_pa
     for rate in (12_207, 12_000):
         soundfile.write(tmp_path / "a.wav", noise()[:, 0] / 10.0, rate, subtype="DOUBLE")
         if rate % 25:
-            with pytest.warns(UserWarning, match="12207 Hz may be rounded by half of one .*give --rate-hz"):
+            with pytest.warns(UserWarning, match="12207 Hz may be rounded by half of one .*give rate_Hz"):
                 bd.read_measured(tmp_path / "a.wav", unit="g")
         else:
             assert not bd.read_measured(tmp_path / "a.wav", unit="g").measured["warnings"]

@@ -75,5 +75,5 @@ def test_a_wav_file_that_another_program_has_scaled_asks_for_its_unit(tmp_path: 
     with soundfile.SoundFile(tmp_path / "b.wav", "w", rate, 1, "PCM_16") as scaled:
         scaled.comment = comment
         scaled.write(values / np.abs(values).max())
-    with pytest.raises(bd.InputError, match="give --unit"):
+    with pytest.raises(bd.InputError, match="give unit"):
         bd.read_measured(tmp_path / "b.wav")

@@ -49,10 +49,10 @@ def test_without_the_option_no_load_is_known(tmp_path: Path) -> None:
 
 def test_a_channel_without_a_unit_is_asked_for_and_one_that_is_no_load_refused(tmp_path: Path) -> None:
     path = table(tmp_path / "a.csv", columns(name="wheel"))
-    with pytest.raises(InputError, match="--load-unit, one of N, kN, t, kg"):
+    with pytest.raises(InputError, match="load_unit, one of N, kN, t, kg"):
         bd.read_measured(path, speed_rpm=1200.0, load_channel="wheel")
     run = bd.read_measured(path, speed_rpm=1200.0, load_channel="wheel", load_unit="N")
-    with pytest.raises(InputError, match="check --load-unit"):
+    with pytest.raises(InputError, match="check load_unit"):
         known_load_in(run, None, ())
     with pytest.raises(InputError, match="which is not given"):
         bd.read_measured(path, speed_rpm=1200.0, load_unit="kN")

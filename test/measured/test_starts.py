@@ -173,7 +173,7 @@ def test_gaps_between_files_by_their_own_times_are_kept(tmp_path: Path) -> None:
     assert run.duration == pytest.approx(1.0)
     assert not bd.read_measured(stamped(tmp_path, [3.0, 3.1, 3.2], 0.1)).measured["warnings"]
     assert not bd.read_measured(stamped(tmp_path, [0.0, 0.0, 0.0], 0.1)).measured["warnings"]
-    with pytest.warns(UserWarning, match="differ from --file-interval-s 1 by up to"):
+    with pytest.warns(UserWarning, match="differ from file_interval_s 1 by up to"):
         bd.read_measured(stamped(tmp_path, [3.0, 3.1, 3.9], 0.1), file_interval_s=1.0)
 
 

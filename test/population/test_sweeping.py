@@ -97,7 +97,7 @@ def test_the_folder_of_another_sweep_or_of_other_code_is_refused_and_stays(
     folder = tmp_path / "set"
     shutil.copytree(made[0], folder)
     before = content(folder)
-    with pytest.raises(InputError, match=r"its 6 runs are of another sweep \(seed differ\)"):
+    with pytest.raises(InputError, match=r"its 6 runs are of another sweep \(different: seed\)"):
         conduct(planned(seed=2), folder, cluster)
     monkeypatch.setattr("beardyn_core.population.folder.simulator_digest", lambda: "edited")
     with pytest.raises(InputError, match="of other code"):

@@ -309,7 +309,7 @@ def test_a_folder_of_another_trial_or_monitor_is_refused_and_keeps_its_runs(
     with pytest.raises(InputError) as refused:
         plan_of(replace(small, **changes), monitor, tmp_path)
     assert named in str(refused.value)
-    assert "--force" in str(refused.value)
+    assert "force=True" in str(refused.value)
     assert (tmp_path / RUNS_FILE).read_bytes() == before
 
 

@@ -8,6 +8,7 @@ diagnosable       finds signals in which no fault can show
 kurtogram         another select_band: where the spectral kurtosis is largest
 whitening         select_band and whiten: all that is usable, every frequency with the same weight
 wheel             takes out what turns with the wheel (flats, polygons)
+whole_orders      a fault that a wrong speed puts among the lines of the wheel
 tracking          track: over the angle of the shaft, as logarithm
 false_alarm_rate  how often noise has such lines: evidence, and the threshold of a stated rate
 competing_orders  evenly spaced lines that no pattern explains
