@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 _Made = TypeVar("_Made")
-_COMMAND_OR_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
+_COMMAND_OR_OPTION = re.compile(r"`[^`]*`|(?<!install )(?<![\w-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
 class InputError(Exception):
@@ -30,12 +30,14 @@ class InputError(Exception):
 
 
 def in_python(sentence: str) -> str:
-    """Name options as arguments: ``--rate-hz`` is ``rate_Hz``. Commands between backticks stay.
+    """Name options as arguments: ``--rate-hz`` is ``rate_Hz``. Commands in backticks and of ``apt`` stay.
 
     Examples
     --------
     >>> in_python("give --rate-hz; --force replaces it; `beardyn train --bearing FILE` makes one")
     'give rate_Hz; force=True replaces it; `beardyn train --bearing FILE` makes one'
+    >>> in_python("apt-get install --no-install-recommends xvfb")
+    'apt-get install --no-install-recommends xvfb'
     """
 
     def argument(found: re.Match[str]) -> str:

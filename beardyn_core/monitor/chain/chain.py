@@ -139,11 +139,9 @@ class Chain:
             drift = speed_drift(tracked, settings)
             change, level = drift.change, level_change(stretch, (band.low, band.high))
             verdict = _doubt_speed(verdict, drift, level, level_fall(levels, stretch.earlier))
-        if verdict.name == HEALTHY and settings.speed_uncertainty > 0.0:
-            why = self._on_the_shaft(power, band, stretch, orders, roller_count, settings)
-            verdict = (
-                replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}") if why else verdict
-            )
+        unsure = verdict.name == HEALTHY and settings.speed_uncertainty > 0.0
+        if unsure and (why := self._on_the_shaft(power, band, stretch, orders, roller_count, settings)):
+            verdict = replace(verdict, name=NOT_DIAGNOSABLE, reason=f"{why}; {verdict.reason}")
         grounds = grounds_of(found, verdict, lined, settings)
         score = {each.pattern.fault: each.score for each in found.candidates}
         not_judged = tuple(part for part in not_judged if part != verdict.name)  # sidebands may name it
