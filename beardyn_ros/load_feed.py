@@ -137,7 +137,9 @@ class LoadFeed:
         self.begin_ns = 0
         self._line: LiveLine  # of the live mode, since the first load
         self.paused = False
+        self.held = False  # nobody uses load while the run is held, so none need come
         self.slept_s = 0.0
+        self._held_s = 0.0
         self._running = False
 
     def restart(self) -> None:
@@ -213,9 +215,10 @@ class LoadFeed:
     def cover(self, twin: Any) -> float | None:
         """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream.
 
-        `slept_s` is then how long the load was paused in between, which is not waiting for it.
+        `slept_s` is then how long the load was paused in between, which is not waiting for it; nor is the
+        time for which the run was held.
         """
-        self.slept_s, self._running = 0.0, True
+        self.slept_s, self._held_s, self._running = 0.0, 0.0, True
         if self._options.mode == "live":
             self._load_comes(lambda: not self.paused or self.gate.ended, 0.0)
             if self.gate.ended:
@@ -260,20 +263,24 @@ class LoadFeed:
                     EXIT_LOAD_LOST,
                 )
             waited += time.monotonic() - begin
-        return waited - self.slept_s
+        return waited - self.slept_s - self._held_s
 
     def _load_comes(self, ready: Callable[[], bool], timeout: float) -> bool:
         """Wait for load; False after `timeout` seconds (0: for ever) that no knowing pause explains."""
         while True:
-            paused = self.paused
-            if paused and not ready():
+            if self.held and self._running and not ready():
+                begin = time.monotonic()
+                self._wait(lambda: ready() or not self.held, 0.0)
+                self._held_s += time.monotonic() - begin
+                continue
+            if self.paused and not ready():
                 begin = time.monotonic()
                 self._say(PAUSED, "the load is paused: the twin waits until it goes on")
                 self._wait(lambda: ready() or not self.paused, 0.0)
                 self.slept_s += time.monotonic() - begin
                 self._say(RUNNING if self._running else WAITING_FOR_LOAD, "the load goes on")
                 continue
-            if not self._wait(lambda: ready() or self.paused, timeout):
+            if not self._wait(lambda: ready() or self.paused or (self.held and self._running), timeout):
                 return False
             if ready():
                 return True

@@ -2,7 +2,8 @@
 
 The executor's thread talks to the session through thread-safe calls and collects what is to be
 published; the simulation itself runs without the interpreter lock. Pacing only decides when a block is
-handed over, never what is in it.
+handed over, never what is in it: where the load is known beforehand, some blocks are computed before they
+are due.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ import traceback
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.record.description import RunDescription
-from beardyn_core.record.encoding import BlockEncoder
-from beardyn_core.record.messages import encode_string
 from beardyn_core.sensors.block import Block
+from beardyn_ros.block_messages import BlockMessages, truth_message
+from beardyn_ros.blocks_ahead import BlocksAhead, ComputedBlock, RunLeftError
 from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
 from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
 from beardyn_ros.pacer import Pacer
@@ -41,19 +43,15 @@ from beardyn_ros.run_state import (
 )
 from beardyn_ros.runtime import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INVALID_MODEL
 from beardyn_ros.source_time import (
-    FAR_APART_S,
     LONGEST_ANNOUNCEMENT_S,
     LONGEST_HOLD_S,
     Offset,
     SourceStamps,
-    encode_time_reference,
 )
 
 BLOCKS_WAITING_TO_BE_PUBLISHED = 32
-# one sample a message: spread over the block, while a waveform is one message a block
-REFERENCE_EVERY = 10  # blocks
+MOST_AHEAD = 15  # computed blocks that may wait until they are due, where the load is known beforehand
 LONGEST_NAP_S = 0.1  # of a run that is held for a clock
-TREND_TOPICS = ("force", "imu", "shaft", "joint_states")
 
 
 class TwinSession:
@@ -96,6 +94,9 @@ class TwinSession:
         self._reset = False
         self._ending = False
         self._run_count = 0
+        self._is_left = False  # by an end that is not that of its load
+        self._waited_s = 0.0  # of a run: held, announcing, or its load was paused
+        self._last_due: float | None = None
         self._report = SessionReport()
         self._thread = threading.Thread(target=self._thread_main, name="twin", daemon=True)
 
@@ -110,6 +111,7 @@ class TwinSession:
         """Run, or hold still without losing anything."""
         with self._condition:
             self._active = active
+            self._tell_hold()
             self._condition.notify_all()
 
     def pause(self, paused: bool) -> None:
@@ -117,6 +119,7 @@ class TwinSession:
         with self._condition:
             self._paused = paused
             self._steps = 0
+            self._tell_hold()
             self._condition.notify_all()
 
     @property
@@ -132,6 +135,7 @@ class TwinSession:
             if not self._paused:
                 return "the twin is running: call pause with true first"
             self._steps += 1
+            self._tell_hold()
             self._condition.notify_all()
         return None
 
@@ -196,7 +200,7 @@ class TwinSession:
             while not self._ending:
                 try:
                     self._one_run(rig)
-                except _InterruptedError:
+                except RunLeftError:
                     pass
                 except StoppedError as stop:
                     self.exit_code = stop.exit_code
@@ -229,8 +233,7 @@ class TwinSession:
 
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
-        self._encoder = BlockEncoder(description.roller_count, description.sensor_names, self.options.frame)
-        self._pictures = rig.pictures
+        self._messages = BlockMessages(description, rig.pictures, self.options, self.feed)
         self._wait(lambda: self._active)
         run_id = f"{self.options.instance}-{self._run_count}"
         self._run_count += 1
@@ -240,7 +243,7 @@ class TwinSession:
         self.stamps.begin()
         self._is_announced = False
         if not self.options.of_source:
-            self._put(_truth_of(description))
+            self._put(truth_message(description))
         first = self.feed.first(twin.block_ns)
         lacks = missing_background(rig.background, first, self.options.mode == "live")
         with self._condition:
@@ -249,68 +252,112 @@ class TwinSession:
         twin.start(first)
         self._set_state(RUNNING, "running")
         self.pacer.begin()
-        begin, processor_begin, waited = time.monotonic(), time.process_time(), 0.0
-        planned: float | None = None
-        while True:
-            held, ordered = self._wait_while_paused()
-            waited += held
-            if held:
-                self.stamps.expect_leap()
-            starved = self.feed.cover(twin)
-            waited += self.feed.slept_s
-            if self.feed.slept_s:
-                self.stamps.expect_leap()
-            if starved is None:
-                break
-            self.pacer.shift(starved + self.feed.slept_s)
-            if self.options.of_source and not self._report.blocks:
-                waited += self._announce_source(description)
-            offset, held = self._offset_of_block(self._report.blocks * twin.block_ns, twin.block_ns)
-            waited += held
-            covered_at = time.monotonic()
-            outgoing, block = self._outgoing_of(twin.advance(), offset, ordered)
-            ready_at = time.monotonic()
-            while (delay := self.pacer.delay(block.end_ns)) > 0.0:
-                self._wait(lambda: False, delay)
-            due_at = time.monotonic()
-            planned = self.pacer.hand_over(block.end_ns)
-            self._put(replace(outgoing, due_at=planned), block)
-            now = time.monotonic()
+        began, processor_began = time.monotonic(), time.process_time()
+        self._waited_s, self._last_due = 0.0, None
+        live = self.options.mode == "live"
+
+        def hand_over(computed: ComputedBlock) -> None:
+            self._hand_over(computed, began, processor_began, held_before=live)
+
+        ahead = BlocksAhead(0 if live else MOST_AHEAD, self._condition, self._wait, hand_over)
+        try:
+            self._advance(twin, description, ahead)
+            ahead.drain()
+        except (StoppedError, ValidityError):
+            ahead.drain()
+            raise
+        finally:
             with self._condition:
-                report = self._report
-                report.simulated_s = (block.index + 1) * twin.block_ns * 1e-9
-                report.wall_s = now - begin - waited
-                report.waited_for_load_s += starved
-                report.processor_s = time.process_time() - processor_begin
-                report.busy_s += (ready_at - covered_at) + (now - due_at)
-                report.recent.append((now, report.simulated_s))
+                self._is_left = True
+                self._condition.notify_all()
+            ahead.join()
+            self._is_left = False
         sentence = "the load stream has ended, every block that it covers is published"
-        if self.options.mode == "live":
-            lag = 0.0 if planned is None else max(time.monotonic() - planned, 0.0)
+        if live:
+            lag = 0.0 if self._last_due is None else max(time.monotonic() - self._last_due, 0.0)
             sentence = (
                 f"the live load has ended at simulated t = {self._report.simulated_s:.3f} s, "
                 f"{lag:.2f} s behind the wall clock"
             )
         self._set_state(FINISHED, sentence)
 
+    def _advance(self, twin: Any, description: RunDescription, ahead: BlocksAhead) -> None:
+        """Compute block after block until the load ends."""
+        live, computed, ordered = self.options.mode == "live", 0, False
+        while True:
+            ahead.wait_for_room()
+            if live:
+                held, ordered = self._wait_while_paused()
+                if held:
+                    self.stamps.expect_leap()
+            starved = self.feed.cover(twin)
+            if self.feed.slept_s:
+                self.stamps.expect_leap()
+            if starved is None:
+                return
+            self._leave_out_waiting(starved, computed * twin.block_ns)
+            if self.options.of_source and not computed:
+                self._announce_source(description)
+            offset = self._offset_of_block(computed * twin.block_ns, twin.block_ns)
+            covered_at = time.monotonic()
+            block = twin.advance()
+            outgoing = self._messages.of(block, offset, ordered)
+            ahead.append(ComputedBlock(outgoing, block, time.monotonic() - covered_at))
+            computed += 1
+
+    def _leave_out_waiting(self, starved: float, begin_ns: int) -> None:
+        """Shift the pace by the time that a block could not begin for want of load, [s].
+
+        While earlier blocks were not due nothing was late for it.
+        """
+        slept = self.feed.slept_s
+        if self.pacer.speed_factor > 0.0:
+            late = max(-self.pacer.delay(begin_ns), 0.0)
+            slept = min(slept, late)
+            starved = min(starved, late - slept)
+        self.pacer.shift(starved + slept)
+        with self._condition:
+            self._waited_s += slept
+            self._report.waited_for_load_s += starved
+
+    def _hand_over(
+        self, computed: ComputedBlock, began: float, processor_began: float, held_before: bool
+    ) -> None:
+        """Hand a block over when it is due, and not while the run is held; its own thread."""
+        outgoing, block = computed.outgoing, computed.block
+        if not held_before:
+            _, ordered = self._wait_while_paused()
+            outgoing = replace(outgoing, ordered=ordered)
+        while (delay := self.pacer.delay(block.end_ns)) > 0.0:
+            self._wait(lambda: False, delay)
+        due_at = time.monotonic()
+        self._last_due = self.pacer.hand_over(block.end_ns)
+        self._put(replace(outgoing, due_at=self._last_due), block)
+        now = time.monotonic()
+        with self._condition:
+            report = self._report
+            report.simulated_s = block.end_ns * 1e-9
+            report.wall_s = now - began - self._waited_s
+            report.processor_s = time.process_time() - processor_began
+            report.busy_s += computed.busy_s + (now - due_at)
+            report.recent.append((now, report.simulated_s))
+
     def _hand_over_last_block(self, error: ValidityError) -> None:
         block = getattr(error, "block", None)
         if block is not None:
-            self._put(*self._outgoing_of(block, Offset(self.stamps.offset_ns)))
+            self._put(self._messages.of(block, Offset(self.stamps.offset_ns)), block)
 
-    def _announce_source(self, description: RunDescription) -> float:
+    def _announce_source(self, description: RunDescription) -> None:
         """Publish the truth with the earliest stamp of the run, and wait until its readers have it.
 
-        By that they know which run the stamps behind it are of. Returns the seconds that took.
+        By that they know which run the stamps behind it are of.
         """
         begin, earliest_ns = time.monotonic(), self.feed.begin_ns
         if self.options.mode == "live":
             earliest_ns = self.stamps.preview(WRENCH_TOPIC, self.feed.live_delay_ns(0))
-        self._put(_truth_of(description, begin_ns=earliest_ns))
+        self._put(truth_message(description, begin_ns=earliest_ns))
         self._wait(lambda: self._is_announced, LONGEST_ANNOUNCEMENT_S)
-        waited = time.monotonic() - begin
-        self.pacer.shift(waited)
-        return waited
+        self._leave_out(time.monotonic() - begin)
 
     def confirm_truth(self) -> None:
         """Note that the truth of the present run has been published."""
@@ -318,28 +365,35 @@ class TwinSession:
             self._is_announced = True
             self._condition.notify_all()
 
-    def _offset_of_block(self, begin_ns: int, block_ns: int) -> tuple[Offset, float]:
-        """Find the offset of the stamps of the next block, and for how long the run was held for it, [s]."""
+    def _leave_out(self, seconds: float) -> None:
+        """Leave the time that a run was held out of its pace."""
+        self.pacer.shift(seconds)
+        with self._condition:
+            self._waited_s += seconds
+
+    def _offset_of_block(self, begin_ns: int, block_ns: int) -> Offset:
+        """Find the offset of the stamps of the next block; holds the run for it where it must."""
         if not self.options.of_source:
-            return Offset(0), 0.0
+            return Offset(0)
         if self.options.mode != "live":
             self._report.offset_ns = self.feed.begin_ns
-            return self.stamps.set_constant(self.feed.begin_ns), 0.0
-        delay_ns, waited = self.feed.live_delay_ns(begin_ns), 0.0
+            return self.stamps.set_constant(self.feed.begin_ns)
+        delay_ns, is_held = self.feed.live_delay_ns(begin_ns), False
         while True:
             offset, behind = self.stamps.follow(WRENCH_TOPIC, begin_ns, block_ns, delay_ns)
             if behind <= 0.0:
                 break
-            waited += self._hold_for_clock(behind)
-        if waited:
+            self._hold_for_clock(behind)
+            is_held = True
+        if is_held:
             self._set_state(RUNNING, "running")
         with self._condition:
             self._report.offset_ns = offset.ahead_ns
-            self._report.clock_note = self._clock_note()
-        return offset, waited
+            self._report.clock_note = self.stamps.note(SHAFT_TOPIC, WRENCH_TOPIC, self.pacer.speed_factor)
+        return offset
 
-    def _hold_for_clock(self, behind: float) -> float:
-        """Hold the run for a moment, for the clock of the source is behind its stamps; seconds held."""
+    def _hold_for_clock(self, behind: float) -> None:
+        """Hold the run for a moment, for the clock of the source is behind its stamps."""
         sentence = f"the clock of the source is {behind:.3f} s behind the stamps, as when it was set back"
         if behind > LONGEST_HOLD_S:
             self._set_state(RUNNING, f"{sentence}: a new run begins")
@@ -350,48 +404,14 @@ class TwinSession:
         self._set_state(RUNNING, f"{sentence}: no stamp comes twice, the run waits until it has caught up")
         begin = time.monotonic()
         self._wait(lambda: False, min(behind / self.pacer.speed_factor, LONGEST_NAP_S))
-        held = time.monotonic() - begin
-        self.pacer.shift(held)
-        return held
-
-    def _clock_note(self) -> str:
-        """Report a leap of the stamps, and two clocks where one is expected."""
-        apart = self.stamps.apart_s(SHAFT_TOPIC, WRENCH_TOPIC)
-        notes = [self.stamps.recent_leap] if self.stamps.recent_leap else []
-        if self.stamps.is_at_another_pace:
-            notes = [
-                f"{WRENCH_TOPIC} is stamped at another pace than speed_factor = {self.pacer.speed_factor:g}: "
-                "stamps follow it no longer"
-            ]
-        if abs(apart) > FAR_APART_S:
-            notes.append(
-                f"{SHAFT_TOPIC} is stamped {abs(apart):.3f} s {'ahead of' if apart > 0.0 else 'behind'} "
-                f"{WRENCH_TOPIC}: they have two clocks; stamps are those of {WRENCH_TOPIC}"
-            )
-        return "; ".join(notes)
-
-    def _outgoing_of(self, block: Block, offset: Offset, ordered: bool = False) -> tuple[Outgoing, Block]:
-        messages, trends, stamped = [], [], block.later(offset.ahead_ns)
-        first_ns = int(stamped.trend_time_ns[0]) if len(stamped.trend_time_ns) else 0
-        for name, stamp_ns, cdr in self._encoder.encode(stamped, self._pictures):
-            if name in TREND_TOPICS:
-                trends.append(((stamp_ns - first_ns) * 1e-9, name, cdr))
-            else:
-                messages.append((name, cdr))
-        trends.sort(key=lambda trend: trend[0])
-        if self.options.of_source and (offset.is_new or block.index % REFERENCE_EVERY == 0):
-            reference = encode_time_reference(stamped.end_ns, block.end_ns, self.options.frame)
-            messages.append(("source_time", reference))
-        live = self.options.mode == "live"
-        consumed_ns = stamped.end_ns if live else block.end_ns + self.feed.begin_ns
-        sent = Outgoing(tuple(messages), tuple(trends), block.end_ns, stamped.end_ns, consumed_ns, ordered)
-        return sent, block
+        self._leave_out(time.monotonic() - begin)
 
     def _wait_while_paused(self) -> tuple[float, bool]:
         """Wait while paused or inactive; seconds held, and whether the next block is ordered by a step."""
         with self._condition:
             if self._steps and self._active:
                 self._steps -= 1
+                self._tell_hold()
                 return 0.0, True
             if self._active and not self._paused:
                 return 0.0, False
@@ -401,11 +421,16 @@ class TwinSession:
         with self._condition:
             ordered = self._steps > 0
             self._steps -= ordered
+            self._tell_hold()
         held = time.monotonic() - begin
-        self.pacer.shift(held)
+        self._leave_out(held)
         if not self._paused:
             self._set_state(RUNNING, "running")
         return held, ordered
+
+    def _tell_hold(self) -> None:
+        """Let the feed know whether anybody uses its load; under the condition."""
+        self.feed.held = (self._paused or not self._active) and not self._steps
 
     def _put(self, outgoing: Outgoing, block: Block | None = None) -> None:
         """Hand over what is to be published, and count the block that it comes from."""
@@ -431,25 +456,15 @@ class TwinSession:
         """Wait until `ready`; False after `timeout` seconds (0: for ever)."""
 
         def done() -> bool:
-            return self._ending or (interruptible and self._reset) or ready()
+            return self._ending or (interruptible and (self._reset or self._is_left)) or ready()
 
         with self._condition:
             self._condition.wait_for(done, timeout or None)
-            if self._ending or (interruptible and self._reset):
+            if self._ending or (interruptible and (self._reset or self._is_left)):
                 if interruptible:
-                    raise _InterruptedError
+                    raise RunLeftError
                 return True
             return ready()
-
-
-class _InterruptedError(Exception):
-    """The run is left because of a reset or the end of the process."""
-
-
-def _truth_of(description: RunDescription, **more: int) -> Outgoing:
-    """Make the message that begins a run."""
-    described = replace(description, truth={**description.truth, **more})
-    return Outgoing((("truth", encode_string(described.to_json())),))
 
 
 def _waveform_samples(block: Block) -> int:

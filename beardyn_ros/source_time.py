@@ -164,6 +164,23 @@ class SourceStamps:
             one, two = self._ahead_ns(topic), self._ahead_ns(other)
         return float("nan") if one is None or two is None else 1e-9 * (one - two)
 
+    def note(self, topic: str, followed: str, speed_factor: float) -> str:
+        """Report a leap of the stamps, and two clocks where one is expected."""
+        if self.is_at_another_pace:
+            notes = [
+                f"{followed} is stamped at another pace than speed_factor = {speed_factor:g}: "
+                "stamps follow it no longer"
+            ]
+        else:
+            notes = [self.recent_leap] if self.recent_leap else []
+        apart = self.apart_s(topic, followed)
+        if abs(apart) > FAR_APART_S:
+            notes.append(
+                f"{topic} is stamped {abs(apart):.3f} s {'ahead of' if apart > 0.0 else 'behind'} "
+                f"{followed}: they have two clocks; stamps are those of {followed}"
+            )
+        return "; ".join(notes)
+
     def preview(self, topic: str, delay_ns: int) -> int:
         """Give the stamp that none of a run is earlier than which begins now, nor those of the run before."""
         with self._condition:

@@ -69,6 +69,9 @@ to its end.
   the whole run. `late_blocks` counts blocks that were published more than 40 ms after they were due,
   `last_late_time` is the simulated time of the last one, `worst_lag` the largest delay. The twin logs them at
   its end, `beardyn report` reads them from a recording.
+* In lockstep up to 15 blocks (0.3 s) are computed before they are due, so that a machine that is busy for a
+  moment delays none; a pause holds them, `step` publishes the next of them. Of a live load nothing is
+  computed ahead.
 * `tier_note` is there when the tier is a faster one than the scene's for the sake of the pace.
 * `axlebox/lag` is a status of its own: by how much simulated time is behind the pace, WARN beyond 0.1 s of
   wall time.
