@@ -45,6 +45,13 @@ class BlocksAhead:
         ``wait(ready)`` blocks a thread until `ready`; raises `RunLeftError` when the run is left.
     hand_over : callable
         Waits until a block is due and hands it over.
+    leave : callable
+        Lets the other thread leave the run when that fails.
+
+    Attributes
+    ----------
+    failure : Exception or None
+        Why no more blocks are handed over.
     """
 
     def __init__(
@@ -53,15 +60,22 @@ class BlocksAhead:
         condition: threading.Condition,
         wait: Callable[[Callable[[], bool]], object],
         hand_over: Callable[[ComputedBlock], None],
+        leave: Callable[[], None],
     ) -> None:
         self.most = most
         self._condition = condition
         self._wait = wait
         self._hand_over = hand_over
+        self._leave = leave
         self._blocks: deque[ComputedBlock] = deque()
-        self._failure: Exception | None = None
+        self.failure: Exception | None = None
         self._thread = threading.Thread(target=self._thread_main, name="blocks ahead", daemon=True)
         self._thread.start()
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether any block has not been handed over."""
+        return bool(self._blocks)
 
     def append(self, computed: ComputedBlock) -> None:
         """Take a block that is handed over when it is due."""
@@ -71,20 +85,15 @@ class BlocksAhead:
 
     def wait_for_room(self) -> None:
         """Wait until another block may be begun."""
-        self._wait_for(self.most)
+        self._wait(lambda: len(self._blocks) <= self.most)
 
     def drain(self) -> None:
         """Wait until every block has been handed over."""
-        self._wait_for(0)
+        self._wait(lambda: not self._blocks)
 
     def join(self) -> None:
         """Wait for the end of the thread, which leaves with the run."""
         self._thread.join()
-
-    def _wait_for(self, most: int) -> None:
-        self._wait(lambda: len(self._blocks) <= most or self._failure is not None)
-        if self._failure is not None:
-            raise self._failure
 
     def _thread_main(self) -> None:
         try:
@@ -97,6 +106,5 @@ class BlocksAhead:
         except RunLeftError:
             pass
         except Exception as error:
-            with self._condition:
-                self._failure = error
-                self._condition.notify_all()
+            self.failure = error
+            self._leave()

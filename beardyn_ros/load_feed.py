@@ -18,6 +18,8 @@ from beardyn_ros.load_gate import LoadGate, Refusals, shift_load
 from beardyn_ros.run_state import PAUSED, RUNNING, WAITING_FOR_LOAD, SessionOptions
 from beardyn_ros.runtime import EXIT_LOAD_LOST
 
+HELD = "paused: the service step advances one block, pause with false goes on"
+LOAD_IS_PAUSED = "the load is paused: the twin waits until it goes on"
 SAMPLES = 40  # of a block, 2 kHz
 REACH = 4  # blocks on either side; images are 85 dB down up to a fifth of the block rate
 _POLYNOMIALS = fitted_polynomials(REACH, ((0.2, 1.0), (0.5, 1e-6)))
@@ -111,6 +113,10 @@ class LoadFeed:
         ``say(state, sentence)`` reports it.
     on_stamp : callable, optional
         See `LiveLoad`.
+    is_held : callable, optional
+        Whether the run is held, so that nobody uses load.
+    is_ahead : callable, optional
+        Whether computed blocks are not due yet, so that nothing is late for want of load.
 
     Notes
     -----
@@ -126,7 +132,11 @@ class LoadFeed:
         wait: Callable[[Callable[[], bool], float], bool],
         say: Callable[[str, str], None],
         on_stamp: Callable[[str, int, float, bool], None] = lambda *_stamp: None,
+        is_held: Callable[[], bool] = lambda: False,
+        is_ahead: Callable[[], bool] = lambda: False,
     ) -> None:
+        self._is_held = is_held
+        self._is_ahead = is_ahead
         self._options = options
         self._condition = condition
         self._wait = wait
@@ -137,9 +147,7 @@ class LoadFeed:
         self.begin_ns = 0
         self._line: LiveLine  # of the live mode, since the first load
         self.paused = False
-        self.held = False  # nobody uses load while the run is held, so none need come
         self.slept_s = 0.0
-        self._held_s = 0.0
         self._running = False
 
     def restart(self) -> None:
@@ -215,10 +223,10 @@ class LoadFeed:
     def cover(self, twin: Any) -> float | None:
         """Feed load until the next block is covered; seconds waited, ``None`` at the end of the stream.
 
-        `slept_s` is then how long the load was paused in between, which is not waiting for it; nor is the
-        time for which the run was held.
+        `slept_s` is then how long the load was paused, or the run was held with nothing ahead, in between,
+        which is not waiting for it.
         """
-        self.slept_s, self._held_s, self._running = 0.0, 0.0, True
+        self.slept_s, self._running = 0.0, True
         if self._options.mode == "live":
             self._load_comes(lambda: not self.paused or self.gate.ended, 0.0)
             if self.gate.ended:
@@ -263,24 +271,30 @@ class LoadFeed:
                     EXIT_LOAD_LOST,
                 )
             waited += time.monotonic() - begin
-        return waited - self.slept_s - self._held_s
+        return waited - self.slept_s
 
     def _load_comes(self, ready: Callable[[], bool], timeout: float) -> bool:
         """Wait for load; False after `timeout` seconds (0: for ever) that no knowing pause explains."""
         while True:
-            if self.held and self._running and not ready():
-                begin = time.monotonic()
-                self._wait(lambda: ready() or not self.held, 0.0)
-                self._held_s += time.monotonic() - begin
+            if self._running and self._is_ahead() and not ready():
+                self._wait(lambda: ready() or not self._is_ahead(), 0.0)
+                continue
+            if self._running and self._is_held() and not ready():
+                self._sleep(lambda: ready() or not self._is_held(), HELD)
                 continue
             if self.paused and not ready():
-                begin = time.monotonic()
-                self._say(PAUSED, "the load is paused: the twin waits until it goes on")
-                self._wait(lambda: ready() or not self.paused, 0.0)
-                self.slept_s += time.monotonic() - begin
-                self._say(RUNNING if self._running else WAITING_FOR_LOAD, "the load goes on")
+                self._sleep(lambda: ready() or not self.paused or self._is_held(), LOAD_IS_PAUSED)
                 continue
-            if not self._wait(lambda: ready() or self.paused or (self.held and self._running), timeout):
+            if not self._wait(lambda: ready() or self.paused or (self._running and self._is_held()), timeout):
                 return False
             if ready():
                 return True
+
+    def _sleep(self, until: Callable[[], bool], why: str) -> None:
+        """Wait for as long as somebody wants it, which is not waiting for load."""
+        begin = time.monotonic()
+        self._say(PAUSED, why)
+        self._wait(until, 0.0)
+        self.slept_s += time.monotonic() - begin
+        if not self._is_held():
+            self._say(RUNNING if self._running else WAITING_FOR_LOAD, "the run goes on")

@@ -158,6 +158,9 @@ class SimulationServices:
         still = []
         for order in self._orders:
             session, report = order.session, order.session.report()
+            if order.until is not None and report.blocks >= order.until and session is self._session():
+                order.done.set_result(True)
+                continue
             if session is not self._session() or report.state in END_STATES or not session.paused:
                 order.done.set_result(False)
                 continue
@@ -165,10 +168,7 @@ class SimulationServices:
                 order.until = report.blocks + order.steps
                 for _ in range(order.steps):
                     session.step()
-            if order.until is not None and report.blocks >= order.until:
-                order.done.set_result(True)
-            else:
-                still.append(order)
+            still.append(order)
         self._orders = still
 
     # --- callbacks ---------------------------------------------------------------------------------

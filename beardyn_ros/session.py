@@ -23,7 +23,7 @@ from beardyn_core.sensors.block import Block
 from beardyn_ros.block_messages import BlockMessages, truth_message
 from beardyn_ros.blocks_ahead import BlocksAhead, ComputedBlock, RunLeftError
 from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
-from beardyn_ros.load_feed import LoadFeed, StoppedError, missing_background
+from beardyn_ros.load_feed import HELD, LoadFeed, StoppedError, missing_background
 from beardyn_ros.pacer import Pacer
 from beardyn_ros.rig import Rig
 from beardyn_ros.run_state import (
@@ -82,7 +82,13 @@ class TwinSession:
         self.pacer = Pacer(speed_factor)
         self.stamps = SourceStamps(self._condition, self.pacer.simulated_at)
         self.feed = LoadFeed(
-            options, self._condition, self._wait, self._set_state, on_stamp=self.stamps.receive
+            options,
+            self._condition,
+            self._wait,
+            self._set_state,
+            on_stamp=self.stamps.receive,
+            is_held=self._is_held,
+            is_ahead=lambda: self._ahead is not None and self._ahead.is_waiting,
         )
         self.exit_code = EXIT_DONE
         self._is_announced = False
@@ -95,6 +101,7 @@ class TwinSession:
         self._ending = False
         self._run_count = 0
         self._is_left = False  # by an end that is not that of its load
+        self._ahead: BlocksAhead | None = None
         self._waited_s = 0.0  # of a run: held, announcing, or its load was paused
         self._last_due: float | None = None
         self._report = SessionReport()
@@ -111,7 +118,6 @@ class TwinSession:
         """Run, or hold still without losing anything."""
         with self._condition:
             self._active = active
-            self._tell_hold()
             self._condition.notify_all()
 
     def pause(self, paused: bool) -> None:
@@ -119,7 +125,6 @@ class TwinSession:
         with self._condition:
             self._paused = paused
             self._steps = 0
-            self._tell_hold()
             self._condition.notify_all()
 
     @property
@@ -135,7 +140,6 @@ class TwinSession:
             if not self._paused:
                 return "the twin is running: call pause with true first"
             self._steps += 1
-            self._tell_hold()
             self._condition.notify_all()
         return None
 
@@ -259,19 +263,22 @@ class TwinSession:
         def hand_over(computed: ComputedBlock) -> None:
             self._hand_over(computed, began, processor_began, held_before=live)
 
-        ahead = BlocksAhead(0 if live else MOST_AHEAD, self._condition, self._wait, hand_over)
+        ahead = BlocksAhead(0 if live else MOST_AHEAD, self._condition, self._wait, hand_over, self._leave)
+        self._ahead = ahead
         try:
             self._advance(twin, description, ahead)
             ahead.drain()
-        except (StoppedError, ValidityError):
+        except RunLeftError:
+            if ahead.failure is not None:
+                raise ahead.failure from None
+            raise
+        except Exception:
             ahead.drain()
             raise
         finally:
-            with self._condition:
-                self._is_left = True
-                self._condition.notify_all()
+            self._leave()
             ahead.join()
-            self._is_left = False
+            self._ahead, self._is_left = None, False
         sentence = "the load stream has ended, every block that it covers is published"
         if live:
             lag = 0.0 if self._last_due is None else max(time.monotonic() - self._last_due, 0.0)
@@ -280,6 +287,12 @@ class TwinSession:
                 f"{lag:.2f} s behind the wall clock"
             )
         self._set_state(FINISHED, sentence)
+
+    def _leave(self) -> None:
+        """Let both threads leave the run."""
+        with self._condition:
+            self._is_left = True
+            self._condition.notify_all()
 
     def _advance(self, twin: Any, description: RunDescription, ahead: BlocksAhead) -> None:
         """Compute block after block until the load ends."""
@@ -308,9 +321,12 @@ class TwinSession:
     def _leave_out_waiting(self, starved: float, begin_ns: int) -> None:
         """Shift the pace by the time that a block could not begin for want of load, [s].
 
-        While earlier blocks were not due nothing was late for it.
+        While earlier blocks were not due nothing was late for it, and a hold of theirs is left out by who
+        hands them over.
         """
         slept = self.feed.slept_s
+        if self._ahead is not None and self._ahead.is_waiting:
+            return
         if self.pacer.speed_factor > 0.0:
             late = max(-self.pacer.delay(begin_ns), 0.0)
             slept = min(slept, late)
@@ -411,26 +427,25 @@ class TwinSession:
         with self._condition:
             if self._steps and self._active:
                 self._steps -= 1
-                self._tell_hold()
                 return 0.0, True
             if self._active and not self._paused:
                 return 0.0, False
         begin = time.monotonic()
-        self._set_state(PAUSED, "paused: the service step advances one block, pause with false goes on")
+        self._set_state(PAUSED, HELD)
         self._wait(lambda: self._active and (not self._paused or self._steps > 0))
         with self._condition:
             ordered = self._steps > 0
             self._steps -= ordered
-            self._tell_hold()
         held = time.monotonic() - begin
         self._leave_out(held)
         if not self._paused:
             self._set_state(RUNNING, "running")
         return held, ordered
 
-    def _tell_hold(self) -> None:
-        """Let the feed know whether anybody uses its load; under the condition."""
-        self.feed.held = (self._paused or not self._active) and not self._steps
+    def _is_held(self) -> bool:
+        """Check whether the run is held; a live one is so before a block is begun, and uses no load then."""
+        held = not self._active or (self._paused and not self._steps)
+        return held and self.options.mode != "live"
 
     def _put(self, outgoing: Outgoing, block: Block | None = None) -> None:
         """Hand over what is to be published, and count the block that it comes from."""

@@ -180,6 +180,17 @@ def test_a_step_answers_when_its_blocks_are_done_and_the_run_holds_again(rig: Ri
     assert session.report().blocks > before
 
 
+def test_a_step_of_all_blocks_that_are_left_succeeds(rig: Rig) -> None:
+    session = rig.begin()
+    rig.until(lambda: session.report().state != "compiling")
+    assert rig.set_state(State.STATE_PAUSED).result == Result.RESULT_OK
+    rig.send(0.2)
+    session.feed.gate.offer(fake_history("", "", 1.0).part(0, 0), range_of(0, 0))
+    rig.until(lambda: session.report().state == "paused")
+    assert rig.step(9).result == Result.RESULT_OK
+    assert session.report().blocks == 9
+
+
 def test_states_follow_the_run(rig: Rig) -> None:
     session = rig.begin()
     rig.until(lambda: session.report().state != "compiling")
