@@ -250,12 +250,13 @@ def main() -> None:
     )
     parser.add_argument("scenes", nargs="*", default=list(CASES), metavar="SCENE")
     parser.add_argument("--keep", type=Path, default=Path("automatic"), metavar="FOLDER")
+    parser.add_argument("--once", action="store_true", help="leave open what one look leaves open")
     parser.add_argument("--to", type=Path, default=PAGE, metavar="FILE")
     arguments = parser.parse_args()
     logging.getLogger("beardyn").setLevel(logging.WARNING)
     kept = Kept(arguments.keep)
     for name in arguments.scenes:
-        rows = [row(case) for case in kept.cases(name, LONGER)]
+        rows = [row(case) for case in kept.cases(name, 1 if arguments.once else LONGER)]
         print("\n".join(rows), flush=True)
         page = arguments.to.read_text(encoding="utf-8") if arguments.to.exists() else ""
         values = {
