@@ -28,6 +28,7 @@ load_intake           topics that carry load, decoded for the twin or refused
 run_state             options of a session, the messages it hands over, its report
 pacer                 simulated time on the wall clock: when a block is due, how late it was
 block_messages        the messages of a block, and of the truth that begins a run
+run_control           what is asked of a run while it goes: active, paused, steps, a reset, the end
 blocks_ahead          computed blocks that are not due yet, handed over by a thread of their own
 session               the twin in its own thread: compile, wait for load, advance, pace
 twin_report           the twin's diagnostics: its runs, the one that a reset has left too

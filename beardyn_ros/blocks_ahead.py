@@ -8,11 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from beardyn_core.sensors.block import Block
+from beardyn_ros.run_control import RunLeftError
 from beardyn_ros.run_state import Outgoing
-
-
-class RunLeftError(Exception):
-    """The run is left because of a reset or the end of the process."""
 
 
 @dataclass(frozen=True)

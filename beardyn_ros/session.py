@@ -21,11 +21,12 @@ from beardyn_core.base.errors import InputError, ValidityError
 from beardyn_core.record.description import RunDescription
 from beardyn_core.sensors.block import Block
 from beardyn_ros.block_messages import BlockMessages, truth_message
-from beardyn_ros.blocks_ahead import BlocksAhead, ComputedBlock, RunLeftError
+from beardyn_ros.blocks_ahead import BlocksAhead, ComputedBlock
 from beardyn_ros.live_load import SHAFT_TOPIC, WRENCH_TOPIC
 from beardyn_ros.load_feed import HELD, LoadFeed, StoppedError, missing_background
 from beardyn_ros.pacer import Pacer
 from beardyn_ros.rig import Rig
+from beardyn_ros.run_control import RunControl, RunLeftError
 from beardyn_ros.run_state import (
     COMPILING,
     END_STATES,
@@ -79,6 +80,9 @@ class TwinSession:
         self.options = options
         self._wake = wake
         self._condition = threading.Condition()  # guards load, commands and what is to be published
+        self._control = RunControl(self._condition)
+        self.activate, self.pause = self._control.activate, self._control.pause
+        self._wait = self._control.wait
         self.pacer = Pacer(speed_factor)
         self.stamps = SourceStamps(self._condition, self.pacer.simulated_at)
         self.feed = LoadFeed(
@@ -87,25 +91,25 @@ class TwinSession:
             self._wait,
             self._set_state,
             on_stamp=self.stamps.receive,
-            is_held=self._is_held,
+            # a live run is held before a block is begun, and uses no load then
+            is_held=lambda: self._control.is_held and not self._is_live,
             is_ahead=lambda: self._ahead is not None and self._ahead.is_waiting,
         )
         self.exit_code = EXIT_DONE
         self._is_announced = False
         self.new_run_wanted = ""  # why the node is to reset the run, in a sentence
         self._outgoing: deque[Outgoing] = deque()
-        self._active = False
-        self._paused = False
-        self._steps = 0
-        self._reset = False
-        self._ending = False
         self._run_count = 0
-        self._is_left = False  # by an end that is not that of its load
         self._ahead: BlocksAhead | None = None
-        self._waited_s = 0.0  # of a run: held, announcing, or its load was paused
+        self._began = self._processor_began = 0.0  # of a run
+        self._waited_s = 0.0  # of it: held, announcing, or its load was paused
         self._last_due: float | None = None
         self._report = SessionReport()
         self._thread = threading.Thread(target=self._thread_main, name="twin", daemon=True)
+
+    @property
+    def _is_live(self) -> bool:
+        return self.options.mode == "live"
 
     # --- called from the executor's thread -------------------------------------------------------
 
@@ -114,33 +118,19 @@ class TwinSession:
         self._set_state(COMPILING, "compiling the kernels of this scene (kept for the next start)")
         self._thread.start()
 
-    def activate(self, active: bool) -> None:
-        """Run, or hold still without losing anything."""
-        with self._condition:
-            self._active = active
-            self._condition.notify_all()
-
-    def pause(self, paused: bool) -> None:
-        """Hold before the next block, or go on."""
-        with self._condition:
-            self._paused = paused
-            self._steps = 0
-            self._condition.notify_all()
-
     @property
     def paused(self) -> bool:
         """Whether the run is asked to hold."""
-        return self._paused
+        return self._control.paused
 
     def step(self) -> str | None:
         """Advance one block while paused; a sentence when that is not possible."""
         with self._condition:
             if self._report.state in END_STATES:
                 return f"the run is {self._report.state}: call reset first"
-            if not self._paused:
+            if not self._control.paused:
                 return "the twin is running: call pause with true first"
-            self._steps += 1
-            self._condition.notify_all()
+            self._control.step()
         return None
 
     def reset(self) -> str | None:
@@ -148,15 +138,12 @@ class TwinSession:
         with self._condition:
             if self._report.state in (IDLE, COMPILING):
                 return f"the twin is {self._report.state}: there is nothing to reset yet"
-            self._reset = True
-            self._condition.notify_all()
+            self._control.reset()
         return None
 
     def end(self, timeout: float) -> bool:
         """Ask the thread to end; whether it is still alive after `timeout` seconds."""
-        with self._condition:
-            self._ending = True
-            self._condition.notify_all()
+        self._control.end()
         if self._thread.is_alive():
             self._thread.join(timeout)
         return self._thread.is_alive()
@@ -181,7 +168,7 @@ class TwinSession:
             report = SessionReport(**vars(self._report))
             recent = list(self._report.recent)
         report.load_waiting, report.load_waiting_s = self.feed.gate.waiting, self.feed.gate.waiting_s
-        held = self.feed.live.held() if self.options.mode == "live" else None
+        held = self.feed.live.held() if self._is_live else None
         report.load_age = held.age if held else 0.0
         report.late_blocks, report.lag_s = self.pacer.late_blocks, self.pacer.lag_s
         report.worst_lag_s, report.last_late_s = self.pacer.worst_lag_s, self.pacer.last_late_s
@@ -201,7 +188,7 @@ class TwinSession:
             gc.collect()
             gc.freeze()  # compiler and kernels stay, see `run_node`
             self._set_state(READY, "compiled, waiting for activation")
-            while not self._ending:
+            while not self._control.is_ending:
                 try:
                     self._one_run(rig)
                 except RunLeftError:
@@ -213,8 +200,7 @@ class TwinSession:
                     self.exit_code = EXIT_INVALID_MODEL
                     self._hand_over_last_block(error)
                     self._set_state(STOPPED, str(error))
-                self._wait(lambda: self._reset, interruptible=False)
-                if self._reset:
+                if self._control.wait_for_reset():
                     self._begin_again()
                     rig = self._make_rig()
         except InputError as error:
@@ -228,7 +214,7 @@ class TwinSession:
 
     def _begin_again(self) -> None:
         with self._condition:
-            self._reset = False
+            self._control.is_reset = False
             self.exit_code, self.new_run_wanted = EXIT_DONE, ""
             note = self._report.tier_note
             self._report = SessionReport(state=READY, sentence="reset", tier_note=note)
@@ -238,7 +224,7 @@ class TwinSession:
     def _one_run(self, rig: Rig) -> None:
         twin, description = rig.twin, rig.description
         self._messages = BlockMessages(description, rig.pictures, self.options, self.feed)
-        self._wait(lambda: self._active)
+        self._wait(lambda: self._control.active)
         run_id = f"{self.options.instance}-{self._run_count}"
         self._run_count += 1
         with self._condition:
@@ -249,21 +235,17 @@ class TwinSession:
         if not self.options.of_source:
             self._put(truth_message(description))
         first = self.feed.first(twin.block_ns)
-        lacks = missing_background(rig.background, first, self.options.mode == "live")
+        lacks = missing_background(rig.background, first, self._is_live)
         with self._condition:
             self._report.load_lacks = lacks
         self._set_state(EQUILIBRIUM, "solving the static equilibrium under the first load")
         twin.start(first)
         self._set_state(RUNNING, "running")
         self.pacer.begin()
-        began, processor_began = time.monotonic(), time.process_time()
+        self._began, self._processor_began = time.monotonic(), time.process_time()
         self._waited_s, self._last_due = 0.0, None
-        live = self.options.mode == "live"
-
-        def hand_over(computed: ComputedBlock) -> None:
-            self._hand_over(computed, began, processor_began, held_before=live)
-
-        ahead = BlocksAhead(0 if live else MOST_AHEAD, self._condition, self._wait, hand_over, self._leave)
+        most = 0 if self._is_live else MOST_AHEAD
+        ahead = BlocksAhead(most, self._condition, self._wait, self._hand_over, self._control.leave)
         self._ahead = ahead
         try:
             self._advance(twin, description, ahead)
@@ -276,11 +258,12 @@ class TwinSession:
             ahead.drain()
             raise
         finally:
-            self._leave()
+            self._control.leave()
             ahead.join()
-            self._ahead, self._is_left = None, False
+            self._ahead = None
+            self._control.begin()
         sentence = "the load stream has ended, every block that it covers is published"
-        if live:
+        if self._is_live:
             lag = 0.0 if self._last_due is None else max(time.monotonic() - self._last_due, 0.0)
             sentence = (
                 f"the live load has ended at simulated t = {self._report.simulated_s:.3f} s, "
@@ -288,18 +271,12 @@ class TwinSession:
             )
         self._set_state(FINISHED, sentence)
 
-    def _leave(self) -> None:
-        """Let both threads leave the run."""
-        with self._condition:
-            self._is_left = True
-            self._condition.notify_all()
-
     def _advance(self, twin: Any, description: RunDescription, ahead: BlocksAhead) -> None:
         """Compute block after block until the load ends."""
-        live, computed, ordered = self.options.mode == "live", 0, False
+        computed, ordered = 0, False
         while True:
             ahead.wait_for_room()
-            if live:
+            if self._is_live:
                 held, ordered = self._wait_while_paused()
                 if held:
                     self.stamps.expect_leap()
@@ -336,12 +313,10 @@ class TwinSession:
             self._waited_s += slept
             self._report.waited_for_load_s += starved
 
-    def _hand_over(
-        self, computed: ComputedBlock, began: float, processor_began: float, held_before: bool
-    ) -> None:
+    def _hand_over(self, computed: ComputedBlock) -> None:
         """Hand a block over when it is due, and not while the run is held; its own thread."""
         outgoing, block = computed.outgoing, computed.block
-        if not held_before:
+        if not self._is_live:
             _, ordered = self._wait_while_paused()
             outgoing = replace(outgoing, ordered=ordered)
         while (delay := self.pacer.delay(block.end_ns)) > 0.0:
@@ -353,8 +328,8 @@ class TwinSession:
         with self._condition:
             report = self._report
             report.simulated_s = block.end_ns * 1e-9
-            report.wall_s = now - began - self._waited_s
-            report.processor_s = time.process_time() - processor_began
+            report.wall_s = now - self._began - self._waited_s
+            report.processor_s = time.process_time() - self._processor_began
             report.busy_s += computed.busy_s + (now - due_at)
             report.recent.append((now, report.simulated_s))
 
@@ -369,7 +344,7 @@ class TwinSession:
         By that they know which run the stamps behind it are of.
         """
         begin, earliest_ns = time.monotonic(), self.feed.begin_ns
-        if self.options.mode == "live":
+        if self._is_live:
             earliest_ns = self.stamps.preview(WRENCH_TOPIC, self.feed.live_delay_ns(0))
         self._put(truth_message(description, begin_ns=earliest_ns))
         self._wait(lambda: self._is_announced, LONGEST_ANNOUNCEMENT_S)
@@ -391,7 +366,7 @@ class TwinSession:
         """Find the offset of the stamps of the next block; holds the run for it where it must."""
         if not self.options.of_source:
             return Offset(0)
-        if self.options.mode != "live":
+        if not self._is_live:
             self._report.offset_ns = self.feed.begin_ns
             return self.stamps.set_constant(self.feed.begin_ns)
         delay_ns, is_held = self.feed.live_delay_ns(begin_ns), False
@@ -424,28 +399,16 @@ class TwinSession:
 
     def _wait_while_paused(self) -> tuple[float, bool]:
         """Wait while paused or inactive; seconds held, and whether the next block is ordered by a step."""
-        with self._condition:
-            if self._steps and self._active:
-                self._steps -= 1
-                return 0.0, True
-            if self._active and not self._paused:
-                return 0.0, False
+        if not self._control.is_held:
+            return 0.0, self._control.take_turn()
         begin = time.monotonic()
         self._set_state(PAUSED, HELD)
-        self._wait(lambda: self._active and (not self._paused or self._steps > 0))
-        with self._condition:
-            ordered = self._steps > 0
-            self._steps -= ordered
-        held = time.monotonic() - begin
+        self._wait(lambda: not self._control.is_held)
+        ordered, held = self._control.take_turn(), time.monotonic() - begin
         self._leave_out(held)
-        if not self._paused:
+        if not self._control.paused:
             self._set_state(RUNNING, "running")
         return held, ordered
-
-    def _is_held(self) -> bool:
-        """Check whether the run is held; a live one is so before a block is begun, and uses no load then."""
-        held = not self._active or (self._paused and not self._steps)
-        return held and self.options.mode != "live"
 
     def _put(self, outgoing: Outgoing, block: Block | None = None) -> None:
         """Hand over what is to be published, and count the block that it comes from."""
@@ -466,20 +429,6 @@ class TwinSession:
             self._report.state = state
             self._report.sentence = sentence
         self._wake()
-
-    def _wait(self, ready: Callable[[], bool], timeout: float = 0.0, interruptible: bool = True) -> bool:
-        """Wait until `ready`; False after `timeout` seconds (0: for ever)."""
-
-        def done() -> bool:
-            return self._ending or (interruptible and (self._reset or self._is_left)) or ready()
-
-        with self._condition:
-            self._condition.wait_for(done, timeout or None)
-            if self._ending or (interruptible and (self._reset or self._is_left)):
-                if interruptible:
-                    raise RunLeftError
-                return True
-            return ready()
 
 
 def _waveform_samples(block: Block) -> int:

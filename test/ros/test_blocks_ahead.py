@@ -49,6 +49,13 @@ class Run:
         if last:
             assert self.session.feed.gate.offer(load.part(0, 0), np.arange(0)) is None
 
+    def hold_with_its_load(self, blocks: int) -> None:
+        """Pause load and run behind so many blocks."""
+        self.until(lambda: self.blocks >= blocks)
+        self.session.feed.pause(True)
+        self.session.pause(True)
+        self.until(lambda: self.state == "paused")
+
     def until(self, condition: Callable[[], Any]) -> None:
         deadline = time.monotonic() + PATIENCE_S
         while not condition():
@@ -178,10 +185,7 @@ def test_a_defect_while_handing_over_ends_the_run_with_its_reason(
 def test_a_pause_of_the_load_and_of_the_run_at_once_are_left_out_once(make_run: Callable[..., Run]) -> None:
     run = make_run(1.0)
     run.send(0, 20)
-    run.until(lambda: run.blocks >= 8)
-    run.session.feed.pause(True)
-    run.session.pause(True)
-    run.until(lambda: run.state == "paused")
+    run.hold_with_its_load(8)
     run.go_on(1.0)
     run.send(20, 100)
     run.session.feed.pause(False)
@@ -217,10 +221,7 @@ def test_a_run_that_is_slower_than_its_load_timeout_waits_for_none(make_run: Cal
 def test_a_load_that_is_still_paused_when_a_held_run_goes_on_is_told(make_run: Callable[..., Run]) -> None:
     run = make_run(1.0)
     run.send(0, 12)
-    run.until(lambda: run.blocks >= 4)
-    run.session.feed.pause(True)
-    run.session.pause(True)
-    run.until(lambda: run.state == "paused")
+    run.hold_with_its_load(4)
     run.session.pause(False)
     run.until(lambda: run.session.report().sentence == LOAD_IS_PAUSED)
     assert run.state == "paused"
