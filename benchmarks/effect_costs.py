@@ -146,6 +146,10 @@ CHANGES: dict[str, Callable[[Scene], Scene]] = {
     "tier quasistatic, laminae 20": _in_tier("quasistatic", 20),
     "tier quasistatic, no creep": lambda scene: _in_tier("quasistatic")(_without_creep(scene)),
     "tier quasistatic, coupled": lambda scene: _in_tier("quasistatic")(_coupled(scene)),
+    "tier quasistatic, laminae 40": _in_tier("quasistatic", 40),
+    "tier quasistatic, coupled, laminae 40": lambda scene: _in_tier("quasistatic", 40)(_coupled(scene)),
+    "laminae 40": _with_laminae(40),
+    "coupled, laminae 40": lambda scene: _with_laminae(40)(_coupled(scene)),
 }
 
 

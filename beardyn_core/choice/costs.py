@@ -32,10 +32,10 @@ _FAST_BENDING, _FAST_REST = 0.25, 0.001
 _LOOSE_SHARE = 0.15
 # what coupled laminae add to one: `python benchmarks/effect_costs.py --only quasistatic`
 _COUPLED_SHARE = 0.44
-# of that with 6 laminae, what grows with the square of their count: each bears on every other. With 6, 12, 20
-# and 40 they add 0.14, 0.33, 0.71 and 2.3 s to a second of `static_80kN` in quasistatic, 0.06, 0.28, 0.78 and
-# 2.4 s in full
-_COUPLED_SQUARES = {"quasistatic": 0.28, "full": 0.5}
+# share of that, with 6 laminae, which grows with the square of their count, for each bears on every other: 40
+# add 18 times as much in full, 19 in quasistatic:
+# `python benchmarks/effect_costs.py --only coupl "laminae 40" quasistatic`
+_COUPLED_SQUARES = 0.3
 # what rollers that creep along the cup add to one: `python benchmarks/effect_costs.py --only quasistatic`
 _CREEP_SHARE = 0.05
 # effects computed for every lamina: their cost grows with the count
@@ -107,10 +107,10 @@ class Costs:
 
     def scaled(self, effect: str, share: float, tier: str, laminae: int) -> float:
         """Scale the cost of an effect, measured in the full tier at 6 laminae, to another tier and count."""
-        if tier in _COUPLED_SQUARES and effect == "lamina_coupling" and share > 0.0:
+        if effect == "lamina_coupling" and share > 0.0 and tier != "lumped":
             of_six = share if tier == "full" else _COUPLED_SHARE * self.ratios["tier quasistatic"]
-            more, squares = laminae / _REFERENCE_LAMINAE, _COUPLED_SQUARES[tier]
-            return of_six * ((1.0 - squares) * more + squares * more**2)
+            more = laminae / _REFERENCE_LAMINAE
+            return of_six * ((1.0 - _COUPLED_SQUARES) * more + _COUPLED_SQUARES * more**2)
         if tier == "quasistatic" and effect == "traction" and share > 0.0:
             return _CREEP_SHARE * self.ratios["tier quasistatic"]
         if tier != "full":

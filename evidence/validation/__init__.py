@@ -6,7 +6,8 @@ module           responsibility
 anchor           a published number or trend, and ours
 statics          load zones, static equilibrium, stiffness, roller bounce
 roller_loads     how many rollers of an axlebox bearing carry on a rig
-roller_kinds     cylindrical and spherical bearings against solutions of their own
+kind_solutions   cylindrical and spherical bearings solved apart from the equilibrium
+roller_kinds     cylindrical and spherical bearings against these and catalogues
 runs_of_kinds    runs of these beside such solutions: loads, speeds of cages
 wheel_waves      roller loads over the frequency at which waves of a wheel shake
 zhang            the bearing and the model of Zhang et al. (2023)

@@ -1,6 +1,6 @@
 """Runs of cylindrical and spherical roller bearings against solutions that share no code with them.
 
-References are those of `roller_kinds`: springs of whole rollers for barrels, slices of the standard for
+References are those of `kind_solutions`: springs of whole rollers for barrels, slices of the standard for
 cylinders.
 """
 
@@ -17,16 +17,8 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.config import load_any_bearing
 from beardyn_core.sensors.block import Block
 from evidence.validation.anchor import Anchor
-from evidence.validation.roller_kinds import (
-    HERTZ,
-    LAMINAE,
-    STANDARD,
-    TOPIC,
-    cylindrical,
-    hertz_rows,
-    spherical,
-    standard_loads,
-)
+from evidence.validation.kind_solutions import LAMINAE, cylindrical, hertz_rows, spherical, standard_loads
+from evidence.validation.roller_kinds import HERTZ, STANDARD, TOPIC
 from test.runs import blocks_of
 from test.tiers.steady import steady_scene
 

@@ -17,7 +17,7 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.bearing.rib_face import flat_rib_truncation
 from beardyn_core.config import load_any_bearing
 from beardyn_core.physics.statics.static import StaticSolution, solve
-from evidence.validation.roller_kinds import standard_loads, thrust_by_small_motions
+from evidence.validation.kind_solutions import standard_loads, thrust_by_small_motions
 from test.bearings import CYLINDRICAL
 
 LAMINAE = 30

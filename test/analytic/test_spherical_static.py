@@ -19,13 +19,8 @@ from beardyn_core.physics.statics import barrel_contacts
 from beardyn_core.physics.statics.roller_contacts import ConePose, ContactSet, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 from beardyn_core.physics.statics.static import StaticSolution, solve
-from evidence.validation.roller_kinds import (
-    half_space_load,
-    hertz_of,
-    hertz_rows,
-    moment_of_grooves,
-    sliced_load,
-)
+from evidence.validation.kind_solutions import half_space_load, hertz_of, hertz_rows, sliced_load
+from evidence.validation.roller_kinds import moment_of_grooves
 from test.bearings import SPHERICAL
 from test.kernels.naive import Float
 
