@@ -29,6 +29,7 @@ run_state             options of a session, the messages it hands over, its repo
 pacer                 simulated time on the wall clock: when a block is due, how late it was
 block_messages        the messages of a block, and of the truth that begins a run
 run_control           what is asked of a run while it goes: active, paused, steps, a reset, the end
+awaited               nodes that a replay waits for
 blocks_ahead          computed blocks that are not due yet, handed over by a thread of their own
 session               the twin in its own thread: compile, wait for load, advance, pace
 twin_report           the twin's diagnostics: its runs, the one that a reset has left too

@@ -26,6 +26,7 @@ from beardyn_core.record.load_stream import encode_load
 from beardyn_core.record.messages import decode_told, encode_diagnostics, encode_string, header_stamp
 from beardyn_core.record.topics import topic
 from beardyn_core.scene.load import LONGEST_SPACING_NS, LOOK_AHEAD, LoadHistory
+from beardyn_ros.awaited import Awaited
 from beardyn_ros.diagnostics import diagnostic_name, run_instance
 from beardyn_ros.frames import frame_of
 from beardyn_ros.live_load import LowPass, encode_shaft, encode_wrench
@@ -114,6 +115,7 @@ class LoadNode(Node):
         self._runs = RawIntake(self)
         truth = topic("truth")
         self._runs.add_sourced(truth, self._guard.guard_handler(truth, self._on_truth))
+        self._awaited = Awaited(self, values.wait_for)
         self._announced = False
         self._listeners: tuple[int, ...] = ()
         self._listeners_since = time.monotonic()
@@ -333,7 +335,7 @@ class LoadNode(Node):
                 return False
             if not twins & {(info.node_namespace, info.node_name) for info in known}:
                 return False
-        return True
+        return self._announced or self._awaited.are_there()
 
     def _latest_credit(self) -> int:
         """Find the time up to which the load is used, from where the horizon counts, [ns]."""

@@ -194,6 +194,12 @@ LOAD = (
     NodeParameter(
         "start_timeout", 120.0, "longest wait for a twin, 0 for ever", "s", minimum=0.0, maximum=1e6
     ),
+    NodeParameter(
+        "wait_for",
+        "",
+        "nodes of the namespace that the replay waits for, 30 s at most, such as recorder monitor; empty: "
+        "only for those that are seen when the twin is",
+    ),
     NodeParameter("exit_when_done", True, "end the process when everything is replayed and received"),
     TYPED,
     FRAME_ID,

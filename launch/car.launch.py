@@ -144,7 +144,8 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
         twins = twins_of_a_car(car, given, boxes, distances, clock, **of_all)
         of_load |= {"wheel_defects_on": boxes[0].name, **distances}
     words = {name: given[name] for name in ("scene", "boxes")}
-    load = process("car_load", "load", car, **words, **of_load)
+    wait_for = " ".join(name for name in ("recorder", "monitor", "follower") if given[name] == "true")
+    load = process("car_load", "load", car, **words, **of_load, wait_for=wait_for)
     recorder = process("car_recorder", "recorder", car, **words, **clocks, output=given["output"])
     recorders = [recorder] if given["recorder"] == "true" else []
     judges = [

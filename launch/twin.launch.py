@@ -5,9 +5,8 @@ replayed every node ends with 0, as on SIGINT; the viewer stays open. The launch
 failed.
 """
 
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
-from launch.conditions import IfCondition
+from launch import LaunchContext, LaunchDescription, LaunchDescriptionEntity
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
@@ -34,49 +33,45 @@ ARGUMENTS = (
 )
 
 
-def generate_launch_description() -> LaunchDescription:
-    namespace = LaunchConfiguration("namespace")
+LISTENERS = ("recorder", "monitor", "follower")  # a replay that began without them would be lost to them
 
-    def text(name: str) -> ParameterValue:
-        return ParameterValue(LaunchConfiguration(name), value_type=str)
 
-    def flag(name: str) -> ParameterValue:
-        return ParameterValue(LaunchConfiguration(name), value_type=bool)
+def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
+    given = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
 
-    def node(name: str, parameters: dict[str, ParameterValue], wanted: str | None = None) -> Node:
+    def node(name: str, parameters: dict[str, object]) -> Node:
         return Node(
             package="beardyn",
             executable=name,
             name=name,
-            namespace=namespace,
-            parameters=[{**parameters, "use_sim_time": flag("use_sim_time")}],
-            condition=IfCondition(LaunchConfiguration(wanted)) if wanted else None,
+            namespace=given["namespace"],
+            parameters=[{**parameters, "use_sim_time": given["use_sim_time"] == "true"}],
             output="screen",
         )
 
-    pace = ParameterValue(LaunchConfiguration("speed_factor"), value_type=float)
-    twin = {
-        "scene": text("scene"),
-        "tier": text("tier"),
-        "effects": text("effects"),
-        "mode": text("mode"),
-        "speed_factor": pace,
-        "publish_clock": text("publish_clock"),
+    def text(value: str) -> ParameterValue:
+        return ParameterValue(value, value_type=str)  # else it is read as YAML
+
+    def of(*names: str) -> dict[str, object]:
+        return {name: text(given[name]) for name in names}
+
+    pace = {"speed_factor": float(given["speed_factor"])}
+    awaited = " ".join(name for name in LISTENERS if given[name] == "true")
+    nodes = {
+        "twin": node("twin", of("scene", "tier", "effects", "mode", "publish_clock") | pace),
+        "load": node("load", of("scene", "csv", "mode") | pace | {"wait_for": text(awaited)}),
+        "recorder": node("recorder", of("output")),
+        "monitor": node("monitor", of("bearing")),
+        "follower": node("follower", of("bearing")),
+        "viewer": node("viewer", {}),
     }
-    nodes = [
-        node("twin", twin),
-        node(
-            "load",
-            {"scene": text("scene"), "csv": text("csv"), "mode": text("mode"), "speed_factor": pace},
-            "load",
-        ),
-        node("recorder", {"output": text("output")}, "recorder"),
-        node("monitor", {"bearing": text("bearing")}, "monitor"),
-        node("follower", {"bearing": text("bearing")}, "follower"),
-        node("viewer", {}, "viewer"),
-    ]
+    wanted = [each for name, each in nodes.items() if given.get(name, "true") == "true"]
+    return [*failure_of(wanted), *wanted]
+
+
+def generate_launch_description() -> LaunchDescription:
     arguments = [
         DeclareLaunchArgument(name, default_value=default, description=description)
         for name, default, description in ARGUMENTS
     ]
-    return LaunchDescription([*arguments, *failure_of(nodes), *nodes])
+    return LaunchDescription([*arguments, OpaqueFunction(function=start)])

@@ -2,8 +2,8 @@
 
 Stands in for the few classes that the launch files use, with their documented behaviour and with real
 processes: ``python -m test.ros.launch_stand_in FOLDER car.launch.py name:=value``. With ``--fake-twin`` the
-twin is the fake one. As with ``ros2 launch``, SIGINT shuts everything down, and the exit code is 0 unless a
-handler has raised.
+twin is the fake one; with ``--dry`` parameters are written and no node runs. As with ``ros2 launch``, SIGINT
+shuts everything down, and the exit code is 0 unless a handler has raised.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ class Node(Record):
         condition = self.__dict__.get("condition")
         return condition is None or condition.evaluate(context)
 
-    def start(self, folder: Path, fake_twin: bool, context: Any) -> subprocess.Popen[bytes]:
+    def start(self, folder: Path, fake_twin: bool, dry: bool, context: Any) -> subprocess.Popen[bytes]:
         self.__dict__["namespace"] = performed(self.__dict__["namespace"], context).strip("/")
         full_name = f"/{self.namespace}/{self.name}"
         file = folder / f"{full_name.strip('/').replace('/', '.')}.yaml"
@@ -143,6 +143,8 @@ class Node(Record):
         module = "test.ros.fake_twin" if fake else "beardyn_ros"
         words = ["--ros-args", "-r", f"__node:={self.name}", "-r", f"__ns:=/{self.namespace}"]
         words += ["--params-file", str(file)]
+        if dry:
+            return subprocess.Popen([sys.executable, "-c", ""])
         return subprocess.Popen([sys.executable, "-m", module, self.executable, *words])
 
 
@@ -153,9 +155,10 @@ def matches_action(node: Node) -> Callable[[Node], bool]:
 class Launcher:
     """Carries out the actions of a launch description until every process has ended."""
 
-    def __init__(self, folder: Path, fake_twin: bool, configurations: dict[str, str]) -> None:
+    def __init__(self, folder: Path, fake_twin: bool, dry: bool, configurations: dict[str, str]) -> None:
         self.folder = folder
         self.fake_twin = fake_twin
+        self.dry = dry
         self.launch_configurations = configurations
         self.running: dict[Node, subprocess.Popen[bytes]] = {}
         self.handlers: list[Record] = []
@@ -179,7 +182,7 @@ class Launcher:
             elif isinstance(action, Node) and not action.is_wanted(self):
                 continue
             elif isinstance(action, Node):
-                self.running[action] = action.start(self.folder, self.fake_twin, self)
+                self.running[action] = action.start(self.folder, self.fake_twin, self.dry, self)
                 print(f"[launch] {action.namespace}/{action.name} pid {self.running[action].pid}", flush=True)
             elif isinstance(action, LogInfo):
                 print(action.msg, flush=True)
@@ -274,9 +277,10 @@ def main(words: Sequence[str]) -> int:
         module = types.ModuleType(name)
         module.__dict__.update(content)
         sys.modules[name] = module
-    folder, file, *given = [word for word in words if word != "--fake-twin"]
+    folder, file, *given = [word for word in words if not word.startswith("--")]
     described = runpy.run_path(str(FOLDER / file))["generate_launch_description"]()
-    launcher = Launcher(Path(folder), "--fake-twin" in words, dict(word.split(":=", 1) for word in given))
+    flags = "--fake-twin" in words, "--dry" in words
+    launcher = Launcher(Path(folder), *flags, dict(word.split(":=", 1) for word in given))
     signal.signal(signal.SIGINT, lambda *_: launcher.shut_down())
     signal.signal(signal.SIGTERM, lambda *_: launcher.shut_down())
     launcher.carry_out(described.positional[0])

@@ -7,6 +7,8 @@ import importlib.util
 import json
 import re
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import psutil
@@ -18,6 +20,19 @@ from beardyn_ros.node_parameters import PARAMETERS
 from test.ros.graph import Graph
 
 FOLDER = Path(__file__).parents[2] / "launch"
+OPTIONAL = ("recorder", "monitor", "follower", "viewer")
+
+
+def started_by(file: str, folder: Path, **arguments: str) -> dict[str, dict[str, object]]:
+    """Parameters of the nodes that a launch file starts, none of which is started."""
+    words = [f"{name}:={value}" for name, value in arguments.items()]
+    stand_in = [sys.executable, "-m", "test.ros.launch_stand_in", str(folder), file, "--dry", *words]
+    subprocess.run(stand_in, check=True, cwd=FOLDER.parent)
+    found = {}
+    for path in folder.glob("*.yaml"):
+        ((name, given),) = json.loads(path.read_text(encoding="utf-8")).items()
+        found[name.rpartition("/")[2]] = given["ros__parameters"]
+    return found
 
 
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.launch.py")), ids=lambda path: path.name)
@@ -29,20 +44,23 @@ def test_launch_file_compiles_and_describes_a_launch(path: Path) -> None:
     ]
 
 
-def test_twin_launch_starts_existing_nodes_with_declared_parameters() -> None:
-    tree = ast.parse((FOLDER / "twin.launch.py").read_text())
-    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
-    started = {}
-    for call in calls:
-        if isinstance(call.func, ast.Name) and call.func.id == "node":
-            parameters = call.args[1]
-            name = ast.literal_eval(call.args[0])
-            keys = parameters.keys if isinstance(parameters, ast.Dict) else []
-            started[name] = {ast.literal_eval(key) for key in keys if key is not None}
-    assert set(started) == {"twin", "load", "recorder", "monitor", "follower", "viewer"} <= set(PROGRAMS)
+def test_twin_launch_starts_existing_nodes_with_declared_parameters(tmp_path: Path) -> None:
+    started = started_by("twin.launch.py", tmp_path, **dict.fromkeys(OPTIONAL, "true"))
+    assert set(started) == {"twin", "load", *OPTIONAL} <= set(PROGRAMS)
     for name, given in started.items():
         declared = {parameter.name for parameter in PARAMETERS[name]}
-        assert given <= declared
+        assert set(given) - {"use_sim_time"} <= declared
+
+
+@pytest.mark.parametrize(
+    ("wanted", "awaited"), [((), ""), (("viewer",), ""), (("follower", "recorder"), "recorder follower")]
+)
+def test_the_load_waits_for_the_listeners_that_are_launched(
+    wanted: tuple[str, ...], awaited: str, tmp_path: Path
+) -> None:
+    started = started_by("twin.launch.py", tmp_path, **dict.fromkeys(wanted, "true"))
+    assert set(started) == {"twin", "load", *wanted}
+    assert started["load"]["wait_for"] == awaited
 
 
 def arguments_of(file: str) -> set[str]:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from functools import partial
 
 import numpy as np
+import pytest
 
 from beardyn_core.record.load_stream import decode_load
 from beardyn_core.record.messages import encode_time
+from beardyn_ros import awaited
+from beardyn_ros.load_node import OTHERS_TIMEOUT_S
 from test.ros.graph import Graph
 
 
@@ -68,3 +72,26 @@ def test_bad_csv_and_unknown_scene_are_told_without_traceback(graph: Graph) -> N
         log = graph.processes.log(name)
         assert word in log
         assert "Traceback" not in log
+
+
+def test_replay_waits_for_a_listener_that_is_named_and_starts_late(graph: Graph) -> None:
+    graph.listen("load/blocks")
+    graph.out.publisher("load/consumed")
+    graph.node_process("load", scene="static_5kN", duration=0.5, wait_for="monitor")
+    graph.connected("load/consumed")
+    longer_than_those_seen = time.monotonic() + OTHERS_TIMEOUT_S + 1.0
+    graph.until(lambda: time.monotonic() > longer_than_those_seen, "the wait for those that are seen")
+    assert not len(received(graph))
+    graph.node_process("monitor")
+    graph.until(partial(has_received, graph, 1001), "the replay")
+
+
+def test_replay_begins_without_a_listener_that_never_comes_and_says_so(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(awaited, "LONGEST_S", 0.2)
+    wait = awaited.Awaited(graph.node, "monitor follower")
+    begin = time.monotonic()
+    graph.until(wait.are_there, "the end of the wait")
+    assert time.monotonic() - begin > 0.2
+    assert awaited.Awaited(graph.node, "").are_there()
