@@ -40,7 +40,7 @@ def sweep(
     Parameters
     ----------
     sweep : str, Path or mapping
-        Shipped sweep or YAML file. Or a mapping with the keys of one.
+        Shipped sweep (`beardyn scenes sweeps` lists them) or YAML file. Or a mapping with the keys of one.
     output : Path
         Folder of the set. It is made.
     workers : int, optional

@@ -134,12 +134,11 @@ def severity_of(
         )
     if plate.roller_diameter < _LEAST_ROLLER:
         return unmeasured(
-            f"how way and width belong together is known of rollers from {1e3 * _LEAST_ROLLER:g} "
-            "mm on, not of "
-            f"{1e3 * plate.roller_diameter:.3g} mm"
+            "the two strikes of a spall give its width with rolling elements of "
+            f"{1e3 * _LEAST_ROLLER:g} mm or more; these have {1e3 * plate.roller_diameter:.3g} mm"
         )
     if plate.has_barrels:
-        return unmeasured("how way and width belong together is known of line contacts, not of barrels")
+        return unmeasured("the two strikes of a spall give its width in line contacts, not with barrels")
     spacing = spacing_of(fault, plate)
     events = events_of(acceleration, rate, shaft_angle * order / (2.0 * pi), spacing)
     if events is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,6 +32,7 @@ FORESEEN = 1024  # draws whose extremes settle what is chosen, however many are 
 _SHOWN = 20  # sentences about rows
 _LOOKED_AT = 32  # runs of a sweep that is wrong already
 _NAME = "scene"
+_TOLD_EVERY_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -351,8 +353,15 @@ def _settle_choices(
             return scenes
         steps = max(complete_scene(each).numerics.steps_per_sample for each in found)
         return _with_numerics(scenes, opened.scene, steps_per_sample=steps)
-    say("choosing the effects of the runs: some seconds for each kind of run, kept for the next time")
-    choices = [choice_for(OpenScene(each.scene, free, opened.step_given, {})) for each in found]
+    say(
+        f"choosing the effects of the runs: {len(found)} kinds, some seconds for each, kept for the next time"
+    )
+    choices, told = [], time.monotonic()
+    for each in found:
+        choices.append(choice_for(OpenScene(each.scene, free, opened.step_given, {})))
+        if time.monotonic() - told > _TOLD_EVERY_S and len(choices) < len(found):
+            told = time.monotonic()
+            say(f"effects are chosen for {len(choices)} of {len(found)} kinds of runs")
     tier = opened.scene.tier
     if free.tier:
         tier = max((choice.tier for choice in choices), key=TIER_NAMES.index)

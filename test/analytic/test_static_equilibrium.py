@@ -17,6 +17,7 @@ from beardyn_core.bearing.profile import Profile
 from beardyn_core.choice import load_scene
 from beardyn_core.choice.choose import choose
 from beardyn_core.config import load_bearing
+from beardyn_core.effects import LaminaCoupling
 from beardyn_core.physics.statics import equilibria
 from beardyn_core.physics.statics.equilibria import equilibrium
 from beardyn_core.physics.statics.roller_contacts import (
@@ -359,3 +360,29 @@ def test_a_choice_solves_each_equilibrium_once(monkeypatch):
     equilibria._solve_equilibrium.cache_clear()
     choose(load_scene("smooth_run"))
     assert len(solved) == len(set(solved)) > 5
+
+
+near_places = st.tuples(st.floats(-2e4, 2e4), st.floats(-2e4, 2e4), st.floats(-4e4, 4e4))
+
+
+@given(load=radial_loads, off=near_places, coupled=st.booleans(), laminae=st.sampled_from([2, 6, 12]))
+@settings(max_examples=examples(15), deadline=None)
+def test_a_search_from_a_place_near_by_finds_what_one_from_nowhere_finds(load, off, coupled, laminae):
+    conditions = {
+        "end_play": 5e-5,
+        "laminae": laminae,
+        "coupling": LaminaCoupling() if coupled else None,
+        "speed": 120.0,
+    }
+    other = solve(HS, np.add(load, off), **{**conditions, "coupling": None})
+    cold = solve(HS, load, **conditions)
+    warm = solve(HS, load, **conditions, near=other.place)
+    size = cold.cup_load.max()
+    np.testing.assert_allclose(warm.cup_lamina_load, cold.cup_lamina_load, atol=1e-7 * size)
+    np.testing.assert_allclose(warm.displacement, cold.displacement, atol=1e-12)
+
+
+def test_the_place_of_the_solution_is_where_a_search_ends_at_once():
+    found = solve(HS, (0.0, 0.0, 80e3), end_play=5e-5, laminae=6)
+    again = solve(HS, (0.0, 0.0, 80e3), end_play=5e-5, laminae=6, near=found.place)
+    assert again.iterations <= 1 < found.iterations

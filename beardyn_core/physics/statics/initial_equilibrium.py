@@ -72,7 +72,7 @@ def rest_under(
     force, moment = (fx, fy, fz), (mx, 0.0, mz)
     arm = 0.5 * bearing.pitch_diameter
     enough = _SETTLED * (arm * max(map(abs, force)) + max(map(abs, moment)))
-    prop, tilt = 0.0, np.zeros(2)
+    prop, tilt, near = 0.0, np.zeros(2), None
     for _ in range(_PASSES):
         springs = springs_under(scene, box, reaction([*force, *moment], prop, restraint * tilt))
         static = equilibrium(
@@ -92,7 +92,9 @@ def rest_under(
             axial_stiffness=held.axial_prop_stiffness,
             rows=scene.rows,
             missing=scene.missing_places,
+            near=near,
         )
+        near = static.place
         prop = held.axial_prop_stiffness * float(static.displacement[1])
         settled = np.abs(restraint * (static.tilt - tilt)).max() <= enough
         tilt = static.tilt

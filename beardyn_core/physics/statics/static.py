@@ -34,6 +34,9 @@ from beardyn_core.physics.statics.possible_loads import (
 from beardyn_core.physics.statics.roller_contacts import ConePose, ContactModel, contact_model
 from beardyn_core.physics.statics.roller_equilibrium import RollerState, solve_rollers
 
+Place = tuple[tuple[float, ...], tuple[float, ...]]
+"""Of the cone with the bending of the box, and of every roller: a point to begin a search at."""
+
 TILT_MODES = ("locked", "free")
 
 _ITERATIONS = 300
@@ -42,6 +45,7 @@ _ROUNDING_FORCE = 1.0e-8
 # Longest step of the cone; it also carries a cone that touches nothing through its play.
 _LONGEST_STEP = 1.0e-4
 _REFERENCE_STIFFNESS = 1.0e9
+_DAMPING, _DAMPING_NEAR = 10.0, 1.0e-4  # first, of a search from nowhere and from a place near by
 # A pose in which a roller is out of balance by this share of the largest load is one that rollers have no
 # place in; a search that meets more of them than this, one after the other, finds none.
 _OUT_OF_BALANCE = 1.0e-3
@@ -114,6 +118,13 @@ class StaticSolution:
     rib_pressure: Float = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
+    def place(self) -> Place:
+        """Where cone and rollers are, for a search near by."""
+        rollers = np.stack([self.roller_radial, self.roller_axial, self.roller_tilt], axis=-1)
+        cone = (*self.displacement.tolist(), *self.tilt.tolist(), *self.bending.tolist())
+        return cone, tuple(rollers.ravel().tolist())
+
+    @property
     def loaded_roller_count(self) -> tuple[int, ...]:
         """Count the rollers of each row that the cone presses."""
         return tuple(np.count_nonzero(self.cone_load > 0.0, axis=1).tolist())
@@ -157,6 +168,7 @@ def solve(
     rows: int = ROW_COUNT,
     missing: Sequence[tuple[int, int]] = (),
     crown: ArrayLike | None = None,
+    near: Place | None = None,
 ) -> StaticSolution:
     """Find the static equilibrium under a load on the cone.
 
@@ -195,6 +207,8 @@ def solve(
         Row and roller of those that are not there; their loads are 0.
     crown : array_like, shape [row, roller], optional
         Error of each roller's profile: drop over the squared distance from mid-length, [1/m].
+    near : Place or None
+        Of an equilibrium under nearly the same conditions, where the search begins: it takes fewer steps.
 
     Raises
     ------
@@ -232,7 +246,12 @@ def solve(
     if axial_stiffness > 0.0:  # a prop gives way under load and thrust, which opens the rows across, too
         backed = float(np.abs(load[:3]).sum()) / axial_stiffness
         farthest[:3] += backed * np.array([math.tan(bearing.cup_angle), 1.0, math.tan(bearing.cup_angle)])
-    state, unknowns, iterations = _equilibrium(cone, farthest)
+    try:
+        state, unknowns, iterations = _equilibrium(cone, farthest, near)
+    except ValidityError:
+        if near is None:
+            raise
+        state, unknowns, iterations = _equilibrium(cone, farthest, None)
     residual = cone.residual(unknowns, state)
     held, free = _stiffness(_bending_follows(state.cone_stiffness + np.diag(springs)))
     free = held.copy() if bearing.self_aligning else free
@@ -303,12 +322,14 @@ class _Cone:
         return full
 
 
-def _equilibrium(cone: _Cone, farthest: Float) -> tuple[RollerState, Float, int]:
+def _equilibrium(cone: _Cone, farthest: Float, near: Place | None) -> tuple[RollerState, Float, int]:
     """Find the pose of the cone at which the load is balanced, no farther off than ``farthest``, [5], [m]."""
-    unknowns = np.zeros(cone.scale.size)
-    state = cone.at(unknowns, None)
+    unknowns, rollers, damping = np.zeros(cone.scale.size), None, _DAMPING
+    if near is not None:
+        unknowns, damping = np.array(near[0]), _DAMPING_NEAR
+        rollers = np.reshape(near[1], (*cone.model.radial.shape[:2], 3))
+    state = cone.at(unknowns, rollers)
     energy = cone.energy(unknowns, state)
-    damping = 10.0
     stalled = lost = 0
     smallest = math.inf
     for iteration in range(_ITERATIONS):
