@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _AXES = "xyz"
 _DIGEST = "training"  # key of a card
 _TRAINING_S = 100.0  # processor time of an estimator from its runs, [s]
-_CHOICE_S = 45.0  # of the choice of effects of a sweep, [s]
+_CHOICE_S = 100.0  # of the choice of effects of a sweep, [s]
 _BOX_S = 150.0  # of the modes of a box
 
 

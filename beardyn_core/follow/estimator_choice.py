@@ -103,4 +103,4 @@ def how_to_train(bearing: RollerBearing | NamePlate, axes: Sequence[str] = AXES,
             "bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
             f"start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
         )
-    return f"`beardyn train --bearing {named}{option}` makes one, in some 15 min of one core"
+    return f"`beardyn train --bearing {named}{option}` makes one, in some 30 min of one core"
