@@ -25,6 +25,7 @@ INSTALL = [
     "pyyaml>=6.0",
     "rosbags>=0.11,<0.12",
     "scipy>=1.13",
+    "threadpoolctl>=3.1",
     "tqdm>=4.66",
     "zstandard>=0.22",
 ]

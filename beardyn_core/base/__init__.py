@@ -15,6 +15,7 @@ interrupts      Ctrl-C, also while something is compiled
 jit             how kernels are compiled
 kernel_cache    compiled kernels on disk
 machine_code    what a kernel's machine code comes from, as a digest
+one_thread      linear algebra of small matrices without further threads
 optional        libraries of an extra, imported when they are needed
 outputs         files that a command writes: nothing is replaced unasked
 packed          a small file as one word of text, in a recorded scene

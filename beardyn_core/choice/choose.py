@@ -14,6 +14,7 @@ from itertools import product
 from typing import Any
 
 from beardyn_core.base.errors import ValidityError
+from beardyn_core.base.one_thread import in_one_thread
 from beardyn_core.bearing.spherical import FEWEST_OF_ELLIPSE
 from beardyn_core.choice import bending, discretisation_error, friction, gravity_damping_rules, guidance
 from beardyn_core.choice.costs import Costs, measured_costs
@@ -61,6 +62,7 @@ class Stage:
     laminae_reason: str
 
 
+@in_one_thread
 def choose(scene: Scene, free: Free | None = None, given: EffectSet | None = None) -> Choice:
     """Choose the cheapest tier, effects, laminae and step within the accuracy of a scene.
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from functools import wraps
 from itertools import product
 from typing import Annotated as A
-from typing import Any, NamedTuple, ParamSpec, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
+from beardyn_core.base.one_thread import in_one_thread
 from beardyn_core.base.optional import library
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.conformal import LEVELS, Learnt, Way, reach_of
@@ -39,8 +38,6 @@ from beardyn_core.sensors.labels import HEALTHY
 
 LEAST_EXPLAINED = 0.3  # of the variance, on bearings not learnt from: below it nothing is said
 FEWEST = 40  # runs to learn a number from
-_P = ParamSpec("_P")
-_R = TypeVar("_R")
 _FOLDS = 5
 # what is tried: descriptors that are kept, directions among them, width of the kernel, ridge
 _SCREENS, _DIRECTIONS, _WIDTHS, _RIDGES = (20, 80, 1000), (2, 6, 16), (1.0, 2.0, 4.0), (0.01, 0.1, 1.0)
@@ -63,17 +60,6 @@ class Judged(NamedTuple):
     def square(self) -> float:
         """Mean square of the errors."""
         return float(np.mean(self.errors**2))
-
-
-def in_one_thread(function: Callable[_P, _R]) -> Callable[_P, _R]:
-    """Keep the linear algebra of a function in one thread: its matrices are small, and threads only wait."""
-
-    @wraps(function)
-    def limited(*given: _P.args, **named: _P.kwargs) -> _R:
-        with library("threadpoolctl", "training", "sweep").threadpool_limits(1):
-            return function(*given, **named)
-
-    return limited
 
 
 @in_one_thread

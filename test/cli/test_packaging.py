@@ -33,6 +33,7 @@ FROM_PIP = {
     "pyuff",
     "rerun-sdk",
     "scikit-fem",
+    "threadpoolctl",
     "xarray",
     "zarr",
     "zstandard",

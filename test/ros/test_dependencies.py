@@ -17,7 +17,7 @@ OWN = {"beardyn_core", "beardyn_ros"}
 BROUGHT = {"pydantic_core": "pydantic", "llvmlite": "numba"}
 # of an extra, or without a rosdep key: package.xml says so in a comment
 FROM_PIP = {
-    "mcap", "zstandard",
+    "mcap", "threadpoolctl", "zstandard",
     "rerun", "matplotlib", "PIL", "gmsh", "skfem", "pyuff", "zarr", "torch", "sklearn", "dask", "distributed",
 }  # fmt: skip
 # Keys in rosdep/python.yaml of rosdistro, read there. A new dependency is looked up before its key is added.

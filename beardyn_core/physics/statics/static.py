@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError, ValidityError
+from beardyn_core.base.one_thread import in_one_thread
 from beardyn_core.bearing.consistency import require_sound
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import MOST_END_PLAY, Bearing
@@ -149,6 +150,7 @@ class StaticSolution:
         )
 
 
+@in_one_thread
 def solve(
     bearing: RollerBearing,
     force: ArrayLike,
