@@ -102,7 +102,7 @@ def section(folder: Path, workers: int | None, runs: dict[str, int]) -> str:
     text, wrong = "", []
     below = count = 0
     for judged, (tier, number) in product(CLASSES, runs.items()):
-        place = folder / judged.estimators / tier
+        place = folder / f"{judged.estimators}_{tier}"
         bd.sweep(keys_of(judged.like, tier, number), place, workers=workers, progress=True)
         for axes, ending in ENDINGS.items():
             name = f"{judged.estimators}{ending}.npz"
