@@ -59,7 +59,7 @@ def test_of_barrels_no_width_is_stated():
     alike = {key: getattr(PLATE, key) for key in ("roller_count", "roller_diameter", "pitch_diameter")}
     found = severity_of(signal, RATE, angle, "cup", order, replace(plate, **alike, contact_angle=0.0))
     assert found.grade == NOT_MEASURABLE
-    assert "not of barrels" in found.reason
+    assert "not with barrels" in found.reason
     assert severity_of(signal, RATE, angle, "cup", order, PLATE).grade != NOT_MEASURABLE
     assert not NamePlate.of(load_any_bearing("WJ130x240")).has_barrels
 
@@ -101,7 +101,7 @@ def test_one_event_noise_and_rollers_are_not_measurable():
     assert "not on roller" in severity_of(signal, RATE, angle, "roller", order, PLATE).reason
     assert "fewer than" in severity_of(signal[:3000], RATE, angle[:3000], "cup", order, PLATE).reason
     small = NamePlate(name="6205", roller_count=9, roller_diameter=7.94e-3, pitch_diameter=39.04e-3)
-    assert "of rollers from 15 mm on" in severity_of(signal, RATE, angle, "cup", order, small).reason
+    assert "with rolling elements of 15 mm or more" in severity_of(signal, RATE, angle, "cup", order, small).reason
 
 
 def _results(fault, width, algorithm=REFERENCE, speed=19.0, seconds=4.0):
