@@ -101,7 +101,7 @@ def test_one_event_noise_and_rollers_are_not_measurable():
     assert "not on roller" in severity_of(signal, RATE, angle, "roller", order, PLATE).reason
     assert "fewer than" in severity_of(signal[:3000], RATE, angle[:3000], "cup", order, PLATE).reason
     small = NamePlate(name="6205", roller_count=9, roller_diameter=7.94e-3, pitch_diameter=39.04e-3)
-    assert "with rolling elements of 15 mm or more" in severity_of(signal, RATE, angle, "cup", order, small).reason
+    assert "elements of 15 mm or more" in severity_of(signal, RATE, angle, "cup", order, small).reason
 
 
 def _results(fault, width, algorithm=REFERENCE, speed=19.0, seconds=4.0):
