@@ -8,7 +8,7 @@ import time
 from rclpy.node import Node
 
 LONGEST_S = 30.0
-HEARD = "vibration"  # what recorder, monitor and follower listen to
+SUBSCRIBED = "vibration"  # by recorder, monitor and follower
 
 
 class Awaited:
@@ -33,7 +33,7 @@ class Awaited:
             return True
         self._until = min(self._until, time.monotonic() + LONGEST_S)
         space = self._node.get_namespace()
-        known = self._node.get_subscriptions_info_by_topic(self._node.resolve_topic_name(HEARD))
+        known = self._node.get_subscriptions_info_by_topic(self._node.resolve_topic_name(SUBSCRIBED))
         self._missing -= {info.node_name for info in known if info.node_namespace == space}
         if self._missing and time.monotonic() > self._until:
             late = ", ".join(sorted(self._missing))

@@ -1,4 +1,4 @@
-"""A launch that ends with a failure when one of its nodes has failed.
+"""What launch files share: switches, the nodes that a load waits for, and an end with a failure.
 
 By itself ``ros2 launch`` ends with 0 whatever the nodes ended with.
 """
@@ -6,13 +6,50 @@ By itself ``ros2 launch`` ends with 0 whatever the nodes ended with.
 from __future__ import annotations
 
 import signal
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from launch.actions import EmitEvent, OpaqueFunction, RegisterEventHandler
 from launch.event import Event
 from launch.event_handler import EventHandler
 from launch.event_handlers import OnProcessExit, OnShutdown
+
+from beardyn_core.base.errors import InputError
+
+LISTENERS = ("recorder", "monitor", "follower")  # a replay that began without them would be lost to them
+_SWITCHES = {"true": True, "1": True, "false": False, "0": False}
+
+
+def read_switches(given: Mapping[str, str], *names: str) -> dict[str, bool]:
+    """Read arguments that are true or false, or 1 or 0, as `launch` has them.
+
+    Parameters
+    ----------
+    given : mapping
+        Texts of the arguments.
+    *names : str
+        Of those that are read.
+
+    Raises
+    ------
+    InputError
+        With every one that is neither.
+    """
+    problems = [
+        f"{name} {given[name]}: allowed are true, false" for name in names if _switch(given, name) is None
+    ]
+    if problems:
+        raise InputError(problems)
+    return {name: bool(_switch(given, name)) for name in names}
+
+
+def _switch(given: Mapping[str, str], name: str) -> bool | None:
+    return _SWITCHES.get(given[name].strip().lower())
+
+
+def listeners_of(switches: Mapping[str, bool]) -> str:
+    """List the nodes that a load waits for, as its parameter ``wait_for`` has them."""
+    return " ".join(name for name in LISTENERS if switches[name])
 
 
 class NodeFailed(Event):

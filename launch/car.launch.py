@@ -33,7 +33,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.config.folders import find
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.scene.axleboxes import Box
-from beardyn_ros.launching import failure_of
+from beardyn_ros.launching import LISTENERS, failure_of, listeners_of, read_switches
 from beardyn_ros.rig import CAR, axleboxes_of, boxes_named, place_of
 
 PATIENCE_S, GRACE_S = 20.0, 5.0
@@ -130,10 +130,11 @@ def twins_of_a_car(
 def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     given = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
     car = given["namespace"].strip("/")
-    clocks = {"use_sim_time": given["use_sim_time"] == "true"}
+    switches = read_switches(given, *LISTENERS, "publish_clock", "use_sim_time")
+    clocks = {"use_sim_time": switches["use_sim_time"]}
     of_all = {"effects": given["effects"], "speed_factor": float(given["speed_factor"]), **clocks}
     of_load: dict[str, object] = {"csv": given["csv"], "duration": float(given["duration"]), **clocks}
-    clock = given["publish_clock"] == "true"
+    clock = switches["publish_clock"]
     # the nodes check the scene; this looks only whether axleboxes are there
     if read_file(find("scenes", given["scene"])).get("axleboxes") is not None:
         twins = twins_of_the_scene(car, given, publish_clock=clock, **of_all)
@@ -144,14 +145,13 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
         twins = twins_of_a_car(car, given, boxes, distances, clock, **of_all)
         of_load |= {"wheel_defects_on": boxes[0].name, **distances}
     words = {name: given[name] for name in ("scene", "boxes")}
-    wait_for = " ".join(name for name in ("recorder", "monitor", "follower") if given[name] == "true")
-    load = process("car_load", "load", car, **words, **of_load, wait_for=wait_for)
+    load = process("car_load", "load", car, **words, **of_load, wait_for=listeners_of(switches))
     recorder = process("car_recorder", "recorder", car, **words, **clocks, output=given["output"])
-    recorders = [recorder] if given["recorder"] == "true" else []
+    recorders = [recorder] if switches["recorder"] else []
     judges = [
         process(name, name, f"{car}/{box.name}", bearing=given["bearing"], **clocks)
         for name in ("monitor", "follower")
-        if given[name] == "true"
+        if switches[name]
         for box in boxes
     ]
     running = [*twins, load]

@@ -11,7 +11,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
-from beardyn_ros.launching import failure_of
+from beardyn_ros.launching import LISTENERS, failure_of, listeners_of, read_switches
 
 ARGUMENTS = (
     ("namespace", "axlebox", "namespace of the axlebox; several twins live side by side"),
@@ -33,11 +33,12 @@ ARGUMENTS = (
 )
 
 
-LISTENERS = ("recorder", "monitor", "follower")  # a replay that began without them would be lost to them
+SWITCHES = (*LISTENERS, "load", "viewer", "use_sim_time")
 
 
 def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
     given = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
+    switches = read_switches(given, *SWITCHES)
 
     def node(name: str, parameters: dict[str, object]) -> Node:
         return Node(
@@ -45,7 +46,7 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
             executable=name,
             name=name,
             namespace=given["namespace"],
-            parameters=[{**parameters, "use_sim_time": given["use_sim_time"] == "true"}],
+            parameters=[{**parameters, "use_sim_time": switches["use_sim_time"]}],
             output="screen",
         )
 
@@ -56,16 +57,15 @@ def start(context: LaunchContext) -> list[LaunchDescriptionEntity]:
         return {name: text(given[name]) for name in names}
 
     pace = {"speed_factor": float(given["speed_factor"])}
-    awaited = " ".join(name for name in LISTENERS if given[name] == "true")
     nodes = {
         "twin": node("twin", of("scene", "tier", "effects", "mode", "publish_clock") | pace),
-        "load": node("load", of("scene", "csv", "mode") | pace | {"wait_for": text(awaited)}),
+        "load": node("load", of("scene", "csv", "mode") | pace | {"wait_for": text(listeners_of(switches))}),
         "recorder": node("recorder", of("output")),
         "monitor": node("monitor", of("bearing")),
         "follower": node("follower", of("bearing")),
         "viewer": node("viewer", {}),
     }
-    wanted = [each for name, each in nodes.items() if given.get(name, "true") == "true"]
+    wanted = [each for name, each in nodes.items() if switches.get(name, True)]
     return [*failure_of(wanted), *wanted]
 
 

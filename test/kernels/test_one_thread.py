@@ -8,8 +8,9 @@ import scipy.linalg
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from beardyn_core.base.one_thread import in_one_thread
-from beardyn_core.choice.choose import choose
-from beardyn_core.physics.statics.static import solve
+from beardyn_core.choice import choose as choosing
+from beardyn_core.choice import load_scene
+from beardyn_core.physics.statics import static
 
 
 def threads() -> list[int]:
@@ -36,6 +37,22 @@ def test_the_threads_come_back_after_an_error() -> None:
         assert threads() == before
 
 
-@pytest.mark.parametrize("function", [solve, choose])
-def test_statics_and_choices_are_in_one_thread(function: object) -> None:
-    assert getattr(function, "__wrapped__", None) is not None
+class _SeenError(Exception):
+    pass
+
+
+def test_statics_and_choices_are_in_one_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    def look(*_: object, **__: object) -> None:
+        raise _SeenError(threads())
+
+    scene = load_scene("static_5kN")
+    monkeypatch.setattr(static, "_equilibrium", look)
+    monkeypatch.setattr(choosing, "Evidence", look)
+    with threadpool_limits(2):
+        count = len(threads())
+        with pytest.raises(_SeenError) as found:
+            static.solve(scene.bearing, (0.0, 0.0, 1e4), end_play=None)
+        assert found.value.args[0] == [1] * count
+        with pytest.raises(_SeenError) as found:
+            choosing.choose(scene)
+        assert found.value.args[0] == [1] * count

@@ -104,11 +104,6 @@ class LaunchConfiguration(Record):
         return str(context.launch_configurations[self.positional[0]])
 
 
-class IfCondition(Record):
-    def evaluate(self, context: Any) -> bool:
-        return performed(self.positional[0], context).lower() in ("true", "1")
-
-
 class ParameterValue(Record):
     def evaluate(self, context: Any) -> object:
         text = performed(self.positional[0], context)
@@ -122,10 +117,6 @@ def performed(value: Any, context: Any) -> str:
 
 class Node(Record):
     """A process of the package, its parameters in a file under the node's full name as launch_ros does."""
-
-    def is_wanted(self, context: Any) -> bool:
-        condition = self.__dict__.get("condition")
-        return condition is None or condition.evaluate(context)
 
     def start(self, folder: Path, fake_twin: bool, dry: bool, context: Any) -> subprocess.Popen[bytes]:
         self.__dict__["namespace"] = performed(self.__dict__["namespace"], context).strip("/")
@@ -179,8 +170,6 @@ class Launcher:
                 for name, value in action.launch_arguments:
                     self.launch_configurations[name] = performed(value, self)
                 self.carry_out(action.positional[0].described().positional[0])
-            elif isinstance(action, Node) and not action.is_wanted(self):
-                continue
             elif isinstance(action, Node):
                 self.running[action] = action.start(self.folder, self.fake_twin, self.dry, self)
                 print(f"[launch] {action.namespace}/{action.name} pid {self.running[action].pid}", flush=True)
@@ -258,7 +247,6 @@ MODULES: dict[str, dict[str, Any]] = {
         "Shutdown": Shutdown,
         "TimerAction": TimerAction,
     },
-    "launch.conditions": {"IfCondition": IfCondition},
     "launch.event": {"Event": Event},
     "launch.event_handler": {"EventHandler": EventHandler},
     "launch.event_handlers": {"OnProcessExit": OnProcessExit, "OnShutdown": OnShutdown},

@@ -27,7 +27,7 @@ def started_by(file: str, folder: Path, **arguments: str) -> dict[str, dict[str,
     """Parameters of the nodes that a launch file starts, none of which is started."""
     words = [f"{name}:={value}" for name, value in arguments.items()]
     stand_in = [sys.executable, "-m", "test.ros.launch_stand_in", str(folder), file, "--dry", *words]
-    subprocess.run(stand_in, check=True, cwd=FOLDER.parent)
+    subprocess.run(stand_in, check=True, cwd=FOLDER.parent, stderr=subprocess.PIPE, text=True)
     found = {}
     for path in folder.glob("*.yaml"):
         ((name, given),) = json.loads(path.read_text(encoding="utf-8")).items()
@@ -61,6 +61,22 @@ def test_the_load_waits_for_the_listeners_that_are_launched(
     started = started_by("twin.launch.py", tmp_path, **dict.fromkeys(wanted, "true"))
     assert set(started) == {"twin", "load", *wanted}
     assert started["load"]["wait_for"] == awaited
+
+
+@pytest.mark.parametrize("word", ["True", "TRUE", "1"])
+def test_a_switch_is_on_as_launch_writes_it(word: str, tmp_path: Path) -> None:
+    started = started_by("twin.launch.py", tmp_path, monitor=word, use_sim_time=word, viewer="False")
+    assert set(started) == {"twin", "load", "monitor"}
+    assert started["load"]["wait_for"] == "monitor"
+    assert started["monitor"]["use_sim_time"] is True
+
+
+@pytest.mark.parametrize("file", ["twin.launch.py", "car.launch.py"])
+def test_a_switch_that_is_neither_on_nor_off_is_refused(file: str, tmp_path: Path) -> None:
+    with pytest.raises(subprocess.CalledProcessError) as found:
+        started_by(file, tmp_path, monitor="yes", follower="maybe")
+    assert "monitor yes: allowed are true, false" in found.value.stderr
+    assert "follower maybe" in found.value.stderr
 
 
 def arguments_of(file: str) -> set[str]:

@@ -6,6 +6,7 @@ quantities share theirs.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import ValidityError
 from beardyn_core.bearing.roller_bearing import RollerBearing
-from beardyn_core.physics.statics.static import Place, StaticSolution, solve
+from beardyn_core.physics.statics.static import StaticSolution, solve
 
 _MOST = 512  # about 10 MB
 
@@ -50,25 +51,12 @@ def equilibrium(
         As `solve`; errors are not remembered.
     """
     if conditions.get("coupling") is not None and conditions.get("near") is None:
-        conditions["near"] = _place_uncoupled(bearing, force, moment, oversize, crown, conditions)
+        alone = {**conditions, "coupling": None}  # found much faster
+        with suppress(ValidityError):
+            uncoupled = equilibrium(bearing, force, moment, oversize=oversize, crown=crown, **alone)
+            conditions["near"] = uncoupled.place
     bumps = tuple(None if each is None else (each.shape, each.tobytes()) for each in (oversize, crown))
     return _solve_equilibrium(bearing, force, moment, bumps, **conditions)
-
-
-def _place_uncoupled(
-    bearing: RollerBearing,
-    force: tuple[float, float, float],
-    moment: tuple[float, float, float],
-    oversize: Float | None,
-    crown: Float | None,
-    conditions: dict[str, Any],
-) -> Place | None:
-    """Find where the same equilibrium lies without coupling of the laminae, which is found much faster."""
-    alone = {**conditions, "coupling": None}
-    try:
-        return equilibrium(bearing, force, moment, oversize=oversize, crown=crown, **alone).place
-    except ValidityError:
-        return None
 
 
 @lru_cache(maxsize=_MOST)
