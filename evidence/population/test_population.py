@@ -110,6 +110,7 @@ def test_writing_again_keeps_what_is_above_the_mark(tmp_path: Path, monkeypatch:
     assert (tmp_path / "population.png").stat().st_size > 1000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OTHERS)
 def test_further_sets_differ_by_what_their_name_says_and_share_no_bearing(name: str) -> None:
     trained, _ = read_sweep("spalls")

@@ -124,6 +124,7 @@ def test_bearings_whose_cage_is_not_known_are_scored_as_without_it() -> None:
         assert found.candidates == comb_score(tracked, orders, ROLLERS, SPEED, SETTINGS).candidates
 
 
+@pytest.mark.slow
 def test_noise_has_such_turns_as_seldom_as_stated() -> None:
     random = np.random.default_rng(7)
     called = 0

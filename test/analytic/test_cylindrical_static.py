@@ -115,6 +115,7 @@ def test_a_contact_beyond_its_rib_face_is_told_with_both_lengths() -> None:
     assert all("ends 1.50 mm from its middle" in sentence for sentence in flat_rib_truncation(bearing, 1e3))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tilt", ["locked", "free"])
 def test_stiffness_is_the_slope_of_load_over_displacement(tilt: str) -> None:
     bearing, step = shipped(), 50.0

@@ -193,6 +193,7 @@ def test_the_load_is_that_of_the_analysis_whatever_is_kept_for_the_size():
     assert result.load == pytest.approx(80e3)
 
 
+@pytest.mark.slow
 def test_a_size_is_measured_again_on_longer_and_on_new_stretches_alone(monkeypatch):
     counted = []
 

@@ -43,6 +43,7 @@ def test_the_mean_force_alone_leads_to_the_lumped_tier() -> None:
     assert "83.9 N" in reasons(scene)["gravity"]
 
 
+@pytest.mark.slow
 def test_weight_stays_where_idle_rollers_on_the_cage_make_loaded_ones_slip() -> None:
     """Without it the torque of `static_5kN` is 16 % less in a run, of `oversize_roller` 5.2 % more."""
     means = ["force", "deflection", "roller_load", "torque"]
@@ -56,6 +57,7 @@ def test_weight_stays_where_idle_rollers_on_the_cage_make_loaded_ones_slip() -> 
     assert heavy.effects.gravity is None
 
 
+@pytest.mark.slow
 def test_pockets_keep_their_film_for_vibration_where_little_else_shakes() -> None:
     """Without it third octaves were 8 to 24 dB off in four runs, and 1.8 at 10 kHz beside a slow fault."""
     for name in ("smooth_run", "waviness", "roller_spall", "service_freight_cone"):
@@ -200,6 +202,7 @@ def test_a_worn_pocket_keeps_the_whole_cage() -> None:
     assert "0.5 mm" in reasons(scene)["cage"]
 
 
+@pytest.mark.slow
 def test_an_axial_force_that_reverses_keeps_the_small_rib() -> None:
     def run(axial: float) -> Scene:
         steps = [

@@ -219,6 +219,7 @@ def small_trial(tmp_path: Path) -> list[str]:
 
 
 # after the first run, and as soon as the processes begin: that a trial stops then too, `trial 4 s later` says
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("jobs", "moments"),
     [
@@ -265,6 +266,7 @@ def test_an_interrupted_sweep_keeps_every_run_that_was_done(tmp_path: Path) -> N
         check(started, took, f"interrupted; {count()} of 200 runs are done; the same command goes on")
 
 
+@pytest.mark.slow
 def test_a_killed_trial_leaves_no_process_behind(small_trial: list[str], tmp_path: Path) -> None:
     words = [*small_trial, "--jobs", "2"]
     runs = tmp_path / "out" / "runs.jsonl"

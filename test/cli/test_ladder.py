@@ -107,6 +107,7 @@ def test_json_alone_on_standard_output(capsys: pytest.CaptureFixture[str], runs:
     assert found["quantities"] == list(USUAL_QUANTITIES)
 
 
+@pytest.mark.slow
 def test_an_interrupt_keeps_the_levels_done_so_far(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, runs: list[Any]
 ) -> None:

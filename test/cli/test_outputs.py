@@ -183,6 +183,7 @@ def test_an_earlier_recovery_stays_unless_forced(tmp_path: Path, capsys: pytest.
     assert read_run(recovered_name(cut)).complete
 
 
+@pytest.mark.slow
 def test_of_two_runs_to_one_file_the_second_is_refused_while_the_first_writes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

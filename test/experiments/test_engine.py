@@ -122,6 +122,7 @@ def test_tasks_of_a_study_come_back_in_order() -> None:
     assert [value for value, _ in all_of(squared, [3, 1, 2])] == [9, 1, 4]
 
 
+@pytest.mark.slow
 def test_a_killed_scheduler_is_replaced_and_nothing_that_came_back_is_asked_for_again() -> None:
     said: list[str] = []
     with Engine(Cluster(workers=2), said.append) as engine:

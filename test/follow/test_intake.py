@@ -177,6 +177,7 @@ def test_one_lost_sample_makes_a_run_too_short(estimator: Estimator) -> None:
         estimates_of(run, estimator, PLATE)
 
 
+@pytest.mark.slow
 def test_command_tells_what_the_function_finds(
     tmp_path: Path, estimator: Estimator, capsys: pytest.CaptureFixture[str]
 ) -> None:

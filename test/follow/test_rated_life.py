@@ -50,6 +50,7 @@ def counter(surface: LifeSurface, assumptions: LifeAssumptions = SURE) -> LifeCo
     return made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("vertical", "lateral", "celsius", "clean", "play_mm"),
     [
@@ -95,6 +96,7 @@ def test_the_interval_of_a_load_alone_is_its_power_of_ten_thirds(surface: LifeSu
     assert rated.parts["load"] > 0.99
 
 
+@pytest.mark.slow
 def test_the_interval_is_that_of_draws_through_the_existing_function(surface: LifeSurface) -> None:
     ends = LifeAssumptions((50.0 + ZERO_CELSIUS, 80.0 + ZERO_CELSIUS), (0.45, 0.75), (1.0, 1.0), (0.0, 0.0))
     rated = counter(surface, ends).rate(LOAD, found((-1e3, 9e3)), 0.0)

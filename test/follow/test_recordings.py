@@ -51,6 +51,7 @@ def test_mileages_that_cannot_be_are_refused_by_the_name_of_their_option(
     assert sentence in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_command_counts_on_from_its_mileages_and_forecasts_without(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

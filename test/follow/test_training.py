@@ -76,6 +76,7 @@ def test_other_sets_calibrate_and_judge(runs: Any) -> None:
     assert found.card["condition"]["runs"] == PARTS[None]
 
 
+@pytest.mark.slow
 def test_sets_that_calibrate_judge_themselves_crosswise(runs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_by: list[tuple[tuple[float, ...], int]] = []
 
@@ -224,6 +225,7 @@ def test_a_calibration_of_one_bearing_is_not_learnt_from_alone() -> None:
     assert taught(one, straightened=True).regressions
 
 
+@pytest.mark.slow
 def test_a_number_whose_interval_does_not_hold_is_not_reported(
     runs: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -67,6 +67,7 @@ def estimator() -> Estimator:
     )
 
 
+@pytest.mark.slow
 def test_no_wide_spall_is_reported_as_a_narrow_one_and_most_narrow_ones_are_numbers(
     estimator: Estimator,
 ) -> None:
@@ -151,6 +152,7 @@ def test_of_equal_odds_the_narrow_spall_is_the_likelier(odds: float, way: float)
     assert chance < 1.0 / (1.0 + np.exp(-odds))
 
 
+@pytest.mark.slow
 def test_where_too_few_are_taken_for_narrow_no_number_is_reported_and_both_readings_are() -> None:
     learnt = train_estimator(spalled(240, 1), DRAWING, AXES, RATE, STRETCH)
     assert learnt.wide is not None

@@ -51,6 +51,7 @@ def test_a_wider_one_contains_a_narrower_one(width: float, more: float, seed: in
     assert (large.high[there] >= small.high - 1e-12).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", range(1, len(STAGES) + 1))
 def test_widths_and_lengths_of_a_stage_have_its_medians(stage: int) -> None:
     """Of 200 spalls; the length is cut off by the contact."""

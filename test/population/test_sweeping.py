@@ -24,6 +24,7 @@ from beardyn_core.population.sweeping import Swept, conduct
 from test.population.sweeps import TINY, content, planned
 
 
+@pytest.mark.slow
 def test_the_same_bits_come_from_this_process_and_from_two_workers(made: tuple[Path, list[Progress]]) -> None:
     plan, runs = planned(), bd.open_set(made[0])
     batch = run_batch(tuple(rows_of(plan.sweep)[3:6]), plan)  # other tasks than those of the set

@@ -324,6 +324,7 @@ def test_a_desk_run_can_be_watched(tmp_path: Path) -> None:
     assert target.stat().st_size > 100_000
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_picture_of_the_view_shows_bearing_and_curves(recording: Path, tmp_path: Path) -> None:
     problem = picture_problem()
@@ -338,6 +339,7 @@ def test_a_picture_of_the_view_shows_bearing_and_curves(recording: Path, tmp_pat
     assert np.mean(left.max(axis=2) > 0.35) > 0.1  # the bearing covers more than a tenth of its view
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_picture_at_a_time_shows_the_rollers_of_that_time(recording: Path, tmp_path: Path) -> None:
     problem = picture_problem()

@@ -174,6 +174,7 @@ def test_a_twin_runs_beside_and_what_is_received_is_compared_with_it(graph: Grap
     assert "Traceback" not in graph.processes.log("follower")
 
 
+@pytest.mark.slow
 def test_a_known_load_gives_a_rating_life_from_a_topic_or_a_parameter(graph: Graph) -> None:
     graph.listen("follower/estimate")
     graph.fake_twin(speed_factor=2.0)

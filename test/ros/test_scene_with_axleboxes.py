@@ -198,6 +198,7 @@ class Scene(Car):
         return ["car/twin", "car/load", "car/recorder"]
 
 
+@pytest.mark.slow
 def test_a_launch_of_a_bogie_has_its_boxes_in_one_process_and_one_file(graph: Graph) -> None:
     car = Scene(graph, (), "scene:=bogie", "duration:=0.5")
     car.end()
@@ -215,6 +216,7 @@ def test_a_launch_of_a_bogie_has_its_boxes_in_one_process_and_one_file(graph: Gr
     assert told["/car/twin"]["ros__parameters"]["tier"] == "scene"
 
 
+@pytest.mark.slow
 def test_a_launch_takes_some_of_the_boxes_and_refuses_what_the_scene_says(graph: Graph) -> None:
     text = Path("config/scenes/bogie.yaml").read_text(encoding="utf-8")
     mine = graph.folder / "mine.yaml"
@@ -234,6 +236,7 @@ def test_a_launch_takes_some_of_the_boxes_and_refuses_what_the_scene_says(graph:
     graph.dismiss("refused")
 
 
+@pytest.mark.slow
 def test_sigint_closes_the_one_file_of_all_boxes(graph: Graph) -> None:
     car = Scene(graph, (), "scene:=bogie", "duration:=4.0", "speed_factor:=1.0")
     car.boxes = FOUR

@@ -272,6 +272,7 @@ def test_cages_without_a_speed_of_their_own_begin_apart_by_the_end_play(comparis
     assert other.end_play != kinematic.end_play
 
 
+@pytest.mark.slow
 def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path: Path) -> None:
     ladder = climbed(comparison, FakeRuns())
     figure = ladder_figure(ladder)
@@ -292,6 +293,7 @@ def test_the_picture_names_the_efficient_levels(comparison: Comparison, tmp_path
     ladder_picture(climbed(comparison, FakeRuns(invalid=4)), path)
 
 
+@pytest.mark.slow
 def test_a_real_ladder_of_two_levels() -> None:
     """Full tier against rollers as springs: the same force, torque without sliding friction."""
     scene = load_scene("static_80kN")

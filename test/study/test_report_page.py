@@ -298,6 +298,7 @@ LONG = Facts(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "part",
     [

@@ -45,6 +45,7 @@ def usual(tmp_path_factory):
     return _picture(_data(), tmp_path_factory.mktemp("usual") / "summary.png")
 
 
+@pytest.mark.slow
 def test_picture_is_1600_by_1000_and_changes_with_every_array(tmp_path, usual):
     data, picture = _data(), usual
     assert picture.shape[:2] == (1000, 1600)

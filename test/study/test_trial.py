@@ -286,6 +286,7 @@ def no_progress(_run: TrialRun) -> None:
     pass
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "monitor", "named"),
     [

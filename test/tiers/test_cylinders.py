@@ -209,6 +209,7 @@ def test_a_pair_without_ribs_of_the_inner_ring_carries_no_thrust() -> None:
         blocks_of(replace(scene, bearing=bearing), 0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axial", [6.0, -6.0])
 def test_a_single_row_between_two_ribs_of_its_inner_ring_carries_thrust_either_way(axial: float) -> None:
     scene = scene_of("lumped", (0.0, axial, 40.0))
