@@ -15,7 +15,7 @@ from beardyn_core.base.outputs import file_problems, write_whole
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.catalogue_entry import CatalogueEntry
-    from beardyn_core.bearing.geometry import Bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.experiments import Cluster
     from beardyn_core.experiments.loop import Progress, Report
     from beardyn_core.follow.estimator import Estimator
@@ -38,7 +38,7 @@ class MadeEstimator(NamedTuple):
 
 
 def make_estimators(
-    bearing: Bearing | Path | str | None = None,
+    bearing: RollerBearing | Path | str | None = None,
     output: Path | str | None = None,
     *,
     scene: Path | str | None = None,
@@ -58,7 +58,7 @@ def make_estimators(
 
     Parameters
     ----------
-    bearing : Bearing, Path or str, optional
+    bearing : RollerBearing, Path or str, optional
         Shipped bearing, its file, or a recording of it: simulate runs of it and train on them; needed but for
         `scene`.
     output : Path, optional
@@ -72,7 +72,8 @@ def make_estimators(
     sensor : str, optional
         Kind of the accelerometer, shipped or a file; default that of the vehicle class.
     like : str, optional
-        Sweep of the vehicle class, shipped or a file; default that whose bearing is most like this one.
+        Sweep of the vehicle class and this kind of bearing, shipped or a file; default that whose bearing is
+        most like this one.
     axes : sequence of str
         Sets of axes of the accelerometer, an estimator for each.
     workers : int, optional
@@ -163,25 +164,23 @@ def estimator_files(base: Path, axes: Sequence[str], *, always: bool = False) ->
     return {each: base.with_name(f"{base.stem}_{each}{base.suffix}") for each in sets}
 
 
-def _whole_bearing(bearing: Bearing | Path | str) -> Bearing:
+def _whole_bearing(bearing: RollerBearing | Path | str) -> RollerBearing:
     from beardyn_core.api.run_sources import resolve_source
-    from beardyn_core.bearing.any_bearing import require_tapered
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.roller_bearing import RollerBearing
-    from beardyn_core.config import load_bearing
+    from beardyn_core.config import load_any_bearing, shipped_names
 
     if isinstance(bearing, RollerBearing):
-        return require_tapered(bearing, "estimators")
+        return bearing
     if entry := _catalogue_entry(str(bearing)):
         raise InputError(
             f"bearing: {bearing} is a {entry.kind} bearing of the catalogue, bearing data for the monitor; "
-            "estimators are trained for double-row tapered units only: "
-            f"{', '.join(_tapered_names())}, or a file of your own (`derive: true` needs five numbers)"
+            f"estimators are trained for whole ones: {', '.join(shipped_names('bearings'))}, or a file of your "
+            "own (of a tapered unit `derive: true` needs five numbers)"
         )
     if Path(bearing).suffix != ".mcap":
-        return load_bearing(bearing)
+        return load_any_bearing(bearing)
     found = resolve_source(bearing, None, "")[1]
-    if not isinstance(found, Bearing):
+    if not isinstance(found, RollerBearing):
         raise InputError(
             f"bearing: {bearing} has bearing data alone, which cannot be simulated; give the file of a whole "
             "bearing"
@@ -201,23 +200,14 @@ def _catalogue_entry(name: str) -> CatalogueEntry | None:
         return None
 
 
-def _tapered_names() -> list[str]:
-    """Name the shipped bearings that estimators are trained for."""
-    from beardyn_core.bearing.geometry import Bearing
-    from beardyn_core.config import load_any_bearing, shipped_names
-
-    return [name for name in shipped_names("bearings") if isinstance(load_any_bearing(name), Bearing)]
-
-
-def _bearing_of_scene(scene: Path | str | None) -> Bearing:
-    from beardyn_core.bearing.any_bearing import require_tapered
+def _bearing_of_scene(scene: Path | str | None) -> RollerBearing:
     from beardyn_core.config import read_scene
 
     assert scene is not None
-    return require_tapered(read_scene(scene).scene.bearing, "estimators", str(scene))
+    return read_scene(scene).scene.bearing
 
 
-def _name(bearing: Bearing, sensor: str) -> str:
+def _name(bearing: RollerBearing, sensor: str) -> str:
     """Name the file of the estimators of a bearing in the folder of the user."""
     parts = [bearing.name, Path(sensor).stem] if sensor else [bearing.name]
     return re.sub(r"[^\w.-]+", "_", "_".join(parts)) + ".npz"

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isnan, nan
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 from typing import Annotated as A
 
-from beardyn_core.base.edge import At, refuse
+from beardyn_core.base.edge import INTERNAL, At, refuse
 
 if TYPE_CHECKING:
     from beardyn_core.bearing.factors import Derived, Factors
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from beardyn_core.bearing.roller_bearing import RollerBearing
 
 _INNER = ("roller_count", "roller_diameter_mm", "pitch_diameter_mm")
+_BARRELS = "spherical"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,10 +25,9 @@ class NamePlate:
     """Rolling elements of one row of a ball or roller bearing, its outer ring at rest.
 
     Of a bearing with several rows they are those of one row. Inner dimensions (number, both diameters,
-    contact angle), maker's factors, or both; what is not known is NaN, a number of rolling elements 0.
+    contact angle), maker's factors, or both; what is not known is NaN, a number of rolling elements 0. `kind` is
+    that of a whole bearing, as in `roller_bearing.KINDS`; data alone do not state it, and then it is empty.
     """
-
-    has_barrels: ClassVar[bool] = False
 
     name: A[str, At(longest=80), "of the bearing"] = "bearing data"
     description: A[str, "what it is, in a few words"] = ""
@@ -55,6 +55,7 @@ class NamePlate:
         "list twice that",
     ] = nan
     ftf: A[float, At(absent=True), "maker's factor of the cage: its turns in a turn of the shaft"] = nan
+    kind: A[str, INTERNAL] = ""
     sources: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
@@ -104,15 +105,20 @@ class NamePlate:
     @classmethod
     def of(cls, bearing: RollerBearing) -> NamePlate:
         """Take from a whole bearing what its fault frequencies need."""
-        plate = BarrelPlate if bearing.self_aligning else cls
-        return plate(
+        return cls(
             name=bearing.name,
             description=bearing.description,
             roller_count=bearing.roller_count,
             roller_diameter=bearing.roller_diameter,
             pitch_diameter=bearing.pitch_diameter,
             contact_angle=bearing.contact_angle,
+            kind=bearing.kind,
         )
+
+    @property
+    def has_barrels(self) -> bool:
+        """Whether the rollers are known to be barrels."""
+        return self.kind == _BARRELS
 
     @property
     def has_dimensions(self) -> bool:
@@ -161,9 +167,3 @@ class NamePlate:
         from beardyn_core.bearing.factors import derive
 
         return derive(self._factors)
-
-
-class BarrelPlate(NamePlate):
-    """Data of a bearing whose rollers are known to be barrels; a plate alone does not state it."""
-
-    has_barrels: ClassVar[bool] = True

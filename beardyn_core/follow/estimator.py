@@ -18,6 +18,7 @@ from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
 from beardyn_core.base.inputs import size_of_file
 from beardyn_core.base.outputs import as_a_whole
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import FaultFrequencies
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.follow.conformal import LEVELS, Learnt, Way
@@ -364,7 +365,7 @@ def read_estimator(path: Path) -> Estimator:
             found_parts: dict[str, Any] = {part: numbers[f"{name}.{part}"] for part in _FAMILIAR}
             kept[name] = Familiarity(**found_parts, outside=outside, farthest=farthest)
         found = Estimator(
-            plate=NamePlate(**head["plate"]),
+            plate=NamePlate(**{"kind": Bearing.kind, **head["plate"]}),  # older files are of tapered bearings
             axes=tuple(head["axes"]),
             **kept,
             wide=_wide_rule(numbers, head["wide"]),

@@ -7,10 +7,9 @@ from pathlib import Path
 
 from beardyn_core.base.data_root import data_root
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.bearing.roller_bearing import RollerBearing
-from beardyn_core.config import load_bearing
+from beardyn_core.config import load_any_bearing
 from beardyn_core.config.folders import shipped_names
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator, read_estimator
@@ -55,7 +54,7 @@ def estimator_for(
 
     Parameters
     ----------
-    bearing : Bearing or NamePlate
+    bearing : RollerBearing or NamePlate
     axes : sequence of str, optional
         Of the accelerometer that are measured.
     recording : str, optional
@@ -93,14 +92,14 @@ def how_to_train(bearing: RollerBearing | NamePlate, axes: Sequence[str] = AXES,
     """Say which command makes an estimator of a bearing, that is found without further options."""
     one = "".join(each for each in AXES if each in axes)
     option = f" --axes {one}" if one not in ("", *USUAL_AXES) else ""
-    if bearing.name in shipped_names("bearings") and alike(bearing, load_bearing(bearing.name)):
+    if bearing.name in shipped_names("bearings") and alike(bearing, load_any_bearing(bearing.name)):
         named = bearing.name
-    elif isinstance(bearing, Bearing):
+    elif isinstance(bearing, RollerBearing):
         named = recording or "FILE.yaml"
     else:
         return (
-            "estimators exist for double-row tapered roller units only; if it is one, describe the whole "
-            "bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
+            "estimators are for tapered, cylindrical and spherical roller bearings of two rows; if it is one, "
+            "describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
             f"start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
         )
     return f"`beardyn train --bearing {named}{option}` makes one, in some 30 min of one core"

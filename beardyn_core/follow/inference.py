@@ -56,19 +56,22 @@ def doubt_of(estimator: Estimator, bearing: RollerBearing | NamePlate) -> str:
 
 
 def alike(one: RollerBearing | NamePlate, other: RollerBearing | NamePlate) -> bool:
-    """Tell whether two bearings are of the same sizes."""
+    """Tell whether two bearings are of the same sizes and, where both are known, of the same kind."""
     sizes = ("roller_count", "pitch_diameter", "roller_diameter")
+    if one.kind and other.kind and one.kind != other.kind:
+        return False
     if not all(isinstance(each, RollerBearing) or each.has_dimensions for each in (one, other)):
         return False
     return all(abs(getattr(one, name) / getattr(other, name) - 1.0) < _ALIKE for name in sizes)
 
 
 def sizes_text(bearing: RollerBearing | NamePlate) -> str:
-    """Write the sizes by which bearings are distinguished."""
+    """Write the kind and the sizes by which bearings are distinguished."""
     if isinstance(bearing, NamePlate) and not bearing.has_dimensions:
         return "maker's factors without diameters"
     pitch, roller = 1e3 * bearing.pitch_diameter, 1e3 * bearing.roller_diameter
-    return f"{bearing.roller_count} rollers of {roller:.1f} mm on {pitch:.0f} mm"
+    kind = f"{bearing.kind} " if bearing.kind else ""
+    return f"{bearing.roller_count} {kind}rollers of {roller:.1f} mm on {pitch:.0f} mm"
 
 
 def estimates_of(

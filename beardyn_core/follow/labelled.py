@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.any_bearing import refuse_kind
 from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.kinematics import frequencies
 from beardyn_core.bearing.name_plate import NamePlate
@@ -77,11 +76,8 @@ def plate_of(runs: LabelledSet) -> NamePlate:
     Raises
     ------
     InputError
-        They are not tapered, or of several drawings.
+        They are of several drawings.
     """
-    for kind in sorted({*runs.table.get("bearing_kind", ())} - {None, "", Bearing.kind}):
-        of_kind = runs.table["bearing"][runs.table["bearing_kind"] == kind]
-        refuse_kind(str(of_kind.iloc[0]), str(kind), "estimators", str(runs.folder))
     keys = {"roller_count": "roller_count", "roller_diameter": "roller_diameter_m",
             "pitch_diameter": "pitch_diameter_m", "contact_angle": "contact_angle_rad"}  # fmt: skip
     several = runs.table["bearing"].nunique() > 1
@@ -91,7 +87,8 @@ def plate_of(runs: LabelledSet) -> NamePlate:
     usual = runs.table.median(numeric_only=True)
     numbers: dict[str, Any] = {name: float(usual[f"geometry_{column}"]) for name, column in keys.items()}
     numbers["roller_count"] = round(numbers["roller_count"])
-    return NamePlate(name=str(runs.table["bearing"].iloc[0]), **numbers)
+    first = runs.table.iloc[0]
+    return NamePlate(name=str(first["bearing"]), kind=first.get("bearing_kind") or Bearing.kind, **numbers)
 
 
 def sampling_of(runs: LabelledSet) -> Sampling:
@@ -111,7 +108,8 @@ def check_alike(runs: LabelledSet, other: LabelledSet) -> None:
     """
     one, two = plate_of(runs), plate_of(other)
     sizes = ("roller_count", "pitch_diameter", "roller_diameter", "contact_angle")
-    if not all(isclose(getattr(one, name), getattr(two, name), rel_tol=_ALIKE) for name in sizes):
+    same = (isclose(getattr(one, name), getattr(two, name), rel_tol=_ALIKE) for name in sizes)
+    if one.kind != two.kind or not all(same):
         raise InputError(_unlike(runs, other, "bearing", one.name, two.name))
     received, beside = sampling_of(runs), sampling_of(other)
     for name, unit in (("rate", "Hz"), ("seconds", "s")):

@@ -51,8 +51,8 @@ def train(
     Raises
     ------
     InputError
-        There are too few runs, bearings of several drawings or none that are tapered; another set is of
-        another bearing, sampling rate or length, or of bearings that were learnt from.
+        There are too few runs, or bearings of several drawings; another set is of another bearing, sampling
+        rate or length, or of bearings that were learnt from.
     """
     about, plate = runs.about, plate_of(runs)
     for place, other in enumerate([*calibration, *([] if test is None else [test])]):

@@ -107,6 +107,7 @@ def mounted_in(facts: Mapping[str, Any], label: str) -> tuple[Mounted, ...]:
                 bpfi=_number(keys.get("bpfi")),
                 bsf=_number(keys.get("bsf")),
                 ftf=_number(keys.get("ftf")),
+                kind=str(keys.get("kind") or ""),
             )
         except (KeyError, TypeError, ValueError) as error:
             raise InputError(
@@ -122,6 +123,7 @@ def _write_bearing(mounted: Mounted) -> dict[str, Any]:
     return {
         "name": plate.name,
         "description": plate.description,
+        "kind": plate.kind or None,
         "roller_count": plate.roller_count or None,
         "roller_diameter_m": _known(plate.roller_diameter),
         "pitch_diameter_m": _known(plate.pitch_diameter),

@@ -13,10 +13,10 @@ from typing import Any
 
 from beardyn_core.base.edge import Vector, write_noun
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.any_bearing import require_tapered
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import dynamic_rating
-from beardyn_core.config import load_bearing, load_box, read_scene, read_sweep
+from beardyn_core.bearing.radial_bearing import RadialBearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
+from beardyn_core.config import load_any_bearing, load_box, read_scene, read_sweep
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.yaml_text import read_file
 from beardyn_core.effects import ModalStructure
@@ -35,6 +35,7 @@ SECONDS = {LEARNT: 3.5, TRUER: 6.0}
 _SPLIT = {"train": 0.7, "validation": 0.3, "test": 0.0}  # runs of the true tier judge
 _LOADS = ("operation.vehicle.body_mass_t", "operation.payload_t", "operation.lateral_force_kN")
 _WIDTH, _LENGTH = "defects[0].width_mm", "defects[0].length_mm"
+_END_PLAY, _CLEARANCE = "end_play_mm", "radial_clearance_mm"
 _OF_BOX = ("effects.", "sensors[")  # beginnings of keys that a calibrated scene has its own values of
 # what a calibration leaves open of them: stiffness and damping as factors, end play, [mm]
 _STIFFNESS, _DAMPING, _PLAY = 0.02, 1.6, 0.03
@@ -47,7 +48,7 @@ _DIGEST = 16  # letters
 class TrainingSweep:
     """Sweeps of one bearing: one that teaches, one of the true tier."""
 
-    bearing: Bearing
+    bearing: RollerBearing
     like: A[str, "shipped sweep or file that they are like"]
     keys: A[dict[str, Any], "of the sweep that teaches, as of its file"]
     box: A[Box | None, "whose modes are to be computed, fitted to the bearing; none where its own is shipped"]
@@ -91,20 +92,21 @@ class TrainingSweep:
         return sum(self.count(part) * SECONDS[part] for part in PARTS)
 
 
-def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: str = "") -> TrainingSweep:
+def compose_sweep(bearing: RollerBearing, *, sensor: str = "", like: str = "", scene: str = "") -> TrainingSweep:
     """Fit the sweep of a vehicle class to a bearing, or to one axlebox.
 
     Loads go with the dynamic rating, widths of spalls with the distance of two rollers, their lengths with
-    the length of the rollers, and sizes of the box with those of the cup. The bearing of the sweep itself has
-    what is in the sweep.
+    the length of the rollers, the radial clearance with that of the drawing, and sizes of the box with those
+    of the cup. The bearing of the sweep itself has what is in the sweep.
 
     Parameters
     ----------
-    bearing : Bearing
+    bearing : RollerBearing
     sensor : str, optional
         Kind of the accelerometer, shipped or a file; default that of the sweep.
     like : str, optional
-        Sweep of a vehicle class, shipped or a file; default that whose bearing is most like this one.
+        Sweep of a vehicle class and this kind of bearing, shipped or a file; default that whose bearing is
+        most like this one.
     scene : str, optional
         Scene of one axlebox, such as a calibration has written: its box and its sensor are varied by as much
         as a calibration leaves open of them.
@@ -112,14 +114,20 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: 
     Raises
     ------
     InputError
-        With every mistake; the sweep is none of an axlebox, or its box cannot be fitted.
+        With every mistake; the sweep is none of an axlebox, of another kind of bearing, or its box cannot be
+        fitted.
     """
     like = like or closest_sweep(bearing)
     path = find("sweeps", like)
     keys = read_file(path)
     sweep, label = read_sweep(path)
     model = open_base(sweep, label)[1].scene
-    own = require_tapered(model.bearing, "estimators", label)
+    own = model.bearing
+    if own.kind != bearing.kind:
+        raise InputError(
+            f"{label}: is of {own.name}, a {own.words}; {bearing.name} is a {bearing.words}: like must be one of "
+            f"{', '.join(sweeps_of(bearing.kind))}, or a file of that kind"
+        )
     structure = model.effects.structure
     if not isinstance(structure, ModalStructure):
         raise InputError(f"{label}: its scene {sweep.scene} has no box that rings; an estimator needs one")
@@ -139,7 +147,7 @@ def compose_sweep(bearing: Bearing, *, sensor: str = "", like: str = "", scene: 
                 raise InputError(
                     f"{label}: its box {structure.table} is not in figures; it fits {own.name} alone"
                 )
-            box = fit_box(drawn, load_bearing(drawn.bearing), bearing)
+            box = fit_box(drawn, load_any_bearing(drawn.bearing), bearing)
             for number, each in enumerate(model.sensors):
                 changes[f"sensors[{number}].position_mm"] = _seat(each.position, drawn, box)
     if scene:
@@ -169,11 +177,11 @@ def _of_axlebox(keys: Mapping[str, Any], path: Path) -> dict[str, Any]:
         _around(f"effects.structure.{name}", getattr(structure, name), factor)
         for name, factor in factors.items()
     ]
-    play = float(write_noun(scene)["end_play_mm"])  # as mounted, not when it is warm
-    drawn.append({"key": "end_play_mm", "kind": "uniform", "low": play - _PLAY, "high": play + _PLAY})
-    rides = [
-        each for each in keys["vary"] if not each["key"].startswith(_OF_BOX) and each["key"] != "end_play_mm"
-    ]
+    rides = [each for each in keys["vary"] if not each["key"].startswith(_OF_BOX)]
+    if any(each["key"] == _END_PLAY for each in rides):  # a radial clearance is not calibrated
+        rides = [each for each in rides if each["key"] != _END_PLAY]
+        play = float(write_noun(scene)[_END_PLAY])  # as mounted, not when it is warm
+        drawn.append({"key": _END_PLAY, "kind": "uniform", "low": play - _PLAY, "high": play + _PLAY})
     name = f"{keys['sweep']} in {scene.name}"[:80]
     return {
         "sweep": name,
@@ -187,24 +195,33 @@ def _around(key: str, middle: float, factor: float) -> dict[str, Any]:
     return {"key": key, "kind": "log_uniform", **ends}
 
 
-def closest_sweep(bearing: Bearing) -> str:
-    """Find the shipped sweep whose bearing is most like another one: rollers, contact angle and envelope."""
-    names = [name for name in shipped_names("sweeps") if name.endswith(ENDING)]
-    return min(names, key=lambda name: _unlikeness(bearing, bearing_of(name)))
+def closest_sweep(bearing: RollerBearing) -> str:
+    """Find the shipped sweep of the kind of a bearing whose own one is most like it.
+
+    Compared are rollers, contact angle and envelope.
+    """
+    return min(sweeps_of(bearing.kind), key=lambda name: _unlikeness(bearing, bearing_of(name)))
 
 
-def bearing_of(name: str) -> Bearing:
+def sweeps_of(kind: str) -> list[str]:
+    """List the shipped sweeps of vehicle classes with a kind of bearing."""
+    names = (name for name in shipped_names("sweeps") if name.endswith(ENDING))
+    return [name for name in names if bearing_of(name).kind == kind]
+
+
+def bearing_of(name: str) -> RollerBearing:
     """Find the bearing of the scene of a shipped sweep."""
-    return load_bearing(read_file(find("scenes", read_sweep(name)[0].scene))["bearing"])
+    return load_any_bearing(read_file(find("scenes", read_sweep(name)[0].scene))["bearing"])
 
 
-def _unlikeness(one: Bearing, other: Bearing) -> float:
+def _unlikeness(one: RollerBearing, other: RollerBearing) -> float:
     sizes = ("roller_count", "contact_angle", "outer_diameter", "width")
-    return sum(log(getattr(one, name) / getattr(other, name)) ** 2 for name in sizes)
+    pairs = ((getattr(one, name), getattr(other, name)) for name in sizes)
+    return sum(log(first / last) ** 2 for first, last in pairs if first != last)  # cylinders have no angle
 
 
-def _is_shipped(bearing: Bearing) -> bool:
-    return bearing.name in shipped_names("bearings") and load_bearing(bearing.name) == bearing
+def _is_shipped(bearing: RollerBearing) -> bool:
+    return bearing.name in shipped_names("bearings") and load_any_bearing(bearing.name) == bearing
 
 
 def _seat(position: Vector, drawn: Box, fitted: Box) -> list[float]:
@@ -213,7 +230,7 @@ def _seat(position: Vector, drawn: Box, fitted: Box) -> list[float]:
     return [round(1e3 * each, _DIGITS) for each in fitted.sensors[number].position]
 
 
-def _fitted(entry: Mapping[str, Any], bearing: Bearing, own: Bearing) -> dict[str, Any]:
+def _fitted(entry: Mapping[str, Any], bearing: RollerBearing, own: RollerBearing) -> dict[str, Any]:
     """Scale the ends of what is drawn for one bearing to another."""
     factor = 1.0
     if entry["key"] in _LOADS:
@@ -223,6 +240,8 @@ def _fitted(entry: Mapping[str, Any], bearing: Bearing, own: Bearing) -> dict[st
     elif entry["key"] == _WIDTH:
         spacing, usual = (each.pitch_diameter / each.roller_count for each in (bearing, own))
         factor = spacing / usual
+    elif entry["key"] == _CLEARANCE and isinstance(bearing, RadialBearing) and isinstance(own, RadialBearing):
+        factor = bearing.radial_clearance / own.radial_clearance
     ends = {name: float(f"{factor * entry[name]:.{_DIGITS}g}") for name in ("low", "high") if name in entry}
     if entry["key"] == _WIDTH:
         ends.pop("low", None)  # the smallest spall is as large in any bearing
