@@ -174,8 +174,8 @@ def _whole_bearing(bearing: RollerBearing | Path | str) -> RollerBearing:
     if entry := _catalogue_entry(str(bearing)):
         raise InputError(
             f"bearing: {bearing} is a {entry.kind} bearing of the catalogue, bearing data for the monitor; "
-            f"estimators are trained for whole ones: {', '.join(shipped_names('bearings'))}, or a file of your "
-            "own (of a tapered unit `derive: true` needs five numbers)"
+            f"estimators are trained for whole ones: {', '.join(shipped_names('bearings'))}, or a file of "
+            "your own (of a tapered unit `derive: true` needs five numbers)"
         )
     if Path(bearing).suffix != ".mcap":
         return load_any_bearing(bearing)

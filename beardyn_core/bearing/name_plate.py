@@ -25,8 +25,9 @@ class NamePlate:
     """Rolling elements of one row of a ball or roller bearing, its outer ring at rest.
 
     Of a bearing with several rows they are those of one row. Inner dimensions (number, both diameters,
-    contact angle), maker's factors, or both; what is not known is NaN, a number of rolling elements 0. `kind` is
-    that of a whole bearing, as in `roller_bearing.KINDS`; data alone do not state it, and then it is empty.
+    contact angle), maker's factors, or both; what is not known is NaN, a number of rolling elements 0.
+    `kind` is that of a whole bearing, as in `roller_bearing.KINDS`; data alone do not state it, and then it
+    is empty.
     """
 
     name: A[str, At(longest=80), "of the bearing"] = "bearing data"

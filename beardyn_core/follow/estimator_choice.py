@@ -98,8 +98,8 @@ def how_to_train(bearing: RollerBearing | NamePlate, axes: Sequence[str] = AXES,
         named = recording or "FILE.yaml"
     else:
         return (
-            "estimators are for tapered, cylindrical and spherical roller bearings of two rows; if it is one, "
-            "describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one to "
-            f"start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
+            "estimators are for tapered, cylindrical and spherical roller bearings of two rows; if it is "
+            "one, describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one "
+            f"to start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
         )
     return f"`beardyn train --bearing {named}{option}` makes one, in some 30 min of one core"

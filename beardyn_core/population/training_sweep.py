@@ -92,7 +92,9 @@ class TrainingSweep:
         return sum(self.count(part) * SECONDS[part] for part in PARTS)
 
 
-def compose_sweep(bearing: RollerBearing, *, sensor: str = "", like: str = "", scene: str = "") -> TrainingSweep:
+def compose_sweep(
+    bearing: RollerBearing, *, sensor: str = "", like: str = "", scene: str = ""
+) -> TrainingSweep:
     """Fit the sweep of a vehicle class to a bearing, or to one axlebox.
 
     Loads go with the dynamic rating, widths of spalls with the distance of two rollers, their lengths with
@@ -125,8 +127,8 @@ def compose_sweep(bearing: RollerBearing, *, sensor: str = "", like: str = "", s
     own = model.bearing
     if own.kind != bearing.kind:
         raise InputError(
-            f"{label}: is of {own.name}, a {own.words}; {bearing.name} is a {bearing.words}: like must be one of "
-            f"{', '.join(sweeps_of(bearing.kind))}, or a file of that kind"
+            f"{label}: is of {own.name}, a {own.words}; {bearing.name} is a {bearing.words}: like must be "
+            f"one of {', '.join(sweeps_of(bearing.kind))}, or a file of that kind"
         )
     structure = model.effects.structure
     if not isinstance(structure, ModalStructure):

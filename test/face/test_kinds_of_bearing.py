@@ -11,7 +11,6 @@ import beardyn_core as bd
 from beardyn_core.cli.main import main
 from beardyn_core.config import load_any_bearing, load_bearing
 from beardyn_core.config.plates import load_plate
-from beardyn_core.follow.estimator_choice import estimator_for
 from test.bearings import CYLINDRICAL, SPHERICAL
 
 OTHERS = (*CYLINDRICAL, *SPHERICAL)
@@ -82,9 +81,6 @@ def test_the_monitor_takes_their_bearing_data(name: str, tmp_path: Path) -> None
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_what_is_for_tapered_bearings_alone_is_refused(name: str) -> None:
-    with pytest.raises(bd.InputError) as caught:
-        estimator_for(load_plate(name))
-    assert refused(str(caught.value), name)
     with pytest.raises(bd.InputError) as caught:
         load_bearing(name)
     assert refused(str(caught.value), name)

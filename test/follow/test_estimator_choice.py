@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -12,13 +13,16 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.name_plate import NamePlate
-from beardyn_core.config import load_bearing
+from beardyn_core.bearing.roller_bearing import KINDS
+from beardyn_core.config import load_any_bearing, load_bearing, load_plate
 from beardyn_core.follow import estimator_choice
 from beardyn_core.follow.descriptors import AXES, names_of
-from beardyn_core.follow.estimator import Estimator
+from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.estimator_choice import estimator_for, how_to_train, list_own, own_folder
+from beardyn_core.follow.inference import doubt_of
 from beardyn_core.follow.live_choice import LiveChoice
 from beardyn_core.follow.shipped import shipped_estimators
+from test.bearings import CYLINDRICAL, SPHERICAL
 from test.follow.synthetic import PLATE
 from test.follow.test_intake import measured, signal
 
@@ -130,6 +134,51 @@ def test_the_command_names_what_has_the_whole_bearing() -> None:
     assert how_to_train(MINE, recording="run.mcap").startswith("`beardyn train --bearing run.mcap` makes one")
     assert how_to_train(MINE).startswith("`beardyn train --bearing FILE.yaml` makes one")
     data = replace(PLATE, name="6205", roller_count=9)
-    assert how_to_train(data).startswith("estimators exist for double-row tapered roller units only")
+    assert how_to_train(data).startswith(
+        "estimators are for tapered, cylindrical and spherical roller bearings"
+    )
     imitation = replace(data, name="HS130x230")
     assert "--bearing FILE.yaml" in how_to_train(imitation)
+
+
+@pytest.mark.parametrize("name", [*CYLINDRICAL, *SPHERICAL])
+def test_pairs_and_spherical_bearings_have_the_command_too(own: Path, name: str) -> None:
+    for bearing in (load_any_bearing(name), load_plate(name)):
+        with pytest.raises(
+            InputError, match=f"{name} has no estimator yet: `beardyn train --bearing {name}`"
+        ):
+            estimator_for(bearing)
+    mine = replace(load_any_bearing(name), name="mine")
+    assert "`beardyn train --bearing run.mcap`" in how_to_train(mine, recording="run.mcap")
+
+
+@pytest.mark.parametrize("learnt", KINDS)
+@pytest.mark.parametrize("asked", KINDS)
+def test_an_estimator_is_not_for_a_bearing_of_another_kind_with_the_same_rollers(
+    own: Path, learnt: str, asked: str
+) -> None:
+    """Also where the contact angle is zero, and after a way through a file."""
+    plates = {kind: replace(PLATE, kind=kind, contact_angle=0.0) for kind in KINDS}
+    of_axes(plate=plates[learnt]).save(own / "mine.npz")
+    if learnt == asked:
+        assert estimator_for(plates[asked]).plate.kind == learnt
+        return
+    with pytest.raises(InputError, match="has no estimator yet"):
+        estimator_for(plates[asked])
+    assert f"17 {learnt} rollers of 26.7 mm" in doubt_of(read_estimator(own / "mine.npz"), plates[asked])
+
+
+def test_bearing_data_alone_are_taken_by_their_sizes(own: Path) -> None:
+    of_axes().save(own / "mine.npz")
+    assert PLATE.kind == "tapered"
+    assert estimator_for(replace(PLATE, kind="")).plate.kind == "tapered"
+
+
+def test_files_of_earlier_versions_are_of_tapered_bearings(own: Path) -> None:
+    of_axes().save(own / "mine.npz")
+    with np.load(own / "mine.npz") as file:
+        stored = {name: file[name] for name in file.files}
+    head = json.loads(str(stored.pop("head")))
+    assert head["plate"].pop("kind") == "tapered"
+    np.savez(own / "old.npz", head=np.array(json.dumps(head)), **stored)
+    assert read_estimator(own / "old.npz").plate.kind == "tapered"

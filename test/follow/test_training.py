@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import astuple, replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -16,7 +16,7 @@ from beardyn_core.base.errors import InputError
 from beardyn_core.cli import train as command
 from beardyn_core.cli.json_output import json_text
 from beardyn_core.cli.main import main
-from beardyn_core.config import load_plate
+from beardyn_core.config import load_any_bearing, load_plate
 from beardyn_core.follow import judging, labelled, training
 from beardyn_core.follow.wide_spall import WideRule
 from test.cli.json_page import check
@@ -136,12 +136,46 @@ def test_sets_of_bearings_that_were_learnt_from_are_refused(role: str, one: bool
         )
 
 
-def test_a_set_of_bearings_that_are_not_tapered_is_refused_before_it_is_read() -> None:
-    """`estimate` and `follow` refuse such bearings: forty runs would teach what nothing reads."""
-    kinds = {"bearing": ["HS130x230", "SRB120x260"], "bearing_kind": ["tapered", "spherical"]}
-    runs: Any = SimpleNamespace(folder="mixed", about=ABOUT, table=pd.DataFrame(kinds))
-    with pytest.raises(InputError, match="mixed: SRB120x260 is a spherical roller bearing; estimators"):
+def table_of(*names: str) -> pd.DataFrame:
+    """The columns that tell drawing and kind of the bearings of a set; of older ones the kind is empty."""
+    bearings = [load_any_bearing(name) for name in names]
+    keys = ("roller_count", "roller_diameter", "pitch_diameter", "contact_angle")
+    units = {"roller_diameter": "_m", "pitch_diameter": "_m", "contact_angle": "_rad"}
+    numbers = {
+        f"geometry_{key}{units.get(key, '')}": [getattr(each, key) for each in bearings] for key in keys
+    }
+    return pd.DataFrame({"bearing": names, "bearing_kind": [each.kind for each in bearings], **numbers})
+
+
+def test_bearings_of_several_drawings_are_refused_before_they_are_read() -> None:
+    table = table_of("HS130x230", "SRB120x260")
+    runs: Any = SimpleNamespace(folder="mixed", about=ABOUT, table=table)
+    with pytest.raises(InputError, match="mixed: has the bearings HS130x230, SRB120x260"):
         training.train(runs)
+
+
+@pytest.mark.parametrize("name", ["FR130x230x150", "WJ130x240", "SRB120x260"])
+def test_data_of_a_set_are_those_of_its_bearing_and_its_kind(name: str) -> None:
+    runs: Any = SimpleNamespace(folder="one", table=table_of(name, name))
+    plate, known = labelled.plate_of(runs), load_plate(name)
+    assert (plate.name, plate.kind) == (name, known.kind)
+    for one, other in zip(astuple(plate.frequencies), astuple(known.frequencies), strict=True):
+        assert one == pytest.approx(other, rel=1e-12)
+
+
+def test_an_older_set_is_of_tapered_bearings() -> None:
+    for table in (
+        table_of("HS130x230").drop(columns="bearing_kind"),
+        table_of("HS130x230").assign(bearing_kind=""),
+    ):
+        runs: Any = SimpleNamespace(folder="old", table=table)
+        assert labelled.plate_of(runs).kind == "tapered"
+
+
+def test_a_set_of_the_same_rollers_in_a_bearing_of_another_kind_is_refused(runs: Any) -> None:
+    other: Any = SimpleNamespace(**{**vars(runs), "plate": replace(PLATE, kind="cylindrical")})
+    with pytest.raises(InputError, match="its bearing is"):
+        labelled.check_alike(runs, other)
 
 
 @pytest.mark.parametrize("key", ["scatter_seed", "bearing_id"])
