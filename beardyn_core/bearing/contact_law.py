@@ -180,14 +180,7 @@ class ExactPointContact(PointContact):
     @property
     def ellipticity(self) -> float:
         """Semi-axis ratio a/b >= 1: root of Ry/Rx = (k^2 E - K)/(K - E), [-]."""
-        wanted, low, high = math.log(self._ratio), 0.0, math.log(1e6)
-        for _ in range(100):
-            middle = 0.5 * (low + high)
-            if _log_radius_ratio(math.exp(middle)) < wanted:
-                low = middle
-            else:
-                high = middle
-        return math.exp(0.5 * (low + high))
+        return _ellipticity_of(self._ratio)
 
     @property
     def integral_first(self) -> float:
@@ -198,6 +191,19 @@ class ExactPointContact(PointContact):
     def integral_second(self) -> float:
         """Complete elliptic integral of the second kind, [-]."""
         return complete_elliptic(1.0 - self.ellipticity**-2)[1]
+
+
+@cache  # an equilibrium asks thousands of times for the few of a bearing
+def _ellipticity_of(radius_ratio: float) -> float:
+    """Compute the semi-axis ratio of an ellipse of Ry/Rx, by halving."""
+    wanted, low, high = math.log(radius_ratio), 0.0, math.log(1e6)
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        if _log_radius_ratio(math.exp(middle)) < wanted:
+            low = middle
+        else:
+            high = middle
+    return math.exp(0.5 * (low + high))
 
 
 def _log_radius_ratio(ellipticity: float) -> float:
