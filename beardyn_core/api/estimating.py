@@ -11,7 +11,6 @@ from beardyn_core.base.outputs import file_problems
 from beardyn_core.base.units import ZERO_CELSIUS
 
 if TYPE_CHECKING:
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
     from beardyn_core.bearing.roller_bearing import RollerBearing
@@ -125,7 +124,7 @@ def rating_life(
     run: Run | Path | str,
     service: Service | None = None,
     *,
-    bearing: Bearing | str | None = None,
+    bearing: RollerBearing | str | None = None,
     lubricant: Lubricant | str = "L055",
     temperature_C: tuple[float, float] | None = None,
     assumptions: LifeAssumptions | None = None,
@@ -182,7 +181,7 @@ def forecast(
     service: Service,
     law: GrowthLaw | None = None,
     *,
-    bearing: Bearing | str | None = None,
+    bearing: RollerBearing | str | None = None,
     lubricant: Lubricant | str = "L055",
     temperature_C: tuple[float, float] | None = None,
     assumptions: LifeAssumptions | None = None,
@@ -199,7 +198,7 @@ def forecast(
         Mileage so far, wheel, and the width at which a bearing is taken out.
     law : GrowthLaw, optional
         Of spalls; its rates are assumed, so give those of the fleet.
-    bearing : Bearing or str, optional
+    bearing : RollerBearing or str, optional
         A whole one: bearing data alone have no rating life.
     lubricant : Lubricant or str
         Of the rating life.
@@ -225,17 +224,17 @@ def forecast(
     return forecasting.forecast(found, whole, grease, service, law, rated)
 
 
-def _bearing_of(run: Run | Path | str, bearing: Bearing | str | None) -> Bearing:
+def _bearing_of(run: Run | Path | str, bearing: RollerBearing | str | None) -> RollerBearing:
     """Find the whole bearing of a run, or the one that is named."""
     from beardyn_core.api.run_sources import resolve_source
-    from beardyn_core.bearing.geometry import Bearing
-    from beardyn_core.config import load_bearing
+    from beardyn_core.bearing.roller_bearing import RollerBearing
+    from beardyn_core.config import load_any_bearing
 
     known: RollerBearing | NamePlate | str = bearing or resolve_source(run, None, "")[1]
-    if isinstance(known, Bearing):
+    if isinstance(known, RollerBearing):
         return known
     # bearing data alone have no raceways
-    return load_bearing(known if isinstance(known, str) else known.name)
+    return load_any_bearing(known if isinstance(known, str) else known.name)
 
 
 def train(

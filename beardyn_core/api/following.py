@@ -13,9 +13,9 @@ from beardyn_core.base.errors import InputError
 
 if TYPE_CHECKING:
     from beardyn_core.base.arrays import Float
-    from beardyn_core.bearing.geometry import Bearing
     from beardyn_core.bearing.lubricant import Lubricant
     from beardyn_core.bearing.name_plate import NamePlate
+    from beardyn_core.bearing.roller_bearing import RollerBearing
     from beardyn_core.follow.estimator import Estimator
     from beardyn_core.follow.following import Followed
     from beardyn_core.follow.growth import GrowthLaw
@@ -61,7 +61,7 @@ def follow(
     runs: Run | Path | str | Sequence[Run | Path | str],
     estimator: Estimator | Path | str | None = None,
     *,
-    bearing: Bearing | NamePlate | str | None = None,
+    bearing: RollerBearing | NamePlate | str | None = None,
     sensor: str = "",
     service: Service | None = None,
     mileages: Sequence[float] | None = None,

@@ -8,6 +8,7 @@ from typing import NoReturn
 from beardyn_core.base.errors import InputError
 from beardyn_core.bearing.cylindrical import CylindricalBearing
 from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.bearing.roller_bearing import KINDS, RollerBearing
 from beardyn_core.bearing.spherical import SphericalBearing
 
@@ -75,6 +76,18 @@ def change_play(
             f"end_play is given, and {bearing.name} is a {bearing.words}; its play is radial_clearance"
         )
     if radial_clearance is not None:
-        assert isinstance(bearing, CylindricalBearing | SphericalBearing)
-        bearing = replace(bearing, radial_clearance=radial_clearance)
+        bearing = with_play(bearing, radial_clearance)[0]
     return bearing, end_play
+
+
+def with_play(bearing: RollerBearing, play: float) -> tuple[RollerBearing, float | None]:
+    """Give a bearing the play that its kind has, and the end play that statics take for it.
+
+    Parameters
+    ----------
+    play : float
+        End play of a tapered bearing, radial clearance of the others, [m].
+    """
+    if isinstance(bearing, RadialBearing):
+        return replace(bearing, radial_clearance=play), None
+    return bearing, play

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite, log
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.known_load import NORMAL_50, NORMAL_90, KnownLoad, combine_loads, read_load
 from beardyn_core.follow.load_checks import AxleLoads, Evidence, doubts_of, vehicle_speed
@@ -47,7 +47,7 @@ def known_load_of(
 def condition_estimates(
     found: Estimates,
     load: KnownLoad,
-    bearing: Bearing | None,
+    bearing: RollerBearing | None,
     wheel_diameter: float,
     axle_loads: AxleLoads | None = None,
 ) -> Estimates:

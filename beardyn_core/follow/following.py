@@ -9,8 +9,8 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.condition import ConditionBelief
 from beardyn_core.follow.conditioning import VERTICAL, condition_estimates, estimate_of
 from beardyn_core.follow.cubature_filter import Belief, correct_belief, predict_belief
@@ -99,7 +99,7 @@ class Follower:
     """
 
     estimator: Estimator
-    bearing: A[Bearing | None, "for what remains; none of bearing data alone"] = None
+    bearing: A[RollerBearing | None, "for what remains; none of bearing data alone"] = None
     lubricant: A[Lubricant | None, "of the rating life"] = None
     service: A[Service, "mileage at the first stretch, wheel"] = field(default_factory=Service)
     law: A[GrowthLaw, "of spalls"] = field(default_factory=GrowthLaw)

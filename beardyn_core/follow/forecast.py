@@ -10,11 +10,12 @@ from typing import Annotated as A
 
 import numpy as np
 
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.any_bearing import with_play
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.growth import GrowthLaw, PowerLaw, drawn_between, other_laws
-from beardyn_core.follow.rated_life import RatedLife
+from beardyn_core.follow.rated_life import RatedLife, usual_play
 from beardyn_core.follow.service import Service
 from beardyn_core.sensors.labels import HEALTHY
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 _DRAWS, _SEED = 4000, 1
 _QUANTILES = (0.05, 0.5, 0.95)
 _NOTHING = (0.0, 0.0, 0.0)  # remaining mileage of a spall that must come out now
-_USUAL_TEMPERATURE, _USUAL_END_PLAY = 333.15, 1.0e-4
+_USUAL_TEMPERATURE = 333.15
 SOON = 1.0e6  # [m], below which a forecast counts as now
 WIDEST_FORECAST = 20.0e-3  # width from which no mileage is given: the spall must come out, [m]; assumed
 
@@ -93,7 +94,7 @@ class Forecast:
 
 def forecast(
     found: Estimates,
-    bearing: Bearing,
+    bearing: RollerBearing,
     lubricant: Lubricant,
     service: Service,
     law: GrowthLaw | None = None,
@@ -104,7 +105,7 @@ def forecast(
     Parameters
     ----------
     found : Estimates
-    bearing : Bearing
+    bearing : RollerBearing
         Whose rating life and roller distance count.
     lubricant : Lubricant
         Of the rating life.
@@ -205,14 +206,17 @@ def _class_of(found: Estimates, which: int) -> LoadClass | None:
     return LoadClass(1.0, (0.0, sideways, size), (0.0, 0.0, 0.0), 2.0 * pi * found.shaft_frequency)
 
 
-def _life_of(load: LoadClass, found: Estimates, bearing: Bearing, lubricant: Lubricant) -> RatingLife | None:
-    """Compute the rating life at a load, temperature and end play as estimated where they are."""
+def _life_of(
+    load: LoadClass, found: Estimates, bearing: RollerBearing, lubricant: Lubricant
+) -> RatingLife | None:
+    """Compute the rating life at a load, temperature and play as estimated where they are."""
     from beardyn_core.physics.statics.rating_life import rating_life
 
     warm, play = _estimate(found, "temperature"), _estimate(found, "end_play")
+    known = usual_play(bearing) if play is None or not isfinite(play.value) else play.value
+    fitted, end_play = with_play(bearing, known)
     return rating_life(
-        bearing, (load,), lubricant,
+        fitted, (load,), lubricant,
         _USUAL_TEMPERATURE if warm is None or not isfinite(warm.value) else warm.value,
-        end_play=_USUAL_END_PLAY if play is None or not isfinite(play.value) else play.value,
-        tilt="locked",
+        end_play=end_play, tilt="locked",
     )  # fmt: skip

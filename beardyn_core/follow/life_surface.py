@@ -13,19 +13,20 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
+from beardyn_core.bearing.any_bearing import with_play
 from beardyn_core.bearing.life import (
     LIFE_EXPONENT,
     SMALLEST_LAMINA_COUNT,
     dynamic_rating,
     reference_life,
 )
+from beardyn_core.bearing.roller_bearing import RollerBearing
 
 _LOADS = np.exp(np.linspace(log(0.45), log(2.2), 5))  # over the load in the middle
 _THRUSTS = np.array(
     [0.0, 0.06, 0.14, 0.24, 0.36, 0.55, 1.0]
 )  # size of the lateral load over the vertical one
-_FEW_LOADS, _FEW_THRUSTS = _LOADS[[0, 2, 4]], _THRUSTS[[0, 2, 3, 4, 6]]  # of the effect of the end play
+_FEW_LOADS, _FEW_THRUSTS = _LOADS[[0, 2, 4]], _THRUSTS[[0, 2, 3, 4, 6]]  # of the effect of the play
 _RATIOS = np.exp(np.linspace(log(0.1), log(4.0), 12))  # kappa; beyond both ends the standard takes these
 _CONTAMINATIONS = np.array([0.2, 0.35, 0.5, 0.6, 0.7, 0.85, 1.0])
 _PLAYS = np.array([-1.0, 0.0, 1.0])
@@ -43,34 +44,35 @@ class Lives(NamedTuple):
 
 
 class LifeSurface:
-    """Lives of one bearing around a load, an end play and a speed.
+    """Lives of one bearing around a load, a play and a speed.
 
     Parameters
     ----------
-    bearing : Bearing
+    bearing : RollerBearing
     load : float
         Vertical, in the middle of the grid, [N].
-    end_play : float
-        In the middle, [m].
+    play : float
+        End play in the middle, of cylindrical and spherical bearings radial clearance, [m].
     speed : float
         Of the shaft, for the inertia of the rollers, [rad/s].
 
     Notes
     -----
-    The effect of the end play is solved for fewer loads and thrusts than the rest. Draws beyond the grid are
+    The effect of the play is solved for fewer loads and thrusts than the rest. Draws beyond the grid are
     taken at its edge, loads there by the exponent of the standard.
     """
 
-    def __init__(self, bearing: Bearing, load: float, end_play: float, speed: float) -> None:
+    def __init__(self, bearing: RollerBearing, load: float, play: float, speed: float) -> None:
         from beardyn_core.physics.statics.static import solve  # brings the compiler along
 
-        self.bearing, self.load, self.end_play = bearing, load, end_play
+        self.bearing, self.load, self.play = bearing, load, play
 
-        def loads_of(share: float, thrust: float, play: float) -> tuple[Float, Float]:
+        def loads_of(share: float, thrust: float, steps: float) -> tuple[Float, Float]:
             up = share * load
+            fitted, end_play = with_play(bearing, play + steps * PLAY_STEP)
             static = solve(
-                bearing, (0.0, thrust * up, up), (0.0, 0.0, 0.0),
-                end_play=end_play + play * PLAY_STEP, tilt="locked", laminae=SMALLEST_LAMINA_COUNT,
+                fitted, (0.0, thrust * up, up), (0.0, 0.0, 0.0),
+                end_play=end_play, tilt="locked", laminae=SMALLEST_LAMINA_COUNT,
                 speed=abs(speed),
             )  # fmt: skip
             return static.cup_lamina_load, static.cone_lamina_load
@@ -93,8 +95,8 @@ class LifeSurface:
         factor = np.log(modified) - basic[:, :, None, None]
         plays = np.log(
             [
-                [[basic_of(loads_of(share, thrust, play)) for thrust in _FEW_THRUSTS] for share in _FEW_LOADS]
-                for play in (-1.0, 1.0)
+                [[basic_of(loads_of(share, thrust, way)) for thrust in _FEW_THRUSTS] for share in _FEW_LOADS]
+                for way in (-1.0, 1.0)
             ]
         )
         usual = basic[np.ix_([0, 2, 4], [0, 2, 3, 4, 6])]
@@ -111,17 +113,17 @@ class LifeSurface:
         return low * self.load <= load <= high * self.load
 
     def lives(
-        self, vertical: Float, lateral: Float, end_play: Float, ratio: Float, contamination: Float
+        self, vertical: Float, lateral: Float, play: Float, ratio: Float, contamination: Float
     ) -> Lives:
         """Give the lives of draws, each argument of shape [draw], SI; `ratio` is kappa."""
         share = np.clip(np.log(vertical / self.load), *np.log(_LOADS[[0, -1]]))
         thrust = np.clip(np.abs(lateral) / vertical, 0.0, _THRUSTS[-1])
-        play = np.clip((end_play - self.end_play) / PLAY_STEP, -1.0, 1.0)
+        steps = np.clip((play - self.play) / PLAY_STEP, -1.0, 1.0)
         kappa = np.log(np.clip(ratio, _RATIOS[0], _RATIOS[-1]))
         clean = np.clip(contamination, _CONTAMINATIONS[0], 1.0)
         # loads beyond the grid: the exponent of the standard
         beyond = LIFE_EXPONENT * (np.log(vertical / self.load) - share)
-        ln_basic = self._basic((share, thrust)) + self._play((play, share, thrust)) - beyond
+        ln_basic = self._basic((share, thrust)) + self._play((steps, share, thrust)) - beyond
         ln_factor = self._factor((share, thrust, kappa, clean))
         loads = np.array(
             [

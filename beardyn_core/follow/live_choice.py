@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.name_plate import NamePlate
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.descriptors import AXES
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.estimator_choice import estimator_for
@@ -17,7 +17,7 @@ class LiveChoice:
 
     Parameters
     ----------
-    bearing : Bearing or NamePlate
+    bearing : RollerBearing or NamePlate
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class LiveChoice:
         The bearing has no estimator, of whatever axes.
     """
 
-    def __init__(self, bearing: Bearing | NamePlate) -> None:
+    def __init__(self, bearing: RollerBearing | NamePlate) -> None:
         self._bearing = bearing
         self._axes: tuple[str, ...] = ()
         self._doubt: InputError | None = None

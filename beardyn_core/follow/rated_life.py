@@ -13,9 +13,10 @@ from typing import Annotated as A
 import numpy as np
 
 from beardyn_core.base.arrays import Float
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import LIFE_EXPONENT, reference_viscosity
 from beardyn_core.bearing.lubricant import Lubricant
+from beardyn_core.bearing.radial_bearing import RadialBearing
+from beardyn_core.bearing.roller_bearing import RollerBearing
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.known_load import NORMAL_90, KnownLoad
 from beardyn_core.follow.life_assumptions import LifeAssumptions
@@ -24,12 +25,13 @@ from beardyn_core.follow.life_surface import LifeSurface, Lives
 DRAWS, _SEED = 2000, 4
 QUANTILES = (0.05, 0.5, 0.95)
 _USUAL_END_PLAY, _END_PLAY_AROUND = 1.0e-4, 0.8e-4  # [m]
+_CLEARANCE_AROUND = 0.4e-4  # of the radial clearance: half of a class of DIN 620, and the fits; assumed, [m]
 _LATERAL_SHARE = 0.15  # half width of 90 % of the lateral load over the vertical one, where it is not known
 _THROUGH = ("load", "lateral", "end_play", "temperature", "contamination", "viscosity", "swing")
 _NAMES = {
     "load": "the known load",
     "lateral": "the lateral load",
-    "end_play": "the end play",
+    "end_play": "the play",
     "temperature": "the temperature",
     "contamination": "the contamination",
     "viscosity": "the age of the lubricant",
@@ -99,7 +101,7 @@ class LifeCounter:
     the service is drawn once, the same for all recordings: errors that stay do not average out.
     """
 
-    bearing: Bearing
+    bearing: RollerBearing
     lubricant: Lubricant
     wheel_diameter: A[float, "[m]"]
     assumptions: LifeAssumptions = field(default_factory=LifeAssumptions)
@@ -150,9 +152,9 @@ class LifeCounter:
         if not self._begun:
             self.begin(mileage)
         lateral, is_estimated = _lateral(found, load)
-        play = _play(found)
+        play = _play(found, self.bearing)
         if self._surface is None or not self._surface.serves(load.value):
-            self._surface = LifeSurface(self.bearing, load.value, _USUAL_END_PLAY, speed)
+            self._surface = LifeSurface(self.bearing, load.value, usual_play(self.bearing), speed)
         warm = temperature or self.assumptions.temperature
         normal = self._normal
         whole = self._draw(load, lateral, play, warm, speed, normal)
@@ -268,8 +270,14 @@ def _lateral(found: Estimates, load: KnownLoad) -> tuple[tuple[float, float], bo
     return (-_LATERAL_SHARE * load.value, _LATERAL_SHARE * load.value), False
 
 
-def _play(found: Estimates) -> tuple[float, float]:
+def usual_play(bearing: RollerBearing) -> float:
+    """Give the play that is assumed: end play, of cylinders and barrels the radial clearance drawn, [m]."""
+    return bearing.radial_clearance if isinstance(bearing, RadialBearing) else _USUAL_END_PLAY
+
+
+def _play(found: Estimates, bearing: RollerBearing) -> tuple[float, float]:
     known = _estimate(found, "end_play")
     if known is not None and isfinite(known.value):
         return known.intervals[-1]
-    return _USUAL_END_PLAY - _END_PLAY_AROUND, _USUAL_END_PLAY + _END_PLAY_AROUND
+    around = _CLEARANCE_AROUND if isinstance(bearing, RadialBearing) else _END_PLAY_AROUND
+    return usual_play(bearing) - around, usual_play(bearing) + around

@@ -11,11 +11,10 @@ import numpy as np
 
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
-from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.lubricant import Lubricant
 from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.bearing.roller_bearing import RollerBearing
-from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.config import load_any_bearing, load_lubricant
 from beardyn_core.follow.descriptors import AXES, describe
 from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.estimator_choice import estimator_for
@@ -61,12 +60,12 @@ def follower_of(
     )  # fmt: skip
 
 
-def whole_bearing(plate: RollerBearing | NamePlate) -> Bearing | None:
+def whole_bearing(plate: RollerBearing | NamePlate) -> RollerBearing | None:
     """Find the bearing of bearing data; none where only these are known."""
-    if isinstance(plate, Bearing):
+    if isinstance(plate, RollerBearing):
         return plate
     try:
-        return load_bearing(plate.name)
+        return load_any_bearing(plate.name)
     except InputError:
         return None
 
