@@ -18,7 +18,7 @@ BEARING_OF_KIND: dict[str, type[RollerBearing]] = dict(
 )
 POSSIBLE = (
     "possible are load distribution, stiffness and rating life (`beardyn bearing`), fault frequencies, "
-    "the monitor, and runs (`beardyn simulate`)"
+    "the monitor, runs (`beardyn simulate`) and estimators (`beardyn train`)"
 )
 
 

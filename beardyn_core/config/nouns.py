@@ -44,7 +44,7 @@ def load_bearing(name: str | Path) -> Bearing:
     InputError
         With every mistake and contradiction, or for a bearing of another kind with what that one can do.
     """
-    return require_tapered(load_any_bearing(name), "estimates, forecasts and what is made of them")
+    return require_tapered(load_any_bearing(name), "contact searches")
 
 
 def load_any_bearing(name: str | Path) -> AnyBearing:

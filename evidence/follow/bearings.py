@@ -26,12 +26,23 @@ beardyn estimate run.mcap                         # takes the new estimator
 ```
 
 One command simulates {MOST[LEARNT]} runs of `quasistatic` and {MOST[TRUER]} of `full` in the service of the
-class (`freight_axlebox`, `high_speed_axlebox`, `metro_axlebox`; `--like` names another sweep) and trains one
-estimator for three axes and one for z alone, in some 30 min of one core. For a bearing of other size the
-loads go with the rating, the spalls with the distance of two rollers, and the box is fitted to the cup
+class (below; `--like` names another sweep) and trains one estimator for three axes and one for z alone, in
+some 30 min of one core, up to 90 min of a cylindrical pair. For a bearing of other size the loads go with the
+rating, the spalls with the distance of two rollers, and the box is fitted to the cup
 (`pip install '.[structure]'`). The same command goes on after an interruption. Estimators lie in
 `$BEARDYN_DATA_DIR/estimators` or `~/.local/share/beardyn/estimators`, their runs next to them. An estimate
 without a fitting estimator names this command.
+
+| class | kind of bearing | runs differ in |
+|---|---|---|
+| `freight_axlebox`, `high_speed_axlebox`, `metro_axlebox` | tapered | end play, a quantity of the estimator |
+| `freight_cylindrical_axlebox`, `locomotive_axlebox` | cylindrical pair | radial clearance, not estimated |
+| `freight_spherical_axlebox` | spherical | radial clearance, not estimated |
+
+Radial clearances are those of classes CN to C5, less the fits. No other play of these kinds is varied.
+
+An estimator is for one kind of bearing: a bearing of another kind with the same rollers is refused. Bearing
+data typed by hand have no kind; they are compared by number and diameters of the rollers alone.
 
 Chosen is the estimator of most axes among those whose axes are all measured, of equals your own, and of these
 the newest: by commands, Python, the fleet and the node `follower`. The node chooses with the first vibration,

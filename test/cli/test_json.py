@@ -59,7 +59,7 @@ MEASURED = {
     "load": {"channel": "Fz", "mean_N": 7e4, "rms_about_mean_N": 3e3, "uncertainty_N": 2e3},
     "bearings": {
         "drive_end": {
-            "name": "6205", "description": "", "roller_count": 9, "roller_diameter_m": 0.00794,
+            "name": "6205", "description": "", "kind": None, "roller_count": 9, "roller_diameter_m": 0.00794,
             "pitch_diameter_m": 0.03904, "contact_angle_rad": 0.0, "bpfo": 3.585,
             "bpfi": 5.415, "bsf": 2.357, "ftf": 0.398, "sensor": None,
         }

@@ -20,6 +20,7 @@ from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.inference import estimates_of, stretches_of
 from beardyn_core.follow.mounting import TURNED, Mounting
 from beardyn_core.follow.windowing import StretchIntake
+from beardyn_core.measured.about import mounted_in
 from beardyn_core.monitor.chain import Stretch
 from beardyn_core.record.arrays import Signal, Turning
 from test.cli.json_page import check
@@ -234,6 +235,15 @@ def test_options_of_a_forecast_that_cannot_be_are_refused(
     told = capsys.readouterr().err
     assert "--mileage-km: is -1; it must be at least 0" in told
     assert "--growth-mm2: is 0; it must be above 0" in told
+
+
+@pytest.mark.parametrize("name", ["HS130x230", "WJ130x240", "SRB130x280"])
+def test_an_imported_file_keeps_the_kind_of_its_bearing(name: str, tmp_path: Path) -> None:
+    """Or an estimator of another kind with such rollers might be taken for it."""
+    path = import_signal(tmp_path / "run.mcap", signal(0.2), bearing=name)
+    (mounted,) = mounted_in(bd.read(path).measured, "run")
+    assert mounted.plate.kind == bd.bearing(name).kind
+    assert mounted.plate.has_barrels is (name == "SRB130x280")
 
 
 def test_a_bearing_without_an_estimator_gets_the_command_that_makes_one(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from math import exp, isnan, log, pi
 
 import numpy as np
@@ -11,13 +12,14 @@ import pytest
 from beardyn_core.api.statics import life
 from beardyn_core.base.units import ZERO_CELSIUS
 from beardyn_core.bearing.life import reference_viscosity
-from beardyn_core.config import load_bearing, load_lubricant
+from beardyn_core.bearing.radial_bearing import RadialBearing
+from beardyn_core.config import load_any_bearing, load_bearing, load_lubricant
 from beardyn_core.follow.estimator import Estimate, Estimates
 from beardyn_core.follow.known_load import NORMAL_90, KnownLoad
 from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.life_surface import LifeSurface
 from beardyn_core.follow.quantities import BY_NAME
-from beardyn_core.follow.rated_life import LifeCounter
+from beardyn_core.follow.rated_life import LifeCounter, _play, usual_play
 
 BEARING, GREASE = load_bearing("HS130x230"), load_lubricant("L055")
 WHEEL, TURN = 0.92, 0.92 * pi
@@ -75,6 +77,37 @@ def test_lives_between_the_points_of_the_grid_are_those_of_the_existing_function
     # lives differ by factors between a clean and a dirty bearing: 12 % of interpolation is no matter
     assert got.reference_basic[0] == pytest.approx(exact.reference_basic, rel=0.08)
     assert got.reference_modified[0] == pytest.approx(exact.reference_modified, rel=0.12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["WJ130x240", "SRB120x260"])
+@pytest.mark.parametrize("more_mm", [-0.04, 0.0, 0.04])
+def test_lives_of_other_kinds_are_those_at_a_radial_clearance(name: str, more_mm: float) -> None:
+    bearing, surface = load_any_bearing(name), surface_of(name)
+    assert isinstance(bearing, RadialBearing)
+    clearance = bearing.radial_clearance + 1e-3 * more_mm
+    kappa = GREASE.kinematic_viscosity(WARM[0]) / reference_viscosity(bearing, SPEED)
+    got = surface.lives(*(np.array([each]) for each in (80e3, 6e3, clearance, kappa, 0.6)))
+    drawn = replace(bearing, radial_clearance=clearance)
+    exact = life(drawn, [0.0, 6.0, 80.0], 1200.0, temperature_C=60.0, contamination=0.6)
+    assert got.basic[0] == pytest.approx(exact.basic, rel=1e-9)
+    assert got.reference_basic[0] == pytest.approx(exact.reference_basic, rel=0.08)
+    assert got.reference_modified[0] == pytest.approx(exact.reference_modified, rel=0.12)
+
+
+@cache
+def surface_of(name: str) -> LifeSurface:
+    bearing = load_any_bearing(name)
+    return LifeSurface(bearing, 70e3, usual_play(bearing), SPEED)
+
+
+@pytest.mark.parametrize(
+    ("name", "play_mm", "around_mm"),
+    [("HS130x230", 0.1, 0.08), ("WJ130x240", 0.13, 0.04), ("SRB120x260", 0.1, 0.04)],
+)
+def test_the_play_that_is_assumed_is_that_of_the_kind(name: str, play_mm: float, around_mm: float) -> None:
+    ends = _play(Estimates(None, (), 0.3, 2, 20.0), load_any_bearing(name))
+    assert ends == pytest.approx((1e-3 * (play_mm - around_mm), 1e-3 * (play_mm + around_mm)))
 
 
 def test_where_nothing_is_unsure_all_three_quantiles_are_the_life(surface: LifeSurface) -> None:

@@ -17,7 +17,7 @@ from beardyn_core.config import load_any_bearing, read_sweep
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.population.draw import rows_of
 from beardyn_core.population.request import make_plan
-from beardyn_core.population.sweep_scenes import open_base
+from beardyn_core.population.sweep_scenes import check_rows, open_base
 from beardyn_core.population.training_sweep import LEARNT, MOST, PARTS, TRUER, bearing_of, compose_sweep
 
 OWN = {
@@ -54,7 +54,19 @@ def test_runs_of_a_bearing_have_its_box_and_ten_turns_at_the_least_speed(bearing
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("bearing", OWN)
+@pytest.mark.parametrize("bearing", ["WJ130x240", "SRB120x260", "WJ180x320"])
+@pytest.mark.parametrize("part", PARTS)
+def test_every_run_of_another_kind_makes_a_scene(bearing: str, part: str) -> None:
+    """Without the choice of effects, which takes minutes with cylinders."""
+    composed = compose_sweep(load_any_bearing(bearing))
+    sweep, label = read_sweep(composed.of_part(part))
+    rows = rows_of(sweep)
+    assert len(rows) == MOST[part]
+    assert not check_rows(open_base(sweep, label)[0], rows)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bearing", ["FR130x230x150", "HS130x230", "METRO120x220"])
 @pytest.mark.parametrize("part", PARTS)
 def test_every_run_of_a_shipped_bearing_can_be_simulated(bearing: str, part: str) -> None:
     composed = compose_sweep(load_any_bearing(bearing))
