@@ -20,7 +20,7 @@ from beardyn_core.follow.estimator import Estimator, read_estimator
 from beardyn_core.follow.estimator_choice import estimator_for
 from beardyn_core.follow.following import Follower
 from beardyn_core.follow.growth import GrowthLaw
-from beardyn_core.follow.inference import doubt_of, stretches_of
+from beardyn_core.follow.inference import alike, doubt_of, stretches_of
 from beardyn_core.follow.life_assumptions import LifeAssumptions
 from beardyn_core.follow.load_checks import AxleLoads
 from beardyn_core.follow.mounting_search import cross_powers
@@ -61,13 +61,14 @@ def follower_of(
 
 
 def whole_bearing(plate: RollerBearing | NamePlate) -> RollerBearing | None:
-    """Find the bearing of bearing data; none where only these are known."""
+    """Find the bearing of bearing data; none where only these are known, or of the name alone."""
     if isinstance(plate, RollerBearing):
         return plate
     try:
-        return load_any_bearing(plate.name)
+        named = load_any_bearing(plate.name)
     except InputError:
         return None
+    return named if alike(plate, named) else None
 
 
 class FollowedStretch(NamedTuple):

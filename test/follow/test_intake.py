@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -13,12 +14,14 @@ import pytest
 import beardyn_core as bd
 from beardyn_core.base.arrays import Float
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.name_plate import NamePlate
 from beardyn_core.cli import main as command
 from beardyn_core.follow.descriptors import AXES, describe, names_of
 from beardyn_core.follow.estimate_json import mounting_object
 from beardyn_core.follow.estimator import Estimator
 from beardyn_core.follow.inference import estimates_of, stretches_of
 from beardyn_core.follow.mounting import TURNED, Mounting
+from beardyn_core.follow.run_stretches import whole_bearing
 from beardyn_core.follow.windowing import StretchIntake
 from beardyn_core.measured.about import mounted_in
 from beardyn_core.monitor.chain import Stretch
@@ -244,6 +247,20 @@ def test_an_imported_file_keeps_the_kind_of_its_bearing(name: str, tmp_path: Pat
     (mounted,) = mounted_in(bd.read(path).measured, "run")
     assert mounted.plate.kind == bd.bearing(name).kind
     assert mounted.plate.has_barrels is (name == "SRB130x280")
+
+
+def test_a_shipped_bearing_is_that_of_its_data_and_not_of_its_name() -> None:
+    """Or the life of another bearing would be reported without a word."""
+    plate = NamePlate.of(bd.bearing("HS130x230"))
+    found = whole_bearing(plate)
+    assert found is not None
+    assert found.name == "HS130x230"
+    for other in (
+        replace(plate, roller_count=plate.roller_count + 1),
+        replace(plate, kind="cylindrical"),
+        replace(plate, name="mine"),
+    ):
+        assert whole_bearing(other) is None
 
 
 def test_a_bearing_without_an_estimator_gets_the_command_that_makes_one(tmp_path: Path) -> None:
