@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 _AXES = "xyz"
 _DIGEST = "training"  # key of a card
 _TRAINING_S = 100.0  # processor time of an estimator from its runs, [s]
-_CHOICE_S = 100.0  # of the choice of effects of a sweep, [s]
 _BOX_S = 150.0  # of the modes of a box
 
 
@@ -274,9 +273,9 @@ def _fitted_box(sweep: TrainingSweep, folder: Path, force: bool, say: Callable[[
 
 def _forecast(sweep: TrainingSweep, folder: Path, count: int) -> str:
     """Say what is done and how long it takes."""
-    from beardyn_core.population.training_sweep import LEARNT, PARTS, TRUER
+    from beardyn_core.population.training_sweep import LEARNT, TRUER
 
-    seconds = sweep.seconds + count * _TRAINING_S + len(PARTS) * _CHOICE_S + (_BOX_S if sweep.box else 0.0)
+    seconds = sweep.seconds + count * _TRAINING_S + (_BOX_S if sweep.box else 0.0)
     runs = f"{sweep.count(LEARNT)} runs to learn from and {sweep.count(TRUER)} of {TRUER}"
     return (
         f"{sweep.bearing.name} in the service of {sweep.like}: {runs} in {folder}; all of it takes some "

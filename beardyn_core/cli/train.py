@@ -26,7 +26,7 @@ _OF_A_SET = ("xyz",)  # axes, where none are given
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    more = "With --bearing or --scene its runs are simulated first, some 30 min of one core in all."
+    more = "With --bearing or --scene its runs are simulated first, 30 to 90 min of one core in all."
     parser = add_command(subparsers, "train", train, more)
     add_parameter(
         parser, train, "runs", "set", metavar="DIR", nargs="?", suffix="; needed but for --bearing, --scene"

@@ -102,4 +102,4 @@ def how_to_train(bearing: RollerBearing | NamePlate, axes: Sequence[str] = AXES,
             "one, describe the whole bearing in a file (`beardyn new FR130x230x150 -o FILE.yaml` writes one "
             f"to start from), then `beardyn train --bearing FILE.yaml{option}` makes one"
         )
-    return f"`beardyn train --bearing {named}{option}` makes one, in some 30 min of one core"
+    return f"`beardyn train --bearing {named}{option}` makes one, in 30 to 90 min of one core"

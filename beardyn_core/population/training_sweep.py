@@ -13,9 +13,12 @@ from typing import Any
 
 from beardyn_core.base.edge import Vector, write_noun
 from beardyn_core.base.errors import InputError
+from beardyn_core.bearing.cylindrical import CylindricalBearing
+from beardyn_core.bearing.geometry import Bearing
 from beardyn_core.bearing.life import dynamic_rating
 from beardyn_core.bearing.radial_bearing import RadialBearing
 from beardyn_core.bearing.roller_bearing import RollerBearing
+from beardyn_core.bearing.spherical import SphericalBearing
 from beardyn_core.config import load_any_bearing, load_box, read_scene, read_sweep
 from beardyn_core.config.folders import find, shipped_names
 from beardyn_core.config.yaml_text import read_file
@@ -29,9 +32,14 @@ ENDING = "_axlebox"  # of the names of shipped sweeps that estimators learn from
 LEARNT, TRUER = "learnt", "full"  # runs that teach, in the tier of the sweep; runs of the tier that is true
 PARTS = (LEARNT, TRUER)
 MOST = {LEARNT: 300, TRUER: 100}
-"""Runs of each part, fewer where the sweep has fewer: with them estimators take some 30 min of one core."""
-SECONDS = {LEARNT: 3.5, TRUER: 6.0}
-"""Processor time of a run of 1.5 to 2.5 s with 12 coupled laminae, [s]."""
+"""Runs of each part, fewer where the sweep has fewer: with them estimators take 30 to 90 min of one core."""
+# processor time of a run of 1.5 to 2.5 s with 12 laminae, and of the choice of effects of a part, [s]
+_SECONDS = {
+    Bearing.kind: {LEARNT: 3.5, TRUER: 6.0},
+    CylindricalBearing.kind: {LEARNT: 5.5, TRUER: 11.0},
+    SphericalBearing.kind: {LEARNT: 3.0, TRUER: 9.0},
+}
+_CHOICE_S = {Bearing.kind: 100.0, CylindricalBearing.kind: 450.0, SphericalBearing.kind: 130.0}
 _SPLIT = {"train": 0.7, "validation": 0.3, "test": 0.0}  # runs of the true tier judge
 _LOADS = ("operation.vehicle.body_mass_t", "operation.payload_t", "operation.lateral_force_kN")
 _WIDTH, _LENGTH = "defects[0].width_mm", "defects[0].length_mm"
@@ -88,8 +96,9 @@ class TrainingSweep:
 
     @property
     def seconds(self) -> float:
-        """Processor time of all runs, about, [s]."""
-        return sum(self.count(part) * SECONDS[part] for part in PARTS)
+        """Processor time of all runs and of the choice of their effects, about, [s]."""
+        kind = self.bearing.kind
+        return sum(self.count(part) * _SECONDS[kind][part] + _CHOICE_S[kind] for part in PARTS)
 
 
 def compose_sweep(

@@ -27,7 +27,7 @@ beardyn estimate run.mcap                         # takes the new estimator
 
 One command simulates {MOST[LEARNT]} runs of `quasistatic` and {MOST[TRUER]} of `full` in the service of the
 class (below; `--like` names another sweep) and trains one estimator for three axes and one for z alone, in
-some 30 min of one core, up to 90 min of a cylindrical pair. For a bearing of other size the loads go with the
+30 to 90 min of one core, longest for a cylindrical pair. For a bearing of other size the loads go with the
 rating, the spalls with the distance of two rollers, and the box is fitted to the cup
 (`pip install '.[structure]'`). The same command goes on after an interruption. Estimators lie in
 `$BEARDYN_DATA_DIR/estimators` or `~/.local/share/beardyn/estimators`, their runs next to them. An estimate

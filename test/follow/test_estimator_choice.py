@@ -127,7 +127,7 @@ def test_the_command_that_makes_one_has_the_axis_that_is_measured(own: Path, tmp
         with pytest.raises(InputError, match="measured are z: `beardyn train --bearing HS130x230` makes one"):
             ask(path)
     told = how_to_train(PLATE, ("x", "y"))
-    assert told.startswith("`beardyn train --bearing HS130x230 --axes xy` makes one, in some 30 min")
+    assert told.startswith("`beardyn train --bearing HS130x230 --axes xy` makes one, in 30 to 90 min")
 
 
 def test_the_command_names_what_has_the_whole_bearing() -> None:

@@ -75,6 +75,12 @@ def test_every_run_of_a_shipped_bearing_can_be_simulated(bearing: str, part: str
     assert plan.frame is not None
 
 
+@pytest.mark.parametrize("bearing", OWN)
+def test_what_is_said_before_of_the_time_is_within_what_the_pages_state(bearing: str) -> None:
+    """Runs and choices; learning takes some minutes more."""
+    assert 25.0 < compose_sweep(load_any_bearing(bearing)).seconds / 60.0 < 85.0
+
+
 def test_no_bearing_is_in_both_tiers() -> None:
     composed = compose_sweep(load_any_bearing("FR130x230x150"))
     lots = [{row.lot for row in rows_of(read_sweep(composed.of_part(part))[0])} for part in PARTS]
